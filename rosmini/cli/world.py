@@ -198,7 +198,8 @@ def _urdf(path: Path, *, confined: bool) -> FileCheck:
         return FileCheck(str(path), what)
     robot = load(path, confined=confined)
     said = f"URDF: the robot {robot.name!r}: {_count(len(robot.links), 'link')}, {_count(len(robot.joints), 'joint')}"
-    return FileCheck(str(path), said, robot.notes)
+    left_out = {kind: len(notes) for kind, notes in robot.left_out.items()}
+    return FileCheck(str(path), said, robot.notes, left_out)
 
 
 def _measures(world: World) -> str:

@@ -91,6 +91,8 @@ class LidarModel:
     """Of the last beam [rad]; None: the beams go once round, and the last is one beam before the first."""
     yaw: float = 0.0
     """Where the laser looks, seen from base_footprint [rad]."""
+    upside_down: bool = False
+    """It hangs upside down, so its messages give all angles with the opposite sign: its own z axis points down."""
 
     def __post_init__(self) -> None:
         numbers = (*self.mount, self.angle_min, self.yaw, 0.0 if self.angle_max is None else self.angle_max)
@@ -110,6 +112,12 @@ class LidarModel:
         if self.angle_max is None:
             return 2 * math.pi / self.beams
         return (self.angle_max - self.angle_min) / (self.beams - 1) if self.beams > 1 else 0.0
+
+    @property
+    def message_angles(self) -> tuple[float, float, float]:
+        """`angle_min`, `angle_max` and `angle_increment` of its messages [rad]."""
+        own = (self.angle_min, self.last_angle, self.increment)
+        return (-own[0], -own[1], -own[2]) if self.upside_down else own
 
     @property
     def beam_time(self) -> float:

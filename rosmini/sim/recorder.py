@@ -491,10 +491,10 @@ def _check_fan(scan: Any, lidar: LidarModel) -> None:
 
     A hundredth of the angle between two beams is tolerated.
     """
-    step = lidar.increment
-    off = abs(scan.angle_min - lidar.angle_min), (lidar.beams - 1) * abs(scan.angle_increment - step)
+    first, _, step = lidar.message_angles
+    off = abs(scan.angle_min - first), (lidar.beams - 1) * abs(scan.angle_increment - step)
     if max(off) > max(0.01 * abs(step), 1e-5):
         raise RecordingError(
             f"a scan begins at {scan.angle_min:.4f} rad and goes on by {scan.angle_increment:.6f} rad, but the "
-            f"{lidar.name} begins at {lidar.angle_min:.4f} rad and goes on by {step:.6f} rad"
+            f"{lidar.name} begins at {first:.4f} rad and goes on by {step:.6f} rad"
         )

@@ -39,7 +39,6 @@ def check_tree(
                 f"{other.name!r}; in a tree every link has one parent"
             )
         above[joint.child] = joint
-        _check_mimic(joint, joints, here)
     roots = [name for name in links if name not in above]
     if len(roots) > 1:
         listed = ", ".join(f"{name!r} (line {links[name].line})" for name in roots)
@@ -67,24 +66,24 @@ def _check_circles(robot: Element, links: Mapping[str, Link], above: Mapping[str
         good.update(way)
 
 
-def _check_mimic(joint: Joint, joints: Mapping[str, Joint], here: Element) -> None:
+def mimic_problem(joint: Joint, joints: Mapping[str, Joint]) -> str:
+    """Return why a joint cannot mimic what it names; empty if it can, or mimics nothing."""
     way = [joint.name]
     at = joint
     while at.mimic is not None:
         followed = at.mimic.joint
         if followed not in joints:
             hint = nearest(followed, joints)
-            raise here.error(
+            return (
                 f"the joint {at.name!r} mimics {followed!r}, which is no joint{f'; {hint}' if hint else ''}"
             )
         if followed in way:
-            raise here.error(f"joints mimic one another in a circle: {' -> '.join([*way, followed])}")
+            return f"joints mimic one another in a circle: {' -> '.join([*way, followed])}"
         at = joints[followed]
         if not at.moves:
-            raise here.error(
-                f"the joint {joint.name!r} mimics {followed!r}, which is {at.type} and does not move"
-            )
+            return f"the joint {joint.name!r} mimics {followed!r}, which is {at.type} and does not move"
         way.append(followed)
+    return ""
 
 
 def inertia_notes(inertial: Inertial) -> Iterator[str]:

@@ -6,7 +6,7 @@ makes a `Robot` of a file; nothing here reads or writes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -224,7 +224,9 @@ class Robot:
     materials: Mapping[str, Material] = field(default_factory=dict)
     extensions: tuple[Extension, ...] = ()
     notes: tuple[str, ...] = ()
-    """What is legal but doubtful, each with file and line: an inertia that no body has, a mass at a root..."""
+    """What is doubtful, or left out, each with file and line: an inertia that no body has, a missing mesh..."""
+    left_out: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    """What is left out, by its kind ("a visual"): those of the notes that say so."""
     path: str = ""
 
     def __repr__(self) -> str:

@@ -14,7 +14,7 @@ from rosmini.errors import RosminiError, nearest
 from rosmini.markup import FARTHEST, HEAVIEST, NO_PATH, Element, parse, parse_file
 from rosmini.packages import SCHEME, PackageIndex
 
-from .checks import check_tree, inertia_notes
+from .checks import check_tree, inertia_notes, mimic_problem
 from .errors import UrdfError
 from .model import (
     Box,
@@ -100,6 +100,7 @@ class _Reader:
     def __init__(self, root: Element, index: PackageIndex | None) -> None:
         self.root, self.index = root, index
         self.notes: list[str] = []
+        self.left_out: dict[str, list[str]] = {}
         self.materials: dict[str, Material] = {}
 
     def robot(self) -> Robot:
@@ -123,6 +124,10 @@ class _Reader:
             raise root.error(f"the robot {name!r} has no <link>: it needs one at least")
         joints = self.named("joint", self.joint)
         elements = {each.get("name"): each for each in root.all("joint")}
+        for joint in list(joints.values()):
+            if problem := mimic_problem(joint, joints):
+                self.note(elements[joint.name], f"{problem}: it moves by itself")
+                joints[joint.name] = replace(joint, mimic=None)
         top = check_tree(root, links, joints, elements)
         extensions = tuple(self.extension(each, links, joints) for each in root.all("gazebo"))
         if links[top].inertial is not None:
@@ -131,10 +136,33 @@ class _Reader:
                 f"the root link {top!r} has an inertia, which KDL (robot_state_publisher) does not take: "
                 "add a link without one above it, as base_footprint",
             )
-        return Robot(name, links, joints, top, self.materials, extensions, tuple(self.notes), path=root.path)
+        return Robot(
+            name,
+            links,
+            joints,
+            top,
+            self.materials,
+            extensions,
+            tuple(self.notes),
+            path=root.path,
+            left_out=self.left_out,
+        )
 
     def note(self, element: Element, what: str) -> None:
         self.notes.append(str(element.error(what)))
+
+    def spare(self, element: Element, kind: str, make: Callable[[Element], T]) -> T | None:
+        """Make a part that a robot can do without; None, with a note, if it is wrong.
+
+        As ROS's parser does, which then passes over the rest of the link, too.
+        """
+        try:
+            return make(element)
+        except UrdfError as error:
+            said = f"{str(error).partition(chr(10))[0]}: {kind} is left out"
+            self.notes.append(said)
+            self.left_out.setdefault(kind, []).append(said)
+            return None
 
     def named(self, tag: str, make: Callable[[Element], T]) -> dict[str, T]:
         """All elements of a kind by their names, of which no two may be alike."""
@@ -153,48 +181,54 @@ class _Reader:
     def link(self, element: Element) -> Link:
         inertials = element.all("inertial")
         if len(inertials) > 1:
-            raise inertials[1].error(f"the link {element.get('name')!r} has more than one <inertial>")
+            self.note(
+                inertials[1],
+                f"the link {element.get('name')!r} has more than one <inertial>: the first counts",
+            )
+        weight = self.spare(inertials[0], "an inertial", self.inertial) if inertials else None
+        visuals = [self.spare(each, "a visual", self.visual) for each in element.all("visual")]
+        collisions = [self.spare(each, "a collision", self.collision) for each in element.all("collision")]
         return Link(
             element.attribute("name"),
-            self.inertial(inertials[0], element.get("name")) if inertials else None,
-            tuple(self.visual(each) for each in element.all("visual")),
-            tuple(
-                Collision(self.geometry(each), self.origin(each), each.get("name"))
-                for each in element.all("collision")
-            ),
+            weight,
+            tuple(each for each in visuals if each is not None),
+            tuple(each for each in collisions if each is not None),
             element.line,
         )
 
-    def inertial(self, element: Element, link: str) -> Inertial:
+    def inertial(self, element: Element) -> Inertial:
         mass = element.need("mass")
         value = mass.number("value", most=HEAVIEST)
         if value < 0:
-            raise mass.error(f"the mass of the link {link!r} is negative: {value:g} kg")
+            raise mass.error(f"a mass is negative: {value:g} kg")
         tensor = element.need("inertia")
         ixx, ixy, ixz, iyy, iyz, izz = (
             tensor.number(name, most=HEAVIEST) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
         )
         found = Inertial(value, ixx, ixy, ixz, iyy, iyz, izz, self.origin(element))
         for problem in inertia_notes(found):
-            self.note(tensor, f"no body has the inertia of the link {link!r}: {problem}")
+            self.note(tensor, f"no body has this inertia: {problem}")
         return found
+
+    def collision(self, element: Element) -> Collision:
+        return Collision(self.geometry(element), self.origin(element), element.get("name"))
 
     def visual(self, element: Element) -> Visual:
         material = element.find("material")
         return Visual(
             self.geometry(element),
             self.origin(element),
-            None if material is None else self.material(material),
+            None if material is None else self.spare(material, "a material", self.material),
             element.get("name"),
         )
 
     def geometry(self, element: Element) -> Geometry:
         holder = element.need("geometry")
-        if len(holder.children) != 1:
-            raise holder.error(
-                f"<geometry> holds one shape: box, cylinder, sphere or mesh, not {len(holder.children)}"
-            )
+        if not holder.children:
+            raise holder.error("<geometry> holds one shape: box, cylinder, sphere or mesh, not 0")
         shape = holder.children[0]
+        if len(holder.children) > 1:
+            self.note(shape, f"<geometry> holds one shape, not {len(holder.children)}: the first counts")
         if shape.tag == "box":
             return Box(self.vector(shape, "size", positive=True))
         if shape.tag == "cylinder":
@@ -246,7 +280,9 @@ class _Reader:
         name = element.attribute("name")
         if name in self.materials:
             raise element.error(f"there are two materials {name!r}")
-        self.materials[name] = self.material(element)
+        found = self.spare(element, "a material", self.material)
+        if found is not None:
+            self.materials[name] = found
 
     def material(self, element: Element) -> Material:
         name = element.get("name")
@@ -263,7 +299,10 @@ class _Reader:
         if colour is not None:
             r, g, b, a = colour.numbers("rgba", 4)
             if not all(0 <= part <= 1 for part in (r, g, b, a)):
-                raise colour.error(f"the parts of a colour are from 0 to 1, not {colour.get('rgba')!r}")
+                self.note(
+                    colour, f"the parts of a colour are from 0 to 1, not {colour.get('rgba')!r}: they are cut"
+                )
+            r, g, b, a = (min(max(part, 0.0), 1.0) for part in (r, g, b, a))
             rgba = (r, g, b, a)
         made = Material(name, rgba, "" if texture is None else texture.attribute("filename"))
         if name:  # one that is defined inside a visual can be named by later ones
@@ -308,9 +347,9 @@ class _Reader:
         x, y, z = found.numbers("xyz", 3, (1.0, 0.0, 0.0), most=FARTHEST)
         length = math.sqrt(x * x + y * y + z * z)
         if not 1e-9 < length < math.inf:
-            raise found.error(
-                f"the axis of the joint {element.get('name')!r} has no direction: {found.get('xyz')!r}"
-            )
+            what = f"the axis of the joint {element.get('name')!r} has no direction: {found.get('xyz')!r}"
+            self.note(found, f"{what}; 1 0 0 is used")
+            return (1.0, 0.0, 0.0)
         return (x / length, y / length, z / length)
 
     def limit(self, element: Element, name: str) -> Limit:
@@ -321,9 +360,9 @@ class _Reader:
             element.number("velocity"),
         )
         if made.lower > made.upper:
-            raise element.error(
-                f"the lower limit of the joint {name!r} is above the upper one: {made.lower:g} > {made.upper:g}"
-            )
+            what = f"the lower limit of the joint {name!r} is above the upper one: {made.lower:g} > {made.upper:g}"
+            self.note(element, f"{what}; they are exchanged")
+            made = replace(made, lower=made.upper, upper=made.lower)
         return made
 
     def extension(self, element: Element, links: dict[str, Link], joints: dict[str, Joint]) -> Extension:

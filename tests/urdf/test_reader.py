@@ -201,16 +201,6 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
         ),
         (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'revolute')}"), "f:3: the revolute joint 'j' needs <limit"),
         (
-            robot(f"{A}{B}\n{joint('j', 'a', 'b', 'revolute', UPSIDE_DOWN)}"),
-            "f:3: the lower limit of the joint 'j' is above the upper one: 2 > 1",
-        ),
-        (
-            robot(
-                f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<axis xyz=' + chr(34) + '0 0 0' + chr(34) + '/>')}"
-            ),
-            "f:3: the axis of the joint 'j' has no direction",
-        ),
-        (
             robot(
                 f"{A}{B}\n{joint('j', 'a', 'b', 'fixed', '<origin xyz=' + chr(34) + '0 0' + chr(34) + '/>')}"
             ),
@@ -223,6 +213,36 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
             "f:3: 'q' in rpy of <origin> is not a number",
         ),
         (
+            robot('<joint name="j" type="fixed">\n<child link="a"/></joint>'),
+            "f:1: the robot 'r' has no <link>",
+        ),
+        (
+            robot(f'{A}\n<joint name="j" type="fixed"><child link="a"/></joint>'),
+            "f:3: <joint> has no <parent>",
+        ),
+        (robot('<xacro:macro name="m"/>'), "f:2: <xacro:macro> is a macro of xacro: expand the file first"),
+    ],
+)
+def test_errors_name_file_line_and_element(text, message):
+    with pytest.raises(UrdfError) as caught:
+        load(text, path="f")
+    assert str(caught.value).startswith(message)
+
+
+@pytest.mark.parametrize(
+    ("text", "note"),
+    [
+        (
+            robot(f"{A}{B}\n{joint('j', 'a', 'b', 'revolute', UPSIDE_DOWN)}"),
+            "f:3: the lower limit of the joint 'j' is above the upper one: 2 > 1",
+        ),
+        (
+            robot(
+                f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<axis xyz=' + chr(34) + '0 0 0' + chr(34) + '/>')}"
+            ),
+            "f:3: the axis of the joint 'j' has no direction",
+        ),
+        (
             robot(
                 f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<mimic joint=' + chr(34) + 'k' + chr(34) + '/>')}"
             ),
@@ -233,14 +253,6 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
                 f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<mimic joint=' + chr(34) + 'j' + chr(34) + '/>')}"
             ),
             "f:3: joints mimic one another in a circle: j -> j",
-        ),
-        (
-            robot('<joint name="j" type="fixed">\n<child link="a"/></joint>'),
-            "f:1: the robot 'r' has no <link>",
-        ),
-        (
-            robot(f'{A}\n<joint name="j" type="fixed"><child link="a"/></joint>'),
-            "f:3: <joint> has no <parent>",
         ),
         (body("<visual>\n<geometry/></visual>"), "f:4: <geometry> holds one shape"),
         (body("<visual/>"), "f:3: <visual> has no <geometry>"),
@@ -288,7 +300,7 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
         ),
         (
             body('<inertial>\n<mass value="-1"/><inertia/></inertial>'),
-            "f:4: the mass of the link 'a' is negative",
+            "f:4: a mass is negative: -1 kg",
         ),
         (body('<inertial>\n<mass value="1"/></inertial>'), "f:3: <inertial> has no <inertia>"),
         (
@@ -298,13 +310,28 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
             'f:4: izz="..." is missing in <inertia>',
         ),
         (body('<inertial>\n<mass value="nan"/></inertial>'), "f:4: 'nan' in value of <mass> is not finite"),
-        (robot('<xacro:macro name="m"/>'), "f:2: <xacro:macro> is a macro of xacro: expand the file first"),
     ],
 )
-def test_errors_name_file_line_and_element(text, message):
-    with pytest.raises(UrdfError) as caught:
-        load(text, path="f")
-    assert str(caught.value).startswith(message)
+def test_what_ros_accepts_is_read_with_a_note(text, note):
+    found = load(text, path="f")
+    assert [each for each in found.notes if each.startswith(note)]
+    (link,) = [each for name, each in found.links.items() if name == "a"]
+    assert link.inertial is None
+    assert all(not isinstance(each.geometry, Mesh) for each in link.visuals)
+
+
+def test_a_missing_mesh_leaves_the_rest_of_its_link():
+    shapes = "".join(
+        f"<{tag}><geometry>{shape}</geometry></{tag}>"
+        for tag in ("visual", "collision")
+        for shape in ('<mesh filename="package://nowhere/a.dae"/>', '<box size="1 1 1"/>')
+    )
+    found = load(body(inertia(1, 1, 1) + shapes))
+    link = found.link("a")
+    assert [each.geometry for each in (*link.visuals, *link.collisions)] == [Box((1, 1, 1)), Box((1, 1, 1))]
+    assert link.inertial is not None
+    assert {kind: len(notes) for kind, notes in found.left_out.items()} == {"a visual": 1, "a collision": 1}
+    assert "there is no package 'nowhere'" in found.left_out["a visual"][0]
 
 
 def inertia(ixx, iyy, izz, ixy=0.0):

@@ -123,6 +123,7 @@ def _examine_wall(world: StageWorld) -> None:
     expect("wall" in things, "There is no model called wall.", 'model( name "wall" ... )')
     wall = things["wall"]
     expect(wall.fixed, "The wall can be pushed.", "leave gripper_return out")
+    expect(not wall.passable, "The mole can drive through the wall.", "leave obstacle_return out")
     expect(abs(wall.height - 0.6) < 0.001, f"The wall is {wall.height:g} m high.", "the third number of size")
     segments, discs = world.world.segments, world.world.discs
     ahead = float(raycast(segments, discs, 1.0, 2.0, math.pi / 2, 0.1, 1, 10.0)[0])

@@ -274,6 +274,8 @@ def mast(answer: Any) -> None:
             raise Wrong(
                 f"{asked} the description cannot be read: {error}", "compare with a joint of the Burger's"
             ) from error
+        for notes in robot.left_out.values():
+            raise Wrong(f"{asked} a part cannot be read: {notes[0]}", "compare with a link of the Burger's")
         for link in ("mast_link", "beacon_link"):
             expect(link in robot.links, f"There is no link {link}.", "mind the names")
             kind = robot.above[link].type

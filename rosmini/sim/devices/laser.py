@@ -72,8 +72,7 @@ class RangeDevice(Sensor):
     def describe(self, message: Any) -> None:
         """Fill in the numbers of the laser."""
         lidar = self.lidar
-        message.angle_min, message.angle_max = lidar.angle_min, lidar.last_angle
-        message.angle_increment = lidar.increment
+        message.angle_min, message.angle_max, message.angle_increment = lidar.message_angles
         message.scan_time = self._scan_time
         message.range_min, message.range_max = lidar.range_min, lidar.range_max
 

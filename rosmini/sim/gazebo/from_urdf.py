@@ -84,7 +84,8 @@ class _Conversion:
             for name, host in self.host.items()
             if host != name
         }
-        return Converted(model, lumped)
+        wrong = tuple(note for notes in robot.left_out.values() for note in notes)
+        return Converted(model, lumped, wrong)
 
     def _kept(self, joint: str) -> bool:
         """Return whether a fixed joint is to be kept."""

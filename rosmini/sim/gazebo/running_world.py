@@ -322,9 +322,14 @@ class RunningWorld(GazeboWorld):
             )
             for cls, tag in of_sensor:
                 plugin = cls(self, f"{sensor.device_name}/{tag.name or tag.filename}")
+                try:
+                    if isinstance(plugin, SensorPlugin):
+                        plugin.load(sensor, tag.element)
+                except RosminiError as error:  # Gazebo goes on without it, too
+                    plugin.close()
+                    self.node.logwarn(f"the sensor {sensor.device_name!r} is left out: {error}")
+                    continue
                 plugins.append(plugin)
-                if isinstance(plugin, SensorPlugin):
-                    plugin.load(sensor, tag.element)
         for cls, tag in found:
             plugin = cls(self, f"{model.name}/{tag.name or tag.filename}")
             plugins.append(plugin)

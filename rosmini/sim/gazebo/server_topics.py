@@ -85,12 +85,13 @@ class _Scan(Device):
         lidar, model = self._lidar, self._sensor.model
         noise = self._rng.standard_normal(lidar.beams) * self._deviation if self._deviation else None
         ranges = model.world.engine.scan(model.name, noise, lidar=lidar)
+        first, last, step = lidar.message_angles
         scan = LaserScan(
             frame=f"{model.name}::{self._sensor.link}",
             world_pose=Pose.of("", 0, model.link_pose(self._sensor.link)),
-            angle_min=lidar.angle_min,
-            angle_max=lidar.last_angle,
-            angle_step=lidar.increment,
+            angle_min=first,
+            angle_max=last,
+            angle_step=step,
             range_min=lidar.range_min,
             range_max=lidar.range_max,
             count=lidar.beams,

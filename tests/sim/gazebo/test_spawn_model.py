@@ -54,6 +54,27 @@ def test_from_a_file_and_from_the_standard_input(bench: Start, tmp_path: Path) -
     assert [there.pose(name)[0] for name in "abc"] == [1.0, 2.0, 3.0]
 
 
+def test_a_robot_whose_meshes_are_missing_comes_without_them(
+    bench: Start, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    there = bench()
+    shapes = "".join(
+        f'<{tag}><geometry><mesh filename="package://nowhere/{tag}.dae"/></geometry></{tag}>'
+        for tag in ("visual", "collision")
+    )
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        urdf().replace('<link name="laser"/>', f'<link name="laser">{shapes}</link>'), encoding="utf-8"
+    )
+    assert spawn_model(there, "-urdf", "-file", path, "-model", "r") == 0
+    there.drive("/cmd_vel", 0.2)
+    there.graph.run(2.0)
+    assert there.pose("r")[0] > 0.2
+    said = "".join(capsys.readouterr())
+    assert said.count("the model 'r' is not whole") == 1
+    assert said.count("there is no package 'nowhere'") == 2
+
+
 def test_time_goes_on_afterwards(bench: Start, tmp_path: Path) -> None:
     there = bench("empty", "-u")
     path = tmp_path / "box.sdf"

@@ -14,10 +14,16 @@ from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import SensorPlugin
 from rosmini.sim.models import LidarModel
 from rosmini.sim.sdf.parts import number
-from rosmini.sim.sdf.poses import upright
+from rosmini.sim.sdf.poses import matrix, upright
 
 from .drives import rate_of
 from .ros_names import RosNames
+
+LEVEL = 1e-3
+"""A laser that is tilted by no more than this is level [rad]."""
+
+STEEP = 0.1
+"""A laser that is tilted by no more than this is simulated as a level one [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,12 +45,17 @@ class LaserPlugin(
     def load(self, sensor: Sensor, sdf: Element) -> None:
         """Advertise its topic. Raises `MarkupError` for what is no ray sensor."""
         tags = LaserTags.read(sdf, self.world.node.logwarn)
+        lidar = lidar_of(sensor)
+        tilt = tilt_of(sensor)
+        if tilt > LEVEL:
+            what = f"the laser {sensor.device_name!r} is tilted by {math.degrees(tilt):.1f} degrees"
+            self.world.node.logwarn(f"{what}: it measures in a level plane here")
         names = RosNames(sensor.model, sdf)
         self.device = self.add(
             Laser(
                 self.world.host,
                 sensor.model.name,
-                lidar_of(sensor),
+                lidar,
                 topic=names.topic(tags.topic),
                 frame=names.frame(tags.frame),
                 noise=self.world.noise,
@@ -53,19 +64,31 @@ class LaserPlugin(
         )
 
 
+def tilt_of(sensor: Sensor) -> float:
+    """Return the angle between the plane of a laser and the ground [rad], whichever side is up."""
+    return math.acos(min(1.0, abs(float(matrix(sensor.mount)[2, 2]))))
+
+
 def lidar_of(sensor: Sensor) -> LidarModel:
-    """The laser that a sensor's `<ray>` describes, with its noise. Raises `MarkupError` and `GazeboError`."""
+    """Return the laser that a sensor's `<ray>` describes, with its noise.
+
+    One that is upside down looks the other way round. Raises `MarkupError`, and `GazeboError` for one that is too far
+    from level for a flat world.
+    """
     ray = sensor.element.find("ray") or sensor.element.find("lidar")
     if ray is None:
         raise sensor.element.error(
             f"the sensor {sensor.name!r} is of type {sensor.type!r} and has no <ray>: it is no laser"
         )
-    mount = sensor.mount
-    if not upright(mount, 1e-3):
+    mount, tilt = sensor.mount, tilt_of(sensor)
+    if tilt > STEEP:
         raise GazeboError(
-            f"the laser {sensor.device_name!r} is tilted (roll {mount[3]:.3f}, pitch {mount[4]:.3f}): only level "
-            "ones are simulated"
+            f"the laser {sensor.device_name!r} is tilted by {math.degrees(tilt):.0f} degrees, and more than "
+            f"{math.degrees(STEEP):.0f} are not simulated"
         )
+    turn = matrix(mount)
+    hangs = bool(turn[2, 2] < 0)
+    yaw = mount[5] if upright(mount, LEVEL) else math.atan2(turn[1, 0], turn[0, 0])
     horizontal = ray.need("scan").need("horizontal")
     samples = int(number(horizontal, "samples", 640)) * max(1, int(number(horizontal, "resolution", 1)))
     vertical = int(number(ray, "scan/vertical/samples", 1))
@@ -77,6 +100,8 @@ def lidar_of(sensor: Sensor) -> LidarModel:
     if samples == 1:  # whatever its fan is, one ray looks ahead, as in Gazebo
         first = last = 0.0
     noise = ray.find("noise")
+    if hangs:
+        first, last = -first, -last
     gaussian = noise is not None and noise.word("type", "gaussian").startswith("gaussian")
     return LidarModel(
         name=sensor.name,
@@ -89,5 +114,6 @@ def lidar_of(sensor: Sensor) -> LidarModel:
         frame=sensor.link,
         angle_min=first,
         angle_max=last,
-        yaw=mount[5],
+        yaw=yaw,
+        upside_down=hangs,
     )

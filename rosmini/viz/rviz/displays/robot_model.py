@@ -89,12 +89,11 @@ class RobotModel(Display, plugin="rviz/RobotModel"):
         try:
             robot = load(text.strip().encode(), path=key)
         except RosminiError as error:
-            # without its meshes the rest of the robot may still be seen
             self.set_status(Level.ERROR, "URDF", str(error).partition("\n")[0])
-            try:
-                robot = load(text.strip().encode(), meshes=False, path=key)
-            except RosminiError:
-                return False
+            return False
+        wrong = [note for notes in robot.left_out.values() for note in notes]
+        if wrong:
+            self.set_status(Level.ERROR, "URDF", wrong[0])
         else:
             self.set_status(Level.OK, "URDF", "URDF parsed OK")
         for link in robot.links:

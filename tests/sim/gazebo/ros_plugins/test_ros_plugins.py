@@ -564,3 +564,46 @@ def test_four_wheels_need_their_joints(bench: Start) -> None:
     answer = bench().spawn(husky().replace("rear_left_joint</left", "rear_lft_joint</left"), "husky")
     assert not answer.success
     assert "has no joint 'rear_lft_joint'; did you mean rear_left_joint" in answer.status_message
+
+
+def mounted(rpy: str) -> str:
+    """The box on wheels with its laser mounted so."""
+    return urdf().replace(
+        '<child link="laser"/><origin xyz="0 0 0.2"/>',
+        f'<child link="laser"/><origin xyz="0 0 0.2" rpy="{rpy}"/>',
+    )
+
+
+@pytest.mark.parametrize(
+    ("rpy", "seen_at"),
+    [("0 0 0", math.pi / 4), ("3.14159265 0 0", -math.pi / 4), ("0 3.14159265 3.14159265", -math.pi / 4)],
+)
+def test_a_laser_that_is_mounted_upside_down_sees_everything_mirrored(
+    bench: Start, rpy: str, seen_at: float
+) -> None:
+    there = bench()
+    there.spawn(box("thing", static=True), "thing", 2.0, 2.0)
+    assert there.spawn(mounted(rpy), "r").success
+    scans = there.hear("/scan", "sensor_msgs/LaserScan")
+    there.graph.run(0.5)
+    ranges, scan = np.array(scans[-1].ranges), scans[-1]
+    angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+    assert (scan.angle_min, scan.angle_max) == pytest.approx((-math.pi / 2, math.pi / 2))
+    assert angles[np.isfinite(ranges)].mean() == pytest.approx(seen_at, abs=0.02)
+
+
+def test_a_tilted_laser_measures_level_or_is_left_out(
+    bench: Start, capsys: pytest.CaptureFixture[str]
+) -> None:
+    there = bench()
+    for i, (tilt, works) in enumerate([("0 0.05 0", True), ("0 0.5 0", False)]):
+        assert there.spawn(mounted(tilt), f"r{i}", 3.0 * i, robot_namespace=f"n{i}").success
+        scans = there.hear(f"/n{i}/scan", "sensor_msgs/LaserScan")
+        there.graph.run(0.5)
+        assert bool(scans) is works
+        there.drive(f"/n{i}/cmd_vel", 0.2)
+    there.graph.run(2.0)
+    assert there.pose("r1")[0] > 3.1
+    said = "".join(capsys.readouterr())
+    assert "'r0/lidar' is tilted by 2.9 degrees" in said
+    assert "'r1/lidar' is left out" in said
