@@ -124,7 +124,7 @@ def _edges(cells: NDArray[np.bool_]) -> tuple[Loop, Loop, Loop]:
     edges = np.sort(np.concatenate(keys)).astype(np.int64)
     corners, directions = np.divmod(edges, 4)
     starts = np.stack([corners % width, corners // width], axis=1)
-    ahead = (starts + _STEP[directions]) @ np.array([1, width])
+    ahead = ((starts + _STEP[directions]) * (1, width)).sum(axis=1)
     following = np.full(len(edges), -1, dtype=np.int64)
     # Where two occupied cells touch at a corner there are two ways on: the one to the right keeps them together.
     for turn in (1, 0, -1):

@@ -13,6 +13,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from .products import scalar_product
+
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
@@ -28,7 +30,7 @@ def sides_of(outline: Floats) -> Floats:
 def area(outline: Floats) -> float:
     """The area [m2] inside an outline; negative if its corners go clockwise."""
     x, y = outline.T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+    return float((x * np.roll(y, -1)).sum() - (y * np.roll(x, -1)).sum()) / 2
 
 
 def inside(points: Floats, sides: Floats) -> Bools:
@@ -85,7 +87,7 @@ def crossing_sides(outline: Floats) -> tuple[int, int] | None:
     for first in range(count):
         way, following = ends[first] - outline[first], ends[(first + 1) % count] - ends[first]
         if (
-            _cross(way, following) == 0 and way @ following <= 0
+            _cross(way, following) == 0 and scalar_product(way, following) <= 0
         ):  # back along the same line, or a side of no length
             return first, (first + 1) % count
         for second in range(first + 2, count - (first == 0)):

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rosmini.errors import RosminiError, nearest
 from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import compose, inverse
+from rosmini.geometry.products import norms
 from rosmini.graph.show import show
 
 from .models import RobotModel
@@ -66,7 +67,7 @@ class Moved:
     @property
     def distance(self) -> float:
         """How far it moved [m]."""
-        return float(np.linalg.norm(np.diff(self.poses[:, :2], axis=0), axis=1).sum())
+        return float(norms(np.diff(self.poses[:, :2], axis=0)).sum())
 
     def window(self, t0: float, t1: float) -> Moved:
         """Where it was from `t0` to `t1`."""
@@ -182,7 +183,7 @@ class Recording:
     @property
     def distance(self) -> float:
         """How long the robot's way really was [m]."""
-        return float(np.linalg.norm(np.diff(self.truth[:, :2], axis=0), axis=1).sum())
+        return float(norms(np.diff(self.truth[:, :2], axis=0)).sum())
 
     def odom_in_map(self) -> Floats:
         """Odometry (n, 3) in the frame of `truth`, laid so that both start with the same pose."""

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rosmini.errors import RosminiError, nearest
 from rosmini.geometry import polygons
 from rosmini.geometry.poses import Pose, compose
+from rosmini.geometry.products import matrix_product
 
 Colour = str
 """One of `COLOURS`, or any "#rrggbb"."""
@@ -146,7 +147,8 @@ def outline_at(shape: Box | Polygon, pose: Pose) -> NDArray[np.float64]:
     """The corners (n, 2), counter-clockwise, of a box or a polygon at `pose`."""
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
-    turned: NDArray[np.float64] = shape.outline @ np.array([[c, s], [-s, c]]) + (x, y)
+    turned = matrix_product(shape.outline, [[c, s], [-s, c]])
+    turned += (x, y)
     return turned
 
 

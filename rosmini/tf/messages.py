@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import matrix_product
 from rosmini.msgs import message_class
 from rosmini.msgs.template import template
 
@@ -100,7 +101,7 @@ def _covariant_pose(message: Any, transform: Rigid) -> None:
     turned = np.zeros((6, 6))
     turned[:3, :3] = turned[3:, 3:] = matrix(transform)[:3, :3]
     spread = np.asarray(message.pose.covariance, dtype=np.float64).reshape(6, 6)
-    message.pose.covariance = (turned @ spread @ turned.T).ravel().tolist()
+    message.pose.covariance = matrix_product(matrix_product(turned, spread), turned.T).ravel().tolist()
 
 
 def _wrench(message: Any, transform: Rigid) -> None:

@@ -13,6 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rosmini.geometry.products import matrix_product
+
 from .errors import InvalidArgumentException
 from .kernel import IDENTITY, Rigid, compose, interpolate, inverse
 
@@ -105,11 +107,10 @@ def matrix(transform: Rigid) -> Floats:
 def transform_points(transform: Rigid, points: ArrayLike) -> Floats:
     """Points (..., 3) [m] of the frame that `transform` places, in the frame in which it places it (..., 3)."""
     whole = matrix(transform)
-    result: Floats = np.asarray(points, dtype=np.float64) @ whole[:3, :3].T + whole[:3, 3]
+    result: Floats = matrix_product(points, whole[:3, :3].T) + whole[:3, 3]
     return result
 
 
 def rotate(transform: Rigid, vectors: ArrayLike) -> Floats:
     """Vectors (..., 3), which have a direction and no place: turned and not moved."""
-    result: Floats = np.asarray(vectors, dtype=np.float64) @ matrix(transform)[:3, :3].T
-    return result
+    return matrix_product(vectors, matrix(transform)[:3, :3].T)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from rosmini.errors import nearest
+from rosmini.geometry.products import eigen
 from rosmini.markup import Element
 
 from .model import Inertial, Joint, Link
@@ -92,7 +93,7 @@ def inertia_notes(inertial: Inertial) -> Iterator[str]:
     (Each is an integral of two squared distances over the mass; see Featherstone, Rigid Body Dynamics Algorithms,
     2008.)
     """
-    moments = np.linalg.eigvalsh(inertial.matrix)
+    moments, _ = eigen(inertial.matrix)
     text = ", ".join(f"{moment:.4g}" for moment in moments)
     largest = float(np.abs(moments).max())
     if moments[0] < -SLACK * largest:

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import matrix_product
+
 Floats = NDArray[np.float64]
 
 
@@ -27,7 +29,9 @@ def turn(axis: Sequence[float], angle: float) -> Floats:
     """The rotation (3, 3) by `angle` [rad] about an axis of length 1 (Rodrigues' formula)."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    result: Floats = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * (cross @ cross)
+    result: Floats = (
+        np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * matrix_product(cross, cross)
+    )
     return result
 
 

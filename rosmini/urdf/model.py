@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.errors import nearest
+from rosmini.geometry.products import matrix_product
 from rosmini.graph.show import show
 from rosmini.markup import Element
 
@@ -201,7 +202,9 @@ class Joint:
         """The child's frame in the parent's (4, 4) at `position` [rad or m]; floating and planar joints stay at 0."""
         if not self.moves:
             return self.origin.matrix
-        return self.origin.matrix @ kinematics.motion(self.axis, position, slides=self.type == "prismatic")
+        return matrix_product(
+            self.origin.matrix, kinematics.motion(self.axis, position, slides=self.type == "prismatic")
+        )
 
 
 @dataclass(frozen=True)
@@ -308,7 +311,7 @@ class Robot:
         at = self.positions(joints)
         found = {self.root: np.eye(4)}
         for joint in self.order:
-            found[joint.child] = found[joint.parent] @ joint.transform(at.get(joint.name, 0.0))
+            found[joint.child] = matrix_product(found[joint.parent], joint.transform(at.get(joint.name, 0.0)))
         return found
 
     def show(self, **options: Any) -> Any:

@@ -88,7 +88,7 @@ class LikelihoodField:
             density = (
                 mixture.z_hit * np.exp(-values / (2 * mixture.sigma_hit**2)) + mixture.z_rand / range_max
             )
-            formed = (density**3 if form == "cube" else np.log(density)).astype(np.float32)
+            formed = (density * density * density if form == "cube" else np.log(density)).astype(np.float32)
             self._table = wanted, formed[steps], float(formed[-1])
         _, table, outside = self._table
         return table, outside

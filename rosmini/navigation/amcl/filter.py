@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.errors import RosminiError
 from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import Pose
+from rosmini.geometry.products import eigen, matrix_product
 from rosmini.graph.show import show
 
 Floats = NDArray[np.float64]
@@ -92,9 +93,9 @@ class ParticleFilter:
 
     def initialize(self, mean: Pose, covariance: ArrayLike) -> None:
         """Draw all particles from a normal distribution with this mean and covariance (3, 3)."""
-        deviations, axes = np.linalg.eigh(np.asarray(covariance, dtype=float))
+        deviations, axes = eigen(covariance)
         spread = axes * np.sqrt(np.maximum(deviations, 0.0))
-        drawn = np.asarray(mean) + self.random.standard_normal((self.most, 3)) @ spread.T
+        drawn = np.asarray(mean) + matrix_product(self.random.standard_normal((self.most, 3)), spread.T)
         drawn[:, 2] = normalize_angle(drawn[:, 2])
         self._begin(drawn)
 
@@ -142,9 +143,8 @@ class ParticleFilter:
         """How many particles it takes, for each number of histogram cells that are occupied."""
         least = np.maximum(bins - 1, 1).astype(float)
         part = 2 / (9 * least)
-        found = np.ceil(
-            least / (2 * max(self.error, LEAST_ERROR)) * (1 - part + np.sqrt(part) * self.quantile) ** 3
-        )
+        root = 1 - part + np.sqrt(part) * self.quantile
+        found = np.ceil(least / (2 * max(self.error, LEAST_ERROR)) * (root * root * root))
         limits: Ints = np.clip(np.where(bins <= 1, self.most, found), self.fewest, self.most).astype(np.int64)
         return limits
 
@@ -249,11 +249,11 @@ def summed(particles: Floats, weights: Floats) -> Cluster:
     """Mean and covariance of particles."""
     weight = float(weights.sum())
     shares = weights / weight if weight > 0 else np.full(len(weights), 1 / len(weights))
-    x, y = (float(v) for v in shares @ particles[:, :2])
-    cos, sin = float(shares @ np.cos(particles[:, 2])), float(shares @ np.sin(particles[:, 2]))
+    x, y = (shares[:, None] * particles[:, :2]).sum(axis=0).tolist()
+    cos, sin = (float((shares * part(particles[:, 2])).sum()) for part in (np.cos, np.sin))
     off = particles[:, :2] - (x, y)
     covariance = np.zeros((3, 3))
-    covariance[:2, :2] = (off * shares[:, None]).T @ off
+    covariance[:2, :2] = ((off * shares[:, None])[:, :, None] * off[:, None, :]).sum(axis=0)
     covariance[2, 2] = -2 * math.log(max(math.hypot(cos, sin), 1e-300))
     return Cluster(weight, (x, y, math.atan2(sin, cos)), covariance, len(particles))
 

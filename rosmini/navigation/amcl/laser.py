@@ -153,7 +153,7 @@ def _beam(
     early = mixture.z_short * mixture.lambda_short * np.exp(-mixture.lambda_short * ranges)
     chance += np.where(off < 0, early, 0.0)
     chance += np.where(ranges >= scan.range_max, mixture.z_max, mixture.z_rand / scan.range_max)
-    found: Floats = np.log1p((chance**3).sum(axis=1))
+    found: Floats = np.log1p((chance * chance * chance).sum(axis=1))
     return found
 
 

@@ -96,5 +96,5 @@ def together(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
     against = given < 0
     first = np.argmax(against, axis=1)
     rejected = against.any(axis=1)
-    totals = np.where(rejected, given[np.arange(len(raw)), first], given @ scales[asked])
+    totals = np.where(rejected, given[np.arange(len(raw)), first], (given * scales[asked]).sum(axis=1))
     return totals, np.where(rejected, asked[first], -1)

@@ -406,5 +406,5 @@ def _judged(raw: Floats, where: Ints, scales: Floats) -> tuple[Floats, Ints]:
     critic = np.argmin(first, axis=1)
     rejected = (raw < 0).any(axis=1)
     codes = np.where(critic == 0, BLOCKED, IMPOSSIBLE)
-    totals: Floats = np.where(rejected, codes, raw @ scales)
+    totals: Floats = np.where(rejected, codes, (raw * scales).sum(axis=1))
     return totals, np.where(rejected, critic, -1)

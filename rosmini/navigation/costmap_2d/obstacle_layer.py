@@ -142,7 +142,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
         """The points that are near enough to the sensor, and not too high, to be obstacles."""
         points = observation.points
         away = points - observation.origin
-        near = np.einsum("ij,ij->i", away, away) < observation.obstacle_range**2
+        near = (away * away).sum(axis=1) < observation.obstacle_range**2
         return points[near & (points[:, 2] <= self._max_height)]
 
     def update_costs(self, grid: Costmap2D, window: Window) -> None:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rosmini.geometry.machine_code import machine_code
 from rosmini.geometry.poses import Pose
+from rosmini.geometry.products import inverse_matrix
 from rosmini.navigation.kernels import kernel
 
 from .grid import OccupancyGrid
@@ -45,7 +46,7 @@ class Matched(NamedTuple):
         The original publishes the curvature itself, in cells.
         """
         known = self.hessian / max(self.spread, 1e-6)
-        return np.asarray(np.linalg.inv(known + np.eye(3) / NOTHING_KNOWN), dtype=np.float64)
+        return inverse_matrix(known + np.eye(3) / NOTHING_KNOWN)
 
 
 def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> Matched:
@@ -66,7 +67,7 @@ def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> M
         left, low = grid.origin
         pose = (left + x * resolution, low + y * resolution, math.remainder(heading, math.tau))
     scale = np.array([1 / resolution, 1 / resolution, 1.0])
-    hessian = np.array(((xx, xy, xt), (xy, yy, yt), (xt, yt, tt))) * np.outer(scale, scale)
+    hessian = np.array(((xx, xy, xt), (xy, yy, yt), (xt, yt, tt))) * scale[:, None] * scale
     return Matched(pose, hessian, spread, int(steps))
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from rosmini.geometry.polygons import area, convex_parts
 from rosmini.geometry.poses import Pose
+from rosmini.geometry.products import scalar_product
 from rosmini.sim.models import GRAVITY, RobotModel
 from rosmini.sim.shapes import ROUND, Compound, Shape, outline_at, reach_of, simple_parts
 from rosmini.sim.world import Obstacle
@@ -88,10 +89,10 @@ def spread(pieces: Sequence[Piece], mass: float) -> Mass:
             size = float(cross.sum()) / 2
             centre = np.array([((x + u) * cross).sum(), ((y + v) * cross).sum()]) / (6 * size)
             second = float((cross * (x * x + x * u + u * u + y * y + y * v + v * v)).sum()) / 12
-            parts.append((size, middle + centre, second - size * float(centre @ centre)))
+            parts.append((size, middle + centre, second - size * scalar_product(centre, centre)))
     total = sum(size for size, _, _ in parts)
     centre = sum(size * place for size, place, _ in parts) / total
-    second = sum(own + size * float((place - centre) @ (place - centre)) for size, place, own in parts)
+    second = sum(own + size * scalar_product(place - centre, place - centre) for size, place, own in parts)
     return Mass(mass, mass * second / total, float(centre[0]), float(centre[1]))
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.poses import Pose, compose
+from rosmini.geometry.products import matrix_product
 from rosmini.sim.models import RobotModel
 from rosmini.sim.shapes import Part, Simple, Sphere, simple_parts
 from rosmini.sim.world import Box, Obstacle, Polygon, edges
@@ -44,8 +45,9 @@ def cross_section(parts: Iterable[tuple[Simple, Pose]], up: float) -> CrossSecti
 def _placed(shape: Box | Polygon, pose: Pose) -> Floats:
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
-    outline: Floats = shape.outline @ np.array([[c, s], [-s, c]]) + (x, y)
-    return outline
+    turned = matrix_product(shape.outline, [[c, s], [-s, c]])
+    turned += (x, y)
+    return turned
 
 
 def obstacle_section(obstacle: Obstacle, height: float, pose: Pose | None = None) -> CrossSection:

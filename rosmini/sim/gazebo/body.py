@@ -13,6 +13,7 @@ import numpy as np
 
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose, compose, inverse, transform_points
+from rosmini.geometry.products import matrix_product, scalar_product
 from rosmini.sim.models import Drive, RobotModel, WheelErrors, hull
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfModel, SdfPlugin, placed_links, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6
@@ -136,7 +137,7 @@ class Body:
             tensor = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
             mass += own.mass
             away = (at[0] - self.axle[0]) ** 2 + (at[1] - self.axle[1]) ** 2
-            inertia += float(up @ tensor @ up) + own.mass * away
+            inertia += scalar_product(up, matrix_product(tensor, up)) + own.mass * away
         return max(mass, 1e-6), max(inertia, 1e-9)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini import urdf
+from rosmini.geometry.products import inverse_matrix, matrix_product, scalar_product
 from rosmini.markup import Element
 from rosmini.sim.sdf import (
     ORIGIN,
@@ -100,7 +101,10 @@ class _Conversion:
         """A pose of a link's own, seen from the link that it became part of."""
         if host == name:
             return pose6(origin)
-        return pose6(np.linalg.inv(self.at[host]) @ self.at[name] @ origin)
+        return pose6(self._seen_from(host, name, origin))
+
+    def _seen_from(self, host: str, name: str, origin: Matrix) -> Matrix:
+        return matrix_product(matrix_product(inverse_matrix(self.at[host]), self.at[name]), origin)
 
     def _link(self, name: str) -> SdfLink:
         parts = [self.robot.links[each] for each, host in self.host.items() if host == name]
@@ -157,10 +161,10 @@ class _Conversion:
         bodies = []
         for part in parts:
             if part.inertial is not None and part.inertial.mass > 0:
-                at = np.linalg.inv(self.at[name]) @ self.at[part.name] @ part.inertial.origin.matrix
-                bodies.append(
-                    (part.inertial.mass, at[:3, 3], at[:3, :3] @ part.inertial.matrix @ at[:3, :3].T)
-                )
+                at = self._seen_from(name, part.name, part.inertial.origin.matrix)
+                turn = at[:3, :3]
+                own = matrix_product(matrix_product(turn, part.inertial.matrix), turn.T)
+                bodies.append((part.inertial.mass, at[:3, 3], own))
         mass = sum(m for m, _, _ in bodies)
         if not mass:
             return SdfInertial(mass=1e-9, inertia=(1e-9, 1e-9, 1e-9, 0.0, 0.0, 0.0))
@@ -168,7 +172,7 @@ class _Conversion:
         tensor = np.zeros((3, 3))
         for m, at, own in bodies:
             d = at - centre
-            tensor += own + m * (d @ d * np.eye(3) - np.outer(d, d))
+            tensor += own + m * (scalar_product(d, d) * np.eye(3) - d[:, None] * d)
         x, y, z = (float(part) for part in centre)
         ixx, iyy, izz, ixy, ixz, iyz = (
             float(tensor[i, j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))

@@ -17,6 +17,7 @@ import numpy as np
 
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.geometry.products import matrix_product
 from rosmini.graph import Node
 from rosmini.markup import Element
 from rosmini.sim.engine import Engine
@@ -333,5 +334,5 @@ def _spin(axis: tuple[float, float, float], angle: float) -> Pose6:
         return ORIGIN
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]) / length
     turn = np.eye(4)
-    turn[:3, :3] += math.sin(angle) * cross + (1 - math.cos(angle)) * (cross @ cross)
+    turn[:3, :3] += math.sin(angle) * cross + (1 - math.cos(angle)) * matrix_product(cross, cross)
     return pose6(turn)

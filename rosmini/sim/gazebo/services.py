@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from rosmini.errors import RosminiError
+from rosmini.geometry.products import matrix_product
 from rosmini.markup import parse
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.sdf import Pose6, placed_links
@@ -353,5 +354,5 @@ def relative(state: tuple[Pose6, Velocity], frame: tuple[Pose6, Velocity]) -> tu
     """A pose and a velocity of the world, seen from a frame that moves."""
     (pose, (vx, vy, w)), (at, (fx, fy, fw)) = state, frame
     turn = matrix(at)[:2, :2].T
-    rx, ry = turn @ (vx - fx, vy - fy)
+    rx, ry = matrix_product(turn, (vx - fx, vy - fy))
     return compose(inverse(at), pose), (float(rx), float(ry), w - fw)

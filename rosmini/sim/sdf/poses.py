@@ -8,6 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import matrix_product
+
 from .document import ORIGIN, Pose6, SdfLink, SdfModel
 
 Matrix = NDArray[np.float64]
@@ -50,7 +52,7 @@ def compose(first: Pose6, second: Pose6) -> Pose6:
         c, s = math.cos(first[5]), math.sin(first[5])
         x, y, z, _, _, yaw = second
         return (first[0] + c * x - s * y, first[1] + s * x + c * y, first[2] + z, 0.0, 0.0, first[5] + yaw)
-    return pose6(matrix(first) @ matrix(second))
+    return pose6(matrix_product(matrix(first), matrix(second)))
 
 
 def inverse(pose: Pose6) -> Pose6:
@@ -60,7 +62,7 @@ def inverse(pose: Pose6) -> Pose6:
     turn = matrix(pose)[:3, :3].T
     back = np.eye(4)
     back[:3, :3] = turn
-    back[:3, 3] = -turn @ pose[:3]
+    back[:3, 3] = -matrix_product(turn, pose[:3])
     return pose6(back)
 
 

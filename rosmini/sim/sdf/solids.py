@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rosmini.geometry import polygons
 from rosmini.geometry.poses import Pose
+from rosmini.geometry.products import matrix_product, norm
 from rosmini.geometry.slices import convex_hull, cut, loops, pieces, thinned
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Simple, Sphere
 from rosmini.urdf.meshes import MeshError, read
@@ -83,7 +84,7 @@ def _polygon(outline: Floats) -> Polygon:
 
 def _moved(points: Floats, pose: Pose6) -> Floats:
     turn = matrix(pose)
-    return points @ turn[:3, :3].T + turn[:3, 3]
+    return matrix_product(points, turn[:3, :3].T) + turn[:3, 3]
 
 
 def _aslant(pose: Pose6) -> str:
@@ -119,8 +120,8 @@ def _sphere(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
 
 
 def _plane(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
-    up = matrix(pose)[:3, :3] @ geometry.normal
-    if up[2] < (1 - 1e-6) * np.linalg.norm(up):
+    up = matrix_product(matrix(pose)[:3, :3], geometry.normal)
+    if up[2] < (1 - 1e-6) * norm(up):
         return [], "a plane that is not level is left out"
     return [], "a plane that is not at height 0 is left out; the ground is there" if abs(
         pose[2]

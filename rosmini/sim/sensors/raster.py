@@ -18,6 +18,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import matrix_product, norms
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -50,8 +52,7 @@ class Eye(NamedTuple):
 
     def seen(self, points: Floats) -> Floats:
         """Points (n, 3) of the world in the frame of the camera: X to the right, Y down, Z ahead [m]."""
-        turned: Floats = (points - self.position) @ self.axes.T
-        return turned
+        return matrix_product(points - self.position, self.axes.T)
 
     def project(self, points: Floats) -> Floats:
         """Where points (n, 3) of the world are on the image, and how deep: u, v and depth (n, 3).
@@ -96,13 +97,13 @@ def plan(corners: Floats, seen: NDArray[np.bool_], lens: Lens) -> Plan:
     number, corners, box = number[inside], corners[inside], box[inside]
     planes = np.cross(corners, np.roll(corners, -1, axis=1))
     middle = corners.mean(axis=1)
-    side = np.einsum("nij,nj->ni", planes, middle)
+    side = (planes * middle[:, None]).sum(axis=2)
     planes *= np.where(side < 0, -1.0, 1.0)[..., None]
-    slack = SLACK * np.linalg.norm(planes, axis=2)
+    slack = SLACK * norms(planes)
     edges = _linear(planes, lens)
     edges[..., 0] += slack
     across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    distance = np.einsum("nj,nj->n", across, middle)
+    distance = (across * middle).sum(axis=1)
     flat = distance == 0  # seen from its edge
     inverse = _linear(across / np.where(flat, 1.0, distance)[:, None], lens)
     return Plan(number[~flat], edges[~flat], inverse[~flat], box[~flat])

@@ -179,7 +179,7 @@ def look(eye: Eye, scene: Scene) -> tuple[Floats, Ints]:
     inverse = _ground(eye, rays)
     shown = np.full((lens.height, lens.width), GROUND, dtype=np.int64)
     faces, rods, balls = scene.faces, scene.rods, scene.balls
-    towards = np.einsum("ij,ij->i", scene.normals, eye.position - faces[:, 0])
+    towards = (scene.normals * (eye.position - faces[:, 0])).sum(axis=1)
     corners = eye.seen(faces.reshape(-1, 3)).reshape(-1, 4, 3)
     plan = raster.plan(corners, (towards > 0) | scene.thin, lens)
     rod_low = np.column_stack([rods[:, 0] - rods[:, 2], rods[:, 1] - rods[:, 2], rods[:, 3]])

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.poses import compose
+from rosmini.geometry.products import norms
 from rosmini.sim.shapes import Cylinder, Part, Sphere, outline_at, simple_parts
 
 if TYPE_CHECKING:
@@ -181,7 +182,7 @@ def _lid(outline: Floats, height: float) -> Floats:
 def _normals(faces: Floats) -> Floats:
     """The unit vectors (n, 3) across faces (n, 4, 3), to the outside."""
     across = np.cross(faces[:, 2] - faces[:, 0], faces[:, 3] - faces[:, 1])
-    length = np.linalg.norm(across, axis=1, keepdims=True)
+    length = norms(across)[:, None]
     unit: Floats = across / np.where(length > 0, length, 1.0)
     return unit
 

@@ -12,6 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import matrix_product, norm
+
 from .raster import GROUND, Eye
 from .scene import Floats, Rgb, Scene
 
@@ -20,7 +22,7 @@ Ints = NDArray[np.int64]
 Ways = tuple[Pixels, ...]
 """Where the pixels look, along x, y and z, for one metre of depth."""
 
-LIGHT = np.array([0.36, 0.52, 0.775]) / np.linalg.norm([0.36, 0.52, 0.775])
+LIGHT = np.array([0.36, 0.52, 0.775]) / norm([0.36, 0.52, 0.775])
 AMBIENT, DIFFUSE = 0.76, 0.26
 
 SQUARE = 0.5
@@ -58,7 +60,7 @@ def coloured(eye: Eye, scene: Scene, inverse: Floats, shown: Ints) -> Pixels:
 
 def lit(normals: Floats) -> Floats:
     """How bright surfaces with normals (n, 3) are."""
-    bright: Floats = AMBIENT + DIFFUSE * (normals @ LIGHT)
+    bright: Floats = AMBIENT + DIFFUSE * matrix_product(normals, LIGHT)
     return bright
 
 
@@ -106,7 +108,7 @@ def _wave(x: Pixels, step: Pixels) -> Pixels:
 def face_colours(eye: Eye, scene: Scene) -> Floats:
     """The colours (n, 3) of the faces in the light; a thin wall shows the side where the camera is."""
     normals = scene.normals
-    towards = np.einsum("ij,ij->i", normals, eye.position - scene.faces[:, 0])
+    towards = (normals * (eye.position - scene.faces[:, 0])).sum(axis=1)
     normals = np.where((scene.thin & (towards < 0))[:, None], -normals, normals)
     colours: Floats = scene.paints * lit(normals)[:, None]
     return colours

@@ -7,6 +7,8 @@ Angles are in radians, a matrix is applied to a column vector from the left.
 
 from __future__ import annotations
 
+from rosmini.geometry.products import inverse_matrix
+
 from .euler import (
     euler_from_matrix,
     euler_from_quaternion,
@@ -16,7 +18,6 @@ from .euler import (
 from .matrices import (
     concatenate_matrices,
     identity_matrix,
-    inverse_matrix,
     is_same_transform,
     reflection_from_matrix,
     reflection_matrix,

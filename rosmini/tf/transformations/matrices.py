@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rosmini.geometry.products import eigen, matrix_product, norm, norms, scalar_product
+
 Floats = NDArray[np.float64]
 
 EPS = 8.881784197001252e-16
@@ -43,7 +45,7 @@ def unit_vector(data: ArrayLike, axis: int | None = None, out: Floats | None = N
 def unit(data: ArrayLike) -> Floats:
     """One vector (3) with length 1."""
     vector = np.asarray(data, dtype=np.float64)[:3]
-    result: Floats = vector / np.sqrt(vector @ vector)
+    result: Floats = vector / norm(vector)
     return result
 
 
@@ -70,7 +72,7 @@ def about(linear: Floats, point: ArrayLike | None) -> Floats:
     result[:3, :3] = linear
     if point is not None:
         fixed = np.asarray(point, dtype=np.float64)[:3]
-        result[:3, 3] = fixed - linear @ fixed
+        result[:3, 3] = fixed - matrix_product(linear, fixed)
     return result
 
 
@@ -79,26 +81,43 @@ def rotation_matrix(angle: float, direction: ArrayLike, point: ArrayLike | None 
     x, y, z = axis = unit(direction)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     cosine, sine = math.cos(angle), math.sin(angle)
-    return about(cosine * np.identity(3) + sine * cross + (1 - cosine) * np.outer(axis, axis), point)
+    return about(cosine * np.identity(3) + sine * cross + (1 - cosine) * axis[:, None] * axis, point)
 
 
 def eigenvector(matrix: Floats, value: float) -> Floats:
-    """An eigenvector of length 1 for an eigenvalue. Raises `ValueError` if the matrix has none such."""
-    values, vectors = np.linalg.eig(matrix)
-    near = np.flatnonzero(np.abs(np.real(values) - value) + np.abs(np.imag(values)) < UNIT_TOLERANCE)
-    if not len(near):
+    """An eigenvector of length 1 for an eigenvalue of a matrix (3, 3).
+
+    Raises `ValueError` if that is not one of its eigenvalues.
+    """
+    rows = matrix - value * np.identity(3)
+    # It is perpendicular to all rows: along the longest product of two of them, unless all rows are parallel.
+    row = rows[int(norms(rows).argmax())]
+    size = norm(row)
+    products = np.cross(rows, np.roll(rows, -1, axis=0))
+    longest = products[int(norms(products).argmax())]
+    if size < EPS:
+        longest = np.array([0.0, 0.0, 1.0])
+    elif norm(longest) < UNIT_TOLERANCE * size * size:
+        longest = np.cross(row, np.identity(3)[int(np.abs(row).argmin())])
+    result: Floats = longest / norm(longest)
+    if norm(matrix_product(rows, result)) > UNIT_TOLERANCE:
         raise ValueError(
             f"no unit eigenvector corresponding to eigenvalue {value:g}: the matrix is not what it should be"
         )
-    result: Floats = np.real(vectors[:, near[-1]])
     return result
 
 
 def fixed_point(matrix: Floats) -> Floats:
     """A point (4, the last 1) that a matrix leaves where it is. Raises `ValueError` if there is none."""
     linear, moved = matrix[:3, :3], matrix[:3, 3]
-    point, *_ = np.linalg.lstsq(np.identity(3) - linear, moved, rcond=1e-9)
-    if not np.allclose(linear @ point + moved, point, atol=1e-6 * max(1.0, float(np.abs(moved).max()))):
+    rows = np.identity(3) - linear
+    values, axes = eigen(matrix_product(rows.T, rows))
+    known = values > 1e-14 * max(values[-1], EPS)  # along the other axes take 0: the shortest solution
+    parts = matrix_product(axes.T, matrix_product(rows.T, moved)) * known / np.where(known, values, 1.0)
+    point = matrix_product(axes, parts)
+    if not np.allclose(
+        matrix_product(linear, point) + moved, point, atol=1e-6 * max(1.0, float(np.abs(moved).max()))
+    ):
         raise ValueError(
             "no unit eigenvector corresponding to eigenvalue 1: the matrix leaves no point where it is"
         )
@@ -112,9 +131,8 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats]:
     axis = eigenvector(linear.T, 1.0)
     point = fixed_point(whole)
     cosine = (np.trace(linear) - 1.0) / 2.0
-    sine = 0.5 * float(
-        axis @ [linear[2, 1] - linear[1, 2], linear[0, 2] - linear[2, 0], linear[1, 0] - linear[0, 1]]
-    )
+    turns = linear[2, 1] - linear[1, 2], linear[0, 2] - linear[2, 0], linear[1, 0] - linear[0, 1]
+    sine = 0.5 * scalar_product(axis, turns)
     return math.atan2(sine, cosine), axis, point
 
 
@@ -128,7 +146,7 @@ def scale_matrix(
     if direction is None:
         return about(factor * np.identity(3), origin)
     axis = unit(direction)
-    return about(np.identity(3) - (1.0 - factor) * np.outer(axis, axis), origin)
+    return about(np.identity(3) - (1.0 - factor) * axis[:, None] * axis, origin)
 
 
 def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats | None]:
@@ -150,7 +168,7 @@ def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats | None]:
 def reflection_matrix(point: ArrayLike, normal: ArrayLike) -> Floats:
     """Mirror at the plane through `point` with this normal (Householder)."""
     axis = unit(normal)
-    return about(np.identity(3) - 2.0 * np.outer(axis, axis), point)
+    return about(np.identity(3) - 2.0 * axis[:, None] * axis, point)
 
 
 def reflection_from_matrix(matrix: ArrayLike) -> tuple[Floats, Floats]:
@@ -165,11 +183,11 @@ def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: A
     Raises `ValueError` if the direction is not in the plane.
     """
     axis, across = unit(direction), unit(normal)
-    if abs(float(axis @ across)) > 1e-6:
+    if abs(scalar_product(axis, across)) > 1e-6:
         raise ValueError(
-            f"direction and normal vectors are not orthogonal: their product is {float(axis @ across):.3g}"
+            f"direction and normal vectors are not orthogonal: their product is {scalar_product(axis, across):.3g}"
         )
-    return about(np.identity(3) + math.tan(angle) * np.outer(axis, across), point)
+    return about(np.identity(3) + math.tan(angle) * axis[:, None] * across, point)
 
 
 def superimposition_matrix(
@@ -177,7 +195,7 @@ def superimposition_matrix(
 ) -> Floats:
     """The motion that brings the points `v0` (3, n) nearest to `v1` (3, n), in the sum of squares.
 
-    With `scaling`, its size too. By the singular value decomposition (Kabsch, 1976), whatever `usesvd` says. Raises
+    With `scaling`, its size too. By quaternions (Horn, 1987), whatever `usesvd` says. Raises
     `ValueError` for fewer than three points.
     """
     del usesvd
@@ -189,28 +207,46 @@ def superimposition_matrix(
         )
     middle, target = first.mean(axis=1), second.mean(axis=1)
     centred, wanted = first - middle[:, None], second - target[:, None]
-    left, _, right = np.linalg.svd(wanted @ centred.T)
-    left[:, -1] *= math.copysign(1.0, float(np.linalg.det(left @ right)))
-    linear = left @ right
+    linear = _nearest_rotation(matrix_product(centred, wanted.T))
     if scaling:
         linear = linear * math.sqrt(float(np.sum(wanted**2) / np.sum(centred**2)))
     result = np.identity(4)
     result[:3, :3] = linear
-    result[:3, 3] = target - linear @ middle
+    result[:3, 3] = target - matrix_product(linear, middle)
     return result
+
+
+def _nearest_rotation(spread: Floats) -> Floats:
+    """The rotation (3, 3) that turns points nearest to others, from the sums (3, 3) of the products of coordinates.
+
+    It is that of the eigenvector of the largest eigenvalue (Horn, Closed-form solution of absolute orientation using
+    unit quaternions, 1987).
+    """
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = spread.tolist()
+    _, axes = eigen(
+        [
+            [xx + yy + zz, yz - zy, zx - xz, xy - yx],
+            [yz - zy, xx - yy - zz, xy + yx, zx + xz],
+            [zx - xz, xy + yx, yy - xx - zz, yz + zy],
+            [xy - yx, zx + xz, yz + zy, zz - xx - yy],
+        ]
+    )
+    w, x, y, z = axes[:, -1].tolist()
+    return np.array(
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+        ]
+    )
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Floats:
     """The product of matrices, in this order: the last one is applied first."""
     result = np.identity(4)
     for matrix in matrices:
-        result = result @ np.asarray(matrix, dtype=np.float64)
+        result = matrix_product(result, matrix)
     return result
-
-
-def inverse_matrix(matrix: ArrayLike) -> Floats:
-    """The matrix that undoes. Raises `numpy.linalg.LinAlgError` if nothing can."""
-    return np.linalg.inv(np.asarray(matrix, dtype=np.float64))
 
 
 def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:

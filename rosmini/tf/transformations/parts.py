@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rosmini.geometry.products import determinant, inverse_matrix, matrix_product, norm, scalar_product
+
 from .euler import euler_from_matrix, euler_matrix
 from .matrices import EPS, about, translation_matrix, unit
 
@@ -25,16 +27,16 @@ def compose_matrix(
     if perspective is not None:
         result[3, :] = np.asarray(perspective, dtype=np.float64)[:4]
     if translate is not None:
-        result = result @ translation_matrix(translate)
+        result = matrix_product(result, translation_matrix(translate))
     if angles is not None:
         roll, pitch, yaw = np.asarray(angles, dtype=np.float64)
-        result = result @ euler_matrix(float(roll), float(pitch), float(yaw), "sxyz")
+        result = matrix_product(result, euler_matrix(float(roll), float(pitch), float(yaw), "sxyz"))
     if shear is not None:
         sheared = np.identity(4)
         sheared[0, 1], sheared[0, 2], sheared[1, 2] = np.asarray(shear, dtype=np.float64)
-        result = result @ sheared
+        result = matrix_product(result, sheared)
     if scale is not None:
-        result = result @ np.diag([*np.asarray(scale, dtype=np.float64), 1.0])
+        result = result * [*np.asarray(scale, dtype=np.float64), 1.0]
     whole: Floats = result / result[3, 3]
     return whole
 
@@ -52,17 +54,33 @@ def decompose_matrix(
     whole = whole / whole[3, 3]
     affine = whole.copy()
     affine[3, :] = 0, 0, 0, 1
-    if abs(float(np.linalg.det(affine))) < EPS:
+    if abs(determinant(affine[:3, :3])) < EPS:
         raise ValueError("matrix is singular: it cannot be taken apart")
-    perspective = whole[3, :] @ np.linalg.inv(affine)
-    rotation, upper = np.linalg.qr(affine[:3, :3])
-    signs = np.sign(np.diag(upper))
-    rotation, upper = rotation * signs, signs[:, None] * upper
-    if np.linalg.det(rotation) < 0:
+    perspective = matrix_product(whole[3, :], inverse_matrix(affine))
+    rotation, upper = _orthogonal(affine[:3, :3])
+    if determinant(rotation) < 0:
         rotation, upper = -rotation, -upper
     scale = np.diag(upper).copy()
     shear = [float(upper[0, 1] / scale[1]), float(upper[0, 2] / scale[2]), float(upper[1, 2] / scale[2])]
     return scale, shear, list(euler_from_matrix(rotation)), affine[:3, 3].copy(), perspective
+
+
+def _orthogonal(linear: Floats) -> tuple[Floats, Floats]:
+    """A matrix (3, 3) as the product of an orthogonal one and an upper triangular one with a positive diagonal.
+
+    By Gram-Schmidt, twice: the second pass removes what rounding left.
+    """
+    rotation, upper = linear.copy(), np.identity(3)
+    for _ in range(2):
+        step = np.zeros((3, 3))
+        for k in range(3):
+            for i in range(k):
+                step[i, k] = scalar_product(rotation[:, i], rotation[:, k])
+                rotation[:, k] -= step[i, k] * rotation[:, i]
+            step[k, k] = norm(rotation[:, k])
+            rotation[:, k] /= step[k, k]
+        upper = matrix_product(step, upper)
+    return rotation, upper
 
 
 def projection_matrix(
@@ -80,17 +98,17 @@ def projection_matrix(
     place, axis = np.asarray(point, dtype=np.float64)[:3], unit(normal)
     if perspective is None:
         along = axis if direction is None else np.asarray(direction, dtype=np.float64)[:3]
-        return about(np.identity(3) - np.outer(along, axis) / float(along @ axis), place)
+        return about(np.identity(3) - along[:, None] * axis / scalar_product(along, axis), place)
     eye = np.asarray(perspective, dtype=np.float64)[:3]
-    depth = float((eye - place) @ axis)
+    depth = scalar_product(eye - place, axis)
     result = np.empty((4, 4))
-    result[:3, :3] = depth * np.identity(3) - np.outer(eye, axis)
-    result[:3, 3] = float(place @ axis) * eye
+    result[:3, :3] = depth * np.identity(3) - eye[:, None] * axis
+    result[:3, 3] = scalar_product(place, axis) * eye
     if pseudo:
-        result[:3, :3] -= np.outer(axis, axis)
-        result[:3, 3] += float(place @ axis) * axis
+        result[:3, :3] -= axis[:, None] * axis
+        result[:3, 3] += scalar_product(place, axis) * axis
     result[3, :3] = -axis
-    result[3, 3] = float(eye @ axis)
+    result[3, 3] = scalar_product(eye, axis)
     return result
 
 

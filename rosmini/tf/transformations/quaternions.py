@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rosmini.geometry.products import scalar_product
+
 from .matrices import EPS, unit
 
 Floats = NDArray[np.float64]
@@ -39,7 +41,7 @@ def quaternion_conjugate(quaternion: ArrayLike) -> Floats:
 def quaternion_inverse(quaternion: ArrayLike) -> Floats:
     """What multiplied with `quaternion` gives 0, 0, 0, 1."""
     four = _four(quaternion)
-    result: Floats = quaternion_conjugate(four) / (four @ four)
+    result: Floats = quaternion_conjugate(four) / scalar_product(four, four)
     return result
 
 
@@ -47,7 +49,7 @@ def quaternion_about_axis(angle: float, axis: ArrayLike) -> Floats:
     """The turn by an angle [rad] about an axis (3)."""
     direction = np.asarray(axis, dtype=np.float64)[:3]
     result = np.zeros(4)
-    if float(direction @ direction) > EPS**2:
+    if scalar_product(direction, direction) > EPS**2:
         result[:3] = unit(direction) * math.sin(angle / 2)
     result[3] = math.cos(angle / 2)
     return result
@@ -59,7 +61,7 @@ def quaternion_matrix(quaternion: ArrayLike) -> Floats:
     The quaternion need not have length 1, and one of length 0 counts as no rotation.
     """
     four = _four(quaternion)
-    square = float(four @ four)
+    square = scalar_product(four, four)
     result = np.identity(4)
     if square < EPS:
         return result
@@ -103,10 +105,10 @@ def quaternion_slerp(
 
     `spin` adds half turns of 180 degrees on the way.
     """
-    first, second = (four / math.sqrt(four @ four) for four in (_four(quat0), _four(quat1)))
+    first, second = (four / math.sqrt(scalar_product(four, four)) for four in (_four(quat0), _four(quat1)))
     if fraction in (0.0, 1.0):
         return second if fraction else first
-    cosine = float(first @ second)
+    cosine = scalar_product(first, second)
     if abs(abs(cosine) - 1.0) < EPS:
         return first
     if shortestpath and cosine < 0:

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import determinant, matrix_product
 from rosmini.markup import FARTHEST, Element
 from rosmini.urdf.kinematics import turn
 
@@ -78,8 +79,8 @@ class _Reader:
         if depth > DEEPEST or self.nodes > MOST_NODES:
             raise node.error("nodes of the scene hold one another without end")
         with np.errstate(over="ignore", invalid="ignore"):
-            place = above @ _transform(node)
-            size = abs(float(np.linalg.det(place[:3, :3])))
+            place = matrix_product(above, _transform(node))
+            size = abs(determinant(place[:3, :3]))
         if not (np.abs(place).max() <= FARTHEST and size > 0):
             raise node.error("the transforms of this node make it infinitely large, or flat")
         if part in (node.get("name"), node.get("id")):
@@ -242,5 +243,5 @@ def _transform(node: Element) -> Floats:
             length = math.sqrt(x * x + y * y + z * z)
             if length > 0:
                 own[:3, :3] = turn((x / length, y / length, z / length), math.radians(degrees))
-        result = result @ own
+        result = matrix_product(result, own)
     return result

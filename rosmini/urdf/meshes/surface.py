@@ -8,6 +8,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import determinant, matrix_product
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -38,5 +40,5 @@ class Surface:
     def moved(self, transform: Floats) -> Self:
         """The surface after a transform (4, 4), which may also stretch and mirror."""
         linear = transform[:3, :3]
-        faces = self.faces if np.linalg.det(linear) > 0 else self.faces[:, ::-1]
-        return replace(self, vertices=self.vertices @ linear.T + transform[:3, 3], faces=faces)
+        faces = self.faces if determinant(linear) > 0 else self.faces[:, ::-1]
+        return replace(self, vertices=matrix_product(self.vertices, linear.T) + transform[:3, 3], faces=faces)
