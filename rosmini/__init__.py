@@ -64,6 +64,7 @@ def load_ipython_extension(shell: Any) -> None:
     import importlib
 
     importlib.import_module("rosmini.notebook.extension").load(shell)
+    importlib.import_module("rosmini.notebook.unknown_magics").load_ipython_extension(shell)
 
 
 def unload_ipython_extension(shell: Any) -> None:

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import argparse
 import os
+import subprocess
 from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
 
 from rosmini.cli.checkout import find_checkout
 from rosmini.errors import RosminiError
 
+from . import notebooks as stored
 from .build import has_display
+
+OWN_SETTINGS = Path(__file__).with_name("jupyter")
+"""Defaults of the user interface: no question about news."""
 
 
 def port_number(text: str) -> int:
@@ -41,14 +48,56 @@ def lab_arguments(args: argparse.Namespace, notebooks: str) -> list[str]:
         f"--ServerApp.root_dir={notebooks}",
         "--ServerApp.ip=127.0.0.1",
         f"--ServerApp.port={args.port}",
+        "--ServerApp.kernel_spec_manager_class=book.tools.kernels.Kernels",
     ]
-    # No question about news, no confirmation at Ctrl-C.
+    # No news, no confirmation at Ctrl-C.
     arguments += ["--LabApp.news_url=None", "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate"]
     arguments += ["--ServerApp.answer_yes=True"]
     # In a container everybody is root, and the server listens to this machine only.
     if getattr(os, "geteuid", lambda: 1)() == 0:
         arguments.append("--allow-root")
     return arguments + (["--no-browser"] if args.no_open or not has_display() else [])
+
+
+def unchanged(folder: Path) -> list[Path]:
+    """The notebooks in `folder` that are as in the current commit of its git repository; none without git."""
+
+    def ask(*command: str) -> set[str]:
+        done = subprocess.run(
+            ["git", "-C", str(folder), *command], capture_output=True, check=True, encoding="utf-8"
+        )
+        return {name for name in done.stdout.split("\0") if name.endswith(".ipynb")}
+
+    try:
+        committed = ask("ls-tree", "-z", "--name-only", "HEAD", "--", ".")
+        changed = ask("diff", "-z", "--name-only", "--relative", "HEAD", "--", ".")
+    except (OSError, subprocess.CalledProcessError):
+        return []
+    return [folder / name for name in sorted(committed - changed)]
+
+
+def trust(folder: Path) -> int:
+    """Let Jupyter show the stored figures of the book's notebooks in `folder`; return how many notebooks that are.
+
+    Only unchanged ones are signed: a figure can run scripts in the reader's browser. What readers change and run
+    themselves Jupyter signs when it saves.
+    """
+    from nbformat.sign import NotebookNotary
+
+    notary: Any = NotebookNotary()  # type: ignore[no-untyped-call]
+    own = unchanged(folder)
+    for path in own:
+        notary.sign(stored.read(path))
+    return len(own)
+
+
+def prefer_own_settings() -> None:
+    """Put `OWN_SETTINGS` before the folders in which this process's Jupyter looks for settings.
+
+    They are defaults: JupyterLab prefers what the reader has chosen in it.
+    """
+    others = os.environ.get("JUPYTER_CONFIG_PATH")
+    os.environ["JUPYTER_CONFIG_PATH"] = os.pathsep.join([str(OWN_SETTINGS), *([others] if others else [])])
 
 
 def main(args: argparse.Namespace) -> int:
@@ -61,5 +110,11 @@ def main(args: argparse.Namespace) -> int:
         )
     from jupyterlab.labapp import LabApp
 
+    prefer_own_settings()
+    if not trust(notebooks):
+        print(
+            "The stored figures show once their cells have run: without git's history of this folder "
+            "it is not known whether its notebooks are the book's."
+        )
     LabApp.launch_instance(lab_arguments(args, str(notebooks)))
     return 0

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import atexit
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from rosmini.cli import magics
 from rosmini.errors import UsageError
@@ -14,9 +15,6 @@ from . import file_cells, logo_cell, node_cell
 from .completion import complete
 from .saving import save_package
 from .session import Session, begin_session, end_session, session_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 def load(shell: Any) -> None:
@@ -34,26 +32,21 @@ def load(shell: Any) -> None:
     shell.events.register("pre_run_cell", session.begin_cell)
     shell.set_hook("complete_command", complete, str_key="%rosrun")
     atexit.register(end_session, shell)
-    for kind, name, act in (
-        ("line", "roscore", roscore),
-        ("line", "rosrun", node_cell.rosrun),
-        ("line", "roslaunch", node_cell.roslaunch),
-        ("cell", "node", node_cell.node),
-        ("cell", "terminal", terminal),
-        ("cell", "logo", logo_cell.logo),
-        ("cell", "msg", file_cells.msg),
-        ("cell", "srv", file_cells.srv),
-        ("cell", "action", file_cells.action),
-        ("cell", "launch", file_cells.launch),
-        ("line", "save_package", save_package),
-    ):
+    for kind, name, act in OWN_MAGICS:
         _register(shell, kind, name, act)
 
 
 def unload(shell: Any) -> None:
-    """Undo :func:`load`: end the graph, remove the notebook's package, and leave ``import rospy`` alone."""
+    """Undo :func:`load`: end the graph, remove the notebook's package, and leave ``import rospy`` alone.
+
+    Prints which nodes end with the graph: ``%reload_ext`` calls this, too.
+    """
     if not is_loaded(shell):
         return
+    if nodes := [name for name in session_of(shell).graph.nodes if name != "/rosout"]:
+        print(
+            f"rosmini: the graph of this notebook ends, and these nodes with it: {', '.join(sorted(nodes))}"
+        )
     shell.events.unregister("pre_run_cell", session_of(shell).begin_cell)
     atexit.unregister(end_session)
     end_session(shell)
@@ -95,6 +88,22 @@ def terminal(session: Session, line: str, cell: str) -> None:
     """
     session.look()
     session.terminals.run(line, cell)
+
+
+OWN_MAGICS: tuple[tuple[str, str, Callable[..., object]], ...] = (
+    ("line", "roscore", roscore),
+    ("line", "rosrun", node_cell.rosrun),
+    ("line", "roslaunch", node_cell.roslaunch),
+    ("cell", "node", node_cell.node),
+    ("cell", "terminal", terminal),
+    ("cell", "logo", logo_cell.logo),
+    ("cell", "msg", file_cells.msg),
+    ("cell", "srv", file_cells.srv),
+    ("cell", "action", file_cells.action),
+    ("cell", "launch", file_cells.launch),
+    ("line", "save_package", save_package),
+)
+"""The magics that only a notebook has: the kind, the name, and the function that gets the session and the texts."""
 
 
 def _register(shell: Any, kind: str, name: str, act: Callable[..., object]) -> None:

@@ -5,15 +5,18 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import urllib.error
 import urllib.request
 from pathlib import Path
 
+import nbformat
 import pytest
+from nbformat.sign import NotebookNotary
 
-from book.tools import book, build, lab
+from book.tools import book, build, lab, notebooks
 from book.tools.build import BookError, build_book, has_display
 from rosmini.cli import checkout, main
 from rosmini.cli.checkout import NoCheckout, find_checkout
@@ -181,6 +184,11 @@ def test_lab_serves_the_notebooks_on_this_machine_only(tmp_path):
             path.name for path in (ROOT / "notebooks").iterdir() if not path.name.startswith(".")
         }
         assert listening_addresses(port) == {"0100007F"}
+        plugin = "@jupyterlab/apputils-extension:notification"
+        settings = ask(f"http://127.0.0.1:{port}/lab/api/settings/{plugin}")
+        assert settings["schema"]["properties"]["fetchNews"]["default"] == "false"  # "none": it asks
+        python = ask(f"http://127.0.0.1:{port}/api/kernelspecs/python3")["spec"]
+        assert any("rosmini.notebook.unknown_magics" in argument for argument in python["argv"])
         server.terminate()  # it would ask before it ends, if there were somebody to answer
         server.communicate(timeout=PATIENCE)
 
@@ -192,3 +200,43 @@ def test_lab_opens_no_browser_unless_it_can(monkeypatch):
     assert "--no-browser" in lab.lab_arguments(parser.parse_args(["lab", "--no-open"]), "n")
     monkeypatch.setattr(lab, "has_display", lambda: False)
     assert "--no-browser" in lab.lab_arguments(parser.parse_args(["lab"]), "n")
+
+
+@pytest.fixture
+def copy(tmp_path, monkeypatch):
+    """A git repository with two chapters, and Jupyter's signatures in a folder of its own."""
+    monkeypatch.setenv("JUPYTER_DATA_DIR", str(tmp_path / "data"))
+    folder = tmp_path / "repository" / "notebooks"
+    folder.mkdir(parents=True)
+    for name in ("a.ipynb", "b.ipynb"):
+        output = nbformat.v4.new_output("display_data", {"text/html": f"<svg></svg>{name}"})
+        cell = nbformat.v4.new_code_cell("1", execution_count=1, outputs=[output])
+        notebooks.write(nbformat.v4.new_notebook(cells=[cell]), folder / name)
+    for command in (
+        ["init", "-q"],
+        ["add", "."],
+        ["-c", "user.name=a", "-c", "user.email=a@b", "commit", "-qm", "All"],
+    ):
+        subprocess.run(["git", "-C", str(folder.parent), *command], check=True)
+    return folder
+
+
+def is_trusted(path):
+    return NotebookNotary().check_signature(notebooks.read(path))
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_lab_trusts_the_notebooks_that_are_the_repositorys(copy):
+    assert not is_trusted(copy / "a.ipynb")
+    changed = (copy / "b.ipynb").read_text(encoding="utf-8").replace("<svg>", "<svg onload='1'>")
+    (copy / "b.ipynb").write_text(changed, encoding="utf-8")
+    (copy / "c.ipynb").write_text(changed.replace("'1'", "'2'"), encoding="utf-8")
+    assert lab.trust(copy) == 1
+    assert [is_trusted(copy / name) for name in ("a.ipynb", "b.ipynb", "c.ipynb")] == [True, False, False]
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_lab_trusts_no_notebook_without_a_history(copy):
+    shutil.rmtree(copy.parent / ".git")
+    assert lab.trust(copy) == 0
+    assert not is_trusted(copy / "a.ipynb")
