@@ -130,7 +130,7 @@ def _launch_here(given: Values, call: Call) -> Result:
         return answer(given, plan, packages)
     plan = changed(plan, given)
     plan.warnings += differences(plan)
-    make = in_graph(call.graph, packages, **call.console)
+    make = in_graph(call.graph, packages, to_log=bool(given.force_log), **call.console)
     launch = Launch(plan, call.graph, make, say=call.say, warn=call.say)
     launch.start()
     if given.duration is not None:
@@ -321,7 +321,9 @@ def in_one_process(plan: Plan, given: Values, nodes: Sequence[str]) -> int:
             partial(print, file=stream, flush=True) for stream in (sys.stdout, sys.stderr)
         )  # not a script's
         timeouts = {"sigint_timeout": given.sigint_timeout, "sigterm_timeout": given.sigterm_timeout}
-        launch = Launch(plan, graph, in_graph(graph), say=say, warn=warn, **timeouts)
+        launch = Launch(
+            plan, graph, in_graph(graph, to_log=bool(given.force_log)), say=say, warn=warn, **timeouts
+        )
         launch.start()
         try:
             if specs:

@@ -158,11 +158,15 @@ class Logger:
     # -- where messages go ---------------------------------------------------------------------------------------
 
     def console(self, level: int, line: str) -> None:
-        """Write a line: from WARN on to standard error, as rospy does; in a notebook all to standard output."""
-        name = "stdout" if level <= LEVELS["INFO"] or self._node.graph.notebook else "stderr"
+        """Write a line: from WARN on to standard error, as rospy does.
+
+        In a notebook every line goes to standard output, unless that goes to a log.
+        """
         # A script's real thread does not see the script's streams in `sys`, which belong to whoever the graph is
         # running; nor does a simulator's step, which is in no lane, see those of a built-in node.
         own = getattr(self.streams or self._node.scheduler.current().context, "get_own", None)
+        to_log = own is not None and getattr(own("stdout"), "to_log", False)
+        name = "stdout" if level <= LEVELS["INFO"] or (self._node.graph.notebook and not to_log) else "stderr"
         stream: TextIO = getattr(sys, name) if own is None else own(name)
         stream.write(line + "\n")
 

@@ -232,11 +232,16 @@ def set_parameters(plan: Plan, graph: Graph) -> None:
 
 
 def in_graph(
-    graph: Graph, packages: PackageIndex | None = None, **console: Any
+    graph: Graph, packages: PackageIndex | None = None, *, to_log: bool = False, **console: Any
 ) -> Callable[[NodePlan, str], Running]:
-    """Return what makes the handles of nodes that all run in one graph; `console` is `Console`'s."""
+    """Return a function that makes the handles of nodes, which all run in one graph.
+
+    With `to_log` only their standard error appears. `console` has the arguments of `Console`.
+    """
     index = packages if packages is not None else PackageIndex()
     shared = Console(graph.scheduler, **console)
+    if to_log:
+        shared.drop_output()
 
     def make(node: NodePlan, name: str) -> Running:
         found = index.find_executable(node.package, node.type)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from .failures import user_traceback
 from .stdin import make_feed
-from .streams import OutputSink, ScriptOutput
+from .streams import ErrorsOnly, OutputSink, ScriptOutput
 
 if TYPE_CHECKING:
     from rosmini.graph.scheduler import Scheduler
@@ -52,6 +52,11 @@ class Console:
     def captured(self) -> str | None:
         """What was written so far, if it is kept."""
         return None if self._captured is None else self._captured.getvalue()
+
+    def drop_output(self) -> None:
+        """Show only standard error from now on."""
+        self.sink = ErrorsOnly(self.sink)
+        self.is_apart = True
 
     def report(self, name: str, error: BaseException) -> None:
         """Write the traceback of what ended ``name``, the user's frames only."""

@@ -18,6 +18,9 @@ class OutputSink:
     display) and is closed as soon as somebody else writes.
     """
 
+    to_log = False
+    """Whether standard output goes to a log and not to the screen."""
+
     def __init__(self, stdout: TextIO, stderr: TextIO, *, prefix: bool = True) -> None:
         self.stdout = stdout
         self.stderr = stderr
@@ -57,6 +60,25 @@ class OutputSink:
                 stream.flush()
 
 
+class ErrorsOnly(OutputSink):
+    """Another sink, on which only standard error appears: the screen under `roslaunch --log`."""
+
+    to_log = True
+
+    def __init__(self, sink: OutputSink) -> None:
+        super().__init__(sink.stdout, sink.stderr, prefix=sink.prefix)
+        self._sink = sink
+
+    def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
+        """Pass a line of standard error on."""
+        if owner.is_error:
+            self._sink.emit(owner, text, complete=complete)
+
+    def flush(self) -> None:
+        """Flush the other sink."""
+        self._sink.flush()
+
+
 class ScriptOutput(io.TextIOBase):
     """``sys.stdout`` or ``sys.stderr`` of one script."""
 
@@ -70,6 +92,11 @@ class ScriptOutput(io.TextIOBase):
         self.buffer = _OutputBuffer(self)
         self.name = "<stderr>" if is_error else "<stdout>"
         self.mode = "w"
+
+    @property
+    def to_log(self) -> bool:
+        """Whether standard output of its script goes to a log and not to the screen."""
+        return self._sink.to_log
 
     @property
     def encoding(self) -> str:  # type: ignore[override]

@@ -296,3 +296,22 @@ def test_in_a_notebook_the_nodes_run_in_its_graph(source: Path, capsys: Any) -> 
         assert "/chatter" in dict(graph.ask_as("/x").ask("getTopicTypes"))
         result.launch.stop()
     assert "[talker] /talker None /chatter" in capsys.readouterr().out
+
+
+def test_with_log_the_nodes_of_a_notebook_show_only_warnings(source: Path, capsys: Any) -> None:
+    (source / "speaking" / "scripts" / "worried.py").write_text(
+        "#!/usr/bin/env python3\nimport rospy\nrospy.init_node('worried')\nprint('printed')\n"
+        "rospy.loginfo('usual')\nrospy.logwarn('odd')\nrospy.spin()\n",
+        encoding="utf-8",
+    )
+    (source / "speaking" / "scripts" / "worried.py").chmod(0o755)
+    launch = source / "speaking" / "launch" / "worried.launch"
+    launch.write_text(
+        '<launch><node pkg="speaking" type="worried.py" name="worried"/></launch>', encoding="utf-8"
+    )
+    with Graph(strict=False) as graph:
+        result: Any = TOOL.run("--log", "speaking", "worried.launch", "--duration", "1", graph=graph)
+        result.launch.stop()
+    said = capsys.readouterr()
+    assert "odd" in said.err
+    assert not {"usual", "printed"} & set((said.out + said.err).split())
