@@ -67,6 +67,7 @@ RQT = {
     "tf_tree": "the tree of frames",
     "image_view": "the next image on a topic",
     "gui": "several plugins in one window",
+    "robot_steering": "drive a robot, with keys",
     "publisher": "publish on topics, from a form",
     "service_caller": "call services, from a form",
     "logger_level": "how much each node logs, from a form",

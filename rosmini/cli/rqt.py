@@ -342,6 +342,8 @@ PANELS = {
 }
 """The panels: the class, its words, and the command that does the same in a terminal, where a page operates nothing."""
 
+TELEOP = "roslaunch turtlebot3_teleop turtlebot3_teleop_key.launch"
+
 
 def _panel(verb: str) -> None:
     """Add the verb that opens a panel in a notebook."""
@@ -368,6 +370,34 @@ def _panel(verb: str) -> None:
 
 for _verb in PANELS:
     _panel(_verb)
+
+
+def _steering_parser() -> Parser:
+    text = "A pad with keys that drives a robot or a turtle in a notebook. In a terminal do: rosmini "
+    return _add_title(
+        Parser("rqt", "rosmini rqt_robot_steering [ROBOT]", text + TELEOP, example="  %rqt_robot_steering")
+    )
+
+
+def _steering_in_terminal(_words: Sequence[str]) -> int:
+    print(
+        f"rqt_robot_steering is a pad in a notebook. In a terminal do:\n  rosmini {TELEOP}", file=sys.stderr
+    )
+    return 2
+
+
+@TOOL.verb(RQT["robot_steering"], parser=_steering_parser, in_terminal=_steering_in_terminal)
+def robot_steering(given: Values, call: Call) -> Shown:
+    """Open a pad for a robot of the graph's simulator: the robot that is named, or else the first."""
+    from rosmini.sim.simulation import Simulation
+    from rosmini.turtlesim import TurtleSim
+    from rosmini.widgets import teleop_pad
+
+    if len(given.words) > 1:
+        _steering_parser().error("rqt_robot_steering takes one robot")
+    programs = [node.program for _, node in sorted(call.graph.nodes.items())]
+    driven = next((each for each in programs if isinstance(each, Simulation | TurtleSim)), call.graph)
+    return Shown(view=teleop_pad(driven, robot="".join(given.words), title=given.title))
 
 
 def _gui_parser() -> Parser:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import rosmini.cli.main as cli
-from rosmini import Graph
+from rosmini import Graph, rosrun
 from rosmini.bag import Bag
 from rosmini.cli.rqt import PANELS, TOOL, Shown
 from rosmini.cli.verbs import Call, VerbError
@@ -105,6 +105,23 @@ def test_a_panel_opens_in_a_notebook_and_goes_on(graph: Graph, line: str) -> Non
     assert f"/rqt_{line.split(maxsplit=1)[0]}" in graph.nodes
     with pytest.raises(UsageError):
         shown(graph, f"{line} a b")
+
+
+def test_robot_steering_drives_the_robot_of_the_simulator() -> None:
+    graph = Graph()
+    sim = rosrun("rosmini_sim", "simulator", "_world:=room", graph=graph).instance()
+    pad = shown(graph, "robot_steering --title Drive").view
+    pad.press("w", times=10)
+    graph.run(3.0)
+    assert pad.text.startswith("Drive\n")
+    assert sim.truth()[0] > 0.1
+    with pytest.raises(UsageError):
+        shown(graph, "robot_steering a b")
+    graph.shutdown()
+
+
+def test_robot_steering_without_a_simulator_publishes_on_cmd_vel(graph: Graph) -> None:
+    assert "geometry_msgs/Twist on /cmd_vel" in str(shown(graph, "robot_steering"))
 
 
 @pytest.mark.parametrize(

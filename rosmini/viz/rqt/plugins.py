@@ -24,7 +24,7 @@ PLUGINS: tuple[tuple[str, str, str, str], ...] = (
     ("Robot Tools", "Joint Trajectory Controller", "rqt_joint_trajectory_controller", "not here"),
     ("Robot Tools", "MoveIt! Monitor", "rqt_moveit", "not here"),
     ("Robot Tools", "Navigation Viewer", "rqt_nav_view", "rviz"),
-    ("Robot Tools", "Robot Steering", "rqt_robot_steering", "simulator.pad()"),
+    ("Robot Tools", "Robot Steering", "rqt_robot_steering", "rqt_robot_steering"),
     ("Robot Tools", "Runtime Monitor", "rqt_runtime_monitor", "rostopic echo /diagnostics"),
     ("Services", "Service Caller", "rqt_service_caller", "rqt_service_caller"),
     ("Services", "Service Type Browser", "rqt_srv", "rqt_srv"),
