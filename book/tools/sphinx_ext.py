@@ -8,10 +8,15 @@
 - The style sheet and the scripts of `rosmini.viz` come along, and meshcat's viewer if a page needs it.
 - Cells with `%%node`, `%%launch` or `%%terminal` are coloured as what they hold.
 - The directive `drawing` puts a drawing of `book/static/drawings` into a prose page, with a caption.
+- The directive `stored` shows a figure that a notebook has stored, such as the pad on the cover.
+- The substitutions `repository_copy` and `reading_hours` are computed: the first from the one setting with the
+  repository's address (`repository.url` in `_config.yml`), the second from the notebooks.
+- A notebook that a reader downloads begins with a cell that says how to get what it needs.
 """
 
 from __future__ import annotations
 
+import re
 import shutil
 from html import escape
 from pathlib import Path
@@ -22,12 +27,14 @@ from latex2mathml.converter import convert
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
+from book.tools import notebooks, reading
 from book.tools.lexer import CellLexer
 from book.tools.pages import VIEWER_CALL
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
+    from sphinx.config import Config
     from sphinx.writers.html5 import HTML5Translator
 
 # How a quote begins -> the classes of the box that it becomes (the theme gives "note", "tip" and so on their look).
@@ -41,8 +48,8 @@ BOXES: dict[str, tuple[str, ...]] = {
 }
 
 
-DRAWINGS = Path(__file__).resolve().parents[1] / "static" / "drawings"
-"""The drawings of the prose pages, which `assets/generate` makes."""
+STATIC_PICTURES = Path(__file__).resolve().parents[1] / "static"
+"""The folders `drawings` and `films` hold the pictures of the prose pages, which `assets/generate` makes."""
 
 
 def mathml(tex: str, *, display: bool) -> str:
@@ -134,7 +141,7 @@ class Drawing(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return the figure. Raises docutils' error for a name that is no drawing, and for one without a caption."""
         self.assert_has_content()
-        drawings = {path.stem: path for path in sorted(DRAWINGS.glob("*.svg"))}
+        drawings = {path.stem: path for path in sorted(STATIC_PICTURES.glob("[df]*/*.svg"))}
         path = drawings.get(self.arguments[0])
         if path is None:
             raise self.error(f"there is no drawing {self.arguments[0]}; there are {', '.join(drawings)}")
@@ -143,6 +150,31 @@ class Drawing(SphinxDirective):
         svg = path.read_text(encoding="utf-8").strip()
         figure = f'<figure class="rosmini-figure">{svg}{caption}</figure>'
         return [nodes.raw("", figure, format="html")]
+
+
+class Stored(SphinxDirective):
+    """A figure that a notebook has stored, by the notebook's path and the figure's number.
+
+    The content is its caption.
+    """
+
+    required_arguments = 2
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        """Return the figure. Raises docutils' error if the notebook has stored no such figure."""
+        self.assert_has_content()
+        name, number = self.arguments
+        path = Path(self.env.srcdir, f"{name}.ipynb")
+        self.env.note_dependency(str(path))
+        caption = re.compile(rf"<figcaption>Figure {re.escape(number)}:.*?</figcaption>", re.DOTALL)
+        words = f"<figcaption>{escape(' '.join(self.content))}</figcaption>"
+        for cell in notebooks.read(path).cells if path.is_file() else ():
+            for output in cell.get("outputs", ()):
+                html = output.get("data", {}).get("text/html", "")
+                if caption.search(html):
+                    return [nodes.raw("", caption.sub(lambda _: words, html), format="html")]
+        raise self.error(f"{name}.ipynb has stored no figure {number}: execute it first")
 
 
 def silence_thebe(app: Sphinx) -> None:
@@ -172,6 +204,28 @@ def copy_viewer(app: Sphinx, error: Exception | None) -> None:
         )
 
 
+def substitute(app: Sphinx, config: Config) -> None:
+    """Define the substitutions that are computed."""
+    url = config.html_theme_options.get("repository_url", "")
+    chapters = sorted(Path(app.srcdir, "notebooks").glob("*.ipynb"))
+    minutes = sum(reading.minutes(notebooks.read(path)) for path in chapters)
+    config.myst_substitutions |= {
+        "repository_copy": f"[a copy of the repository]({url})" if url else "a copy of this repository",
+        "reading_hours": str(round(minutes / 60)),
+    }
+
+
+def direct_downloads(app: Sphinx, error: Exception | None) -> None:
+    """Begin each notebook that readers can download with the way to what it needs."""
+    if error is not None or app.builder.format != "html":
+        return
+    url = app.config.html_theme_options.get("repository_url", "")
+    for path in sorted(Path(app.outdir, "_sources", "notebooks").glob("*.ipynb")):
+        notebook = notebooks.read(path)
+        reading.add_directions(notebook, path.name, url)
+        notebooks.write(notebook, path)
+
+
 def prepare(app: Sphinx) -> None:
     """When the builder is ready, and before the handlers of the other extensions."""
     silence_thebe(app)
@@ -197,9 +251,12 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
     app.add_transform(QuoteBoxes)
     app.add_directive("drawing", Drawing)
+    app.add_directive("stored", Stored)
     for language in ("python", "ipython3"):  # of fences, and of cells
         app.add_lexer(language, CellLexer)
+    app.connect("config-inited", substitute)
     app.connect("builder-inited", prepare, priority=1)
+    app.connect("build-finished", direct_downloads)
     app.connect("build-finished", copy_viewer, priority=998)
     # After every extension has copied its scripts.
     app.connect("build-finished", hush, priority=999)

@@ -329,7 +329,7 @@ def find(number: str) -> Exercise:
 
 def exercises_of(chapter: str) -> Iterator[Exercise]:
     """The exercises of a chapter ("11"), in the order in which its module defines them; none if it has no module."""
-    name = f"rosmini.book.exercises.chapter_{chapter}"
+    name = f"rosmini.book.exercises.chapter_{chapter.zfill(2)}"
     if chapter.isdecimal() and importlib.util.find_spec(name):
         yield from (
             value for value in vars(importlib.import_module(name)).values() if isinstance(value, Exercise)

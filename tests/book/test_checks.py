@@ -236,7 +236,7 @@ def all_exercises():
 
 def mistakes_of(number):
     """Functions that each return a wrong answer, so that no check can pass always."""
-    name = f".exercises.mistakes.chapter_{number.partition('.')[0]}"
+    name = f".exercises.mistakes.chapter_{number.partition('.')[0].zfill(2)}"
     return importlib.import_module(name, __package__).MISTAKES[number]
 
 

@@ -10,6 +10,9 @@ import pytest
 
 pytest.importorskip("sphinx")
 
+from nbformat.v4 import new_code_cell, new_notebook, new_output
+
+from book.tools import notebooks
 from book.tools.sphinx_ext import copy_viewer
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
@@ -53,6 +56,10 @@ Figure 1.1: Four parts
 & no more.
 ```
 
+```{stored} notebooks/17_stored 17.2
+What the notebook stored
+```
+
 <details>
 <summary>Solution to exercise 11.1</summary>
 
@@ -63,11 +70,13 @@ print("solved")
 </details>
 """
 
+STORED = "<figure><b>A robot</b><figcaption>Figure 17.2: Its own caption</figcaption></figure>"
+
 
 CONFIGURATION = (
     "extensions = ['myst_nb', 'sphinx_thebe', 'book.tools.sphinx_ext']\n"
     "html_math_renderer = 'mathml'\nmyst_enable_extensions = ['dollarmath']\nhtml_theme = 'sphinx_book_theme'\n"
-    "thebe_config = {'always_load': False}\nhtml_context = {'default_mode': 'auto'}\n"
+    "exclude_patterns = ['notebooks']\nthebe_config = {'always_load': False}\nhtml_context = {'default_mode': 'auto'}\n"
 )
 
 
@@ -97,6 +106,9 @@ def build(source, page):
 @pytest.fixture(scope="module")
 def html(tmp_path_factory):
     source = tmp_path_factory.mktemp("source")
+    cell = new_code_cell("show()", outputs=[new_output("display_data", {"text/html": STORED})])
+    (source / "notebooks").mkdir()
+    notebooks.write(new_notebook(cells=[cell]), source / "notebooks" / "17_stored.ipynb")
     assert build(source, PAGE) == ""
     return source / "out"
 
@@ -147,6 +159,14 @@ def test_a_drawing_is_inline_with_its_caption(page):
     assert figure.startswith("<svg ")
     assert 'aria-label="Four boxes' in figure
     assert figure.endswith("</svg><figcaption>Figure 1.1: Four parts &amp; no more.</figcaption>")
+
+
+def test_a_stored_figure_is_shown_with_another_caption(page):
+    assert STORED.replace("Figure 17.2: Its own caption", "What the notebook stored") in page
+
+
+def test_a_figure_that_no_notebook_stores_is_an_error(tmp_path):
+    assert "no figure 3.1" in build(tmp_path, "```{stored} notebooks/03_none 3.1\nA caption\n```")
 
 
 def test_thebe_is_silent(page):

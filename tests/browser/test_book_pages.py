@@ -75,6 +75,43 @@ def test_every_page_opens_with_an_empty_console(book_html, chromium, watch, shar
     assert problems == []
 
 
+@pytest.mark.parametrize("by", ["keys", "thumb"])
+def test_the_robot_on_the_cover_is_driven(book_html, chromium, watch, by):
+    width, height = WIDTHS["desktop" if by == "keys" else "phone"]
+    context = chromium.new_context(viewport={"width": width, "height": height}, has_touch=by == "thumb")
+    page = context.new_page()
+    watcher = watch(page)
+    page.clock.install(time=0)
+    page.goto((book_html / "book" / "intro.html").as_uri())
+    page.locator(".rp-stage").wait_for()
+    page.clock.pause_at(60_000)
+    if by == "keys":
+        page.locator(".rp-stage").click()
+        for _ in range(9):
+            page.keyboard.press("w")
+    else:
+        for _ in range(9):
+            page.locator("[data-key=w]").tap()
+    page.clock.run_for(3_000)
+    assert "x: 0.09" in page.locator(".rp-log").first.inner_text()
+    assert "x 0.00 m" not in page.locator(".rp-readings .rp-value").first.inner_text()
+    assert watcher.seen == []
+    context.close()
+
+
+def test_the_films_on_the_cover_can_be_paused(book_html, chromium):
+    context = chromium.new_context()
+    page = context.new_page()
+    page.goto((book_html / "book" / "intro.html").as_uri())
+    states = """() => document.querySelector(".films").getAnimations({subtree: true}).map((each) => each.playState)"""
+    assert set(page.evaluate(states)) == {"running"}
+    page.locator("#pause-films").check()
+    assert set(page.evaluate(states)) == {"paused"}
+    page.emulate_media(reduced_motion="reduce")
+    assert page.evaluate(states) == []
+    context.close()
+
+
 def test_the_reader_can_change_the_theme_and_search(book_html, chromium, watch):
     context = chromium.new_context(color_scheme="light", viewport={"width": 1280, "height": 900})
     page = context.new_page()

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 import yaml
 
+from book.tools import notebooks
 from book.tools.pages import page_problems, script_problems, site_problems
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path, embed
 
@@ -24,12 +27,38 @@ def test_every_notebook_is_in_the_contents(root):
     assert listed == {f"notebooks/{path.stem}" for path in (root / "notebooks").glob("*.ipynb")}
 
 
-def test_every_notebook_is_a_link_on_the_roadmap(root):
-    roadmap = (root / "book" / "roadmap.md").read_text(encoding="utf-8")
-    missing = [
-        path.stem for path in (root / "notebooks").glob("*.ipynb") if f"notebooks/{path.stem}" not in roadmap
+def test_the_page_of_contents_introduces_the_parts_and_pages_in_their_order(root):
+    toc = yaml.safe_load((root / "book" / "_toc.yml").read_text(encoding="utf-8"))
+    text = (root / "book" / "contents.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## (.+)$", text, re.MULTILINE) == [part["caption"] for part in toc["parts"]]
+    linked = [
+        f"book/{name}" if name[0] != "/" else name[1:]
+        for name in re.findall(r"\{doc\}`[^<`]+<([^>`]+)>`", text)
     ]
-    assert missing == []
+    listed = [page for page in toc_pages(root)[1:] if page != "book/contents"]
+    assert sorted(linked) == sorted(listed)
+    chapters = [page for page in listed if page.startswith("notebooks/")]
+    assert [page for page in linked if page.startswith("notebooks/")] == chapters
+
+
+def test_the_cover_leads_to_the_first_steps_and_is_light(book_html, root):
+    text = (book_html / "book" / "intro.html").read_text(encoding="utf-8")
+    assert re.search(r'class="right-next"\s+href="\.\./notebooks/01_first_steps\.html"', text)
+    scripts = set(re.findall(r"rosmini-[a-z-]+\.js", text))
+    own = [STATIC / name for name in scripts] + [
+        STATIC / "rosmini.css",
+        root / "book" / "static" / "book.css",
+    ]
+    assert "rosmini-pad.js" in scripts
+    assert MESHCAT not in text
+    assert len(text) + sum(path.stat().st_size for path in own) < 400_000
+
+
+def test_a_downloaded_notebook_says_how_to_get_what_it_needs(book_html, root):
+    for path in sorted((root / "notebooks").glob("*.ipynb")):
+        first = notebooks.read(book_html / "_sources" / "notebooks" / path.name).cells[0]
+        assert "uv run rosmini lab" in first.source
+        assert path.name in first.source
 
 
 def test_every_prose_page_is_in_the_contents(root):

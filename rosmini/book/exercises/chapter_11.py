@@ -50,11 +50,12 @@ def way(trial: Trial, seconds: float) -> float:
 @exercise("11.1", praise="From two starts it came near the wall, and stood. It looks where it goes.")
 def stop(answer: Script) -> Any:
     """The robot drives up to a wall and stands before it, wherever it starts."""
-    _stops_from(answer, 1.2)
-    return _stops_from(answer, 0.0)
+    stops_from(answer, 1.2)
+    return stops_from(answer, 0.0)
 
 
-def _stops_from(answer: Script, start: float) -> Any:
+def stops_from(answer: Script, start: float) -> Any:
+    """Run the script with a robot at x = `start` [m]; return the drive. Raises `Wrong` if it does not stop in time."""
     with Trial("room", f"_x:={start}") as trial:
         trial.start(answer)
         trial.run(25.0)
@@ -68,12 +69,12 @@ def _stops_from(answer: Script, start: float) -> Any:
         expect(gap > TOUCH_M, "The robot ran against the wall.", "compare scan.ranges[0] with a distance")
         expect(
             moved < 0.01,
-            "It still drives, long after it should have been there.",
-            "a command of zero makes it stand",
+            "The robot is still driving, long after it should have reached the wall.",
+            "a command of zero stops it",
         )
         expect(
             gap < NEAR_M + 0.01,
-            f"It stands {gap:.2f} m from the wall; come nearer than half a metre.",
+            f"The robot stopped {gap:.2f} m from the wall; it should come nearer than half a metre.",
             "beam 0 looks straight ahead; it starts 3 cm behind the middle of the robot",
         )
         return trial.view()
