@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import subprocess
 from importlib.util import find_spec
 from pathlib import Path
@@ -14,6 +15,9 @@ from rosmini.errors import RosminiError
 
 from . import notebooks as stored
 from .build import has_display
+
+FIRST = "01_first_steps.ipynb"
+"""What opens first."""
 
 OWN_SETTINGS = Path(__file__).with_name("jupyter")
 """Defaults of the user interface: no question about news."""
@@ -40,12 +44,20 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default=8888,
         help="the port to serve on (default: %(default)s, or the next free)",
     )
+    parser.add_argument(
+        "--copy",
+        type=Path,
+        metavar="FOLDER",
+        help="work on a copy of the notebooks in FOLDER, so that running them leaves the book's own unchanged; "
+        "notebooks that are already there are kept",
+    )
 
 
 def lab_arguments(args: argparse.Namespace, notebooks: str) -> list[str]:
     """The command line of JupyterLab that `args` asks for."""
     arguments = [
         f"--ServerApp.root_dir={notebooks}",
+        f"--LabApp.default_url=/lab/tree/{FIRST}",
         "--ServerApp.ip=127.0.0.1",
         f"--ServerApp.port={args.port}",
         "--ServerApp.kernel_spec_manager_class=book.tools.kernels.Kernels",
@@ -91,6 +103,21 @@ def trust(folder: Path) -> int:
     return len(own)
 
 
+def copy_notebooks(source: Path, target: Path) -> Path:
+    """Copy the notebooks of `source` that `target` does not have yet; return `target`.
+
+    Raises `RosminiError` if the folder cannot be written to.
+    """
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+        for path in sorted(source.glob("*.ipynb")):
+            if not (target / path.name).exists():
+                shutil.copyfile(path, target / path.name)
+    except OSError as error:
+        raise RosminiError(f"the notebooks cannot be copied to {target}: {error.strerror}") from error
+    return target
+
+
 def prefer_own_settings() -> None:
     """Put `OWN_SETTINGS` before the folders in which this process's Jupyter looks for settings.
 
@@ -116,5 +143,6 @@ def main(args: argparse.Namespace) -> int:
             "The stored figures show once their cells have run: without git's history of this folder "
             "it is not known whether its notebooks are the book's."
         )
-    LabApp.launch_instance(lab_arguments(args, str(notebooks)))
+    served = copy_notebooks(notebooks, args.copy.resolve()) if args.copy else notebooks
+    LabApp.launch_instance(lab_arguments(args, str(served)))
     return 0

@@ -236,6 +236,19 @@ def test_lab_trusts_the_notebooks_that_are_the_repositorys(copy):
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_lab_opens_the_first_steps_and_a_copy_keeps_what_is_in_it(tmp_path):
+    arguments = lab.lab_arguments(main.build_parser({"lab": lab}).parse_args(["lab"]), "n")
+    assert "--LabApp.default_url=/lab/tree/01_first_steps.ipynb" in arguments
+    source, target = tmp_path / "source", tmp_path / "target"
+    for folder, text in ((source, "new"), (target, "mine")):
+        folder.mkdir()
+        (folder / "01_first_steps.ipynb").write_text(text, encoding="utf-8")
+    (source / "11_nodes.ipynb").write_text("new", encoding="utf-8")
+    assert lab.copy_notebooks(source, target) == target
+    assert (target / "01_first_steps.ipynb").read_text(encoding="utf-8") == "mine"
+    assert (target / "11_nodes.ipynb").read_text(encoding="utf-8") == "new"
+
+
 def test_lab_trusts_no_notebook_without_a_history(copy):
     shutil.rmtree(copy.parent / ".git")
     assert lab.trust(copy) == 0
