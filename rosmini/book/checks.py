@@ -27,7 +27,6 @@ from typing import TYPE_CHECKING, Any, cast
 from rosmini.errors import RosminiError, nearest
 from rosmini.graph.notebook import mark_as_shown
 from rosmini.packages import PackageIndex
-from rosmini.viz.book_form import book_form
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -120,7 +119,8 @@ class Exercise:
     def grade(self, answer: Any) -> Verdict:
         """Examine `answer`. An exception out of the reader's code is a wrong answer, not an error of the check."""
         if is_stub(answer, self.gaps):
-            return self._verdict(Status.NOT_ATTEMPTED)
+            at = gap_left(answer) if isinstance(answer, Script) else ""
+            return self._verdict(Status.NOT_ATTEMPTED, f"Replace the `...` {at}." if at else "")
         if left := gap_left(answer):
             return self._verdict(Status.WRONG, f"There is still a `...` {left}.")
         if self._is_script() and not isinstance(answer, Script):
@@ -283,7 +283,7 @@ def check(number: str, *answer: Any) -> Verdict:
     exercise = find(number)
     given = answer or (written(number),)
     verdict = exercise.grade(*given)
-    print(verdict.text + _where(given[0], verdict))
+    print(verdict)
     if verdict.view is not None:
         from IPython.core.display_functions import display
 
@@ -291,13 +291,6 @@ def check(number: str, *answer: Any) -> Verdict:
     if shell := getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)():
         mark_as_shown(verdict, shell)
     return verdict
-
-
-def _where(answer: Any, verdict: Verdict) -> str:
-    """Where a script has what makes it a stub, for who has written all but left it; the book shows stubs only."""
-    if not isinstance(answer, Script) or verdict.status is not Status.NOT_ATTEMPTED or book_form():
-        return ""
-    return f" There is a `...` {gap_left(answer)}: write yours there, or take it out."
 
 
 def written(number: str) -> Script:

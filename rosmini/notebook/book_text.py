@@ -13,15 +13,13 @@ if TYPE_CHECKING:
     from .places import Places
 
 PID = "4242"
-PING = "0.42ms"
 
 _PID = re.compile(r"(?<=\bPid: )\d+|(?<=\bpid \[)\d+")
-_PING = re.compile(r"(?<=time=)\d+\.\d+ms|(?<=ping average: )\d+\.\d+ms")
 
 
 def book_text(text: str, places: Places) -> str:
-    """Return a text with the paths, process numbers and ping times of the book."""
-    return _PING.sub(PING, _PID.sub(PID, places.shown(text)))
+    """Return a text with the paths and process numbers of the book."""
+    return _PID.sub(PID, places.shown(text))
 
 
 class BookErrors:

@@ -188,19 +188,13 @@ def put(folder, name, *lines, second=0):
     os.utime(path, ns=(second, second))
 
 
-def test_a_reader_who_left_a_gap_is_told_the_line_and_the_book_is_not(scripts, capsys, monkeypatch):
+def test_a_stub_is_told_the_line_of_its_first_gap(scripts, capsys):
     put(scripts, "wheels.py", "# Exercise 98.1: wheels", "six = 6", "...")
-    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
     check("98.1")
-    monkeypatch.delenv("ROSMINI_DISPLAY")
-    check("98.1")
-    first, second = capsys.readouterr().out.splitlines()
-    assert first == "Exercise 98.1: not attempted yet."
-    assert second == f"{first} There is a `...` in line 4: write yours there, or take it out."
+    assert capsys.readouterr().out == "Exercise 98.1: not attempted yet. Replace the `...` in line 4.\n"
 
 
-def test_without_an_answer_the_script_of_the_cell_is_checked(scripts, capsys, monkeypatch):
-    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
+def test_without_an_answer_the_script_of_the_cell_is_checked(scripts, capsys):
     put(scripts, "other.py", "# Exercise 98.10", "five = 5")
     put(scripts, "wheels.py", "# Exercise 98.1: wheels", "...")
     check("98.1")
@@ -209,7 +203,8 @@ def test_without_an_answer_the_script_of_the_cell_is_checked(scripts, capsys, mo
     put(scripts, "renamed.py", "# Exercise 98.1", "six = 6", second=2)
     check("98.1")
     assert capsys.readouterr().out == (
-        "Exercise 98.1: not attempted yet.\nExercise 98.1: not right yet. wheels.py\nExercise 98.1: right. Read.\n"
+        "Exercise 98.1: not attempted yet. Replace the `...` in line 3.\n"
+        "Exercise 98.1: not right yet. wheels.py\nExercise 98.1: right. Read.\n"
     )
 
 
