@@ -51,6 +51,9 @@ class LaneContext(Protocol):
     def cut_short(self) -> None:
         """Learn that a second Ctrl-C ended what one of its lanes was running."""
 
+    def keeps_polling(self) -> None:
+        """Learn, in a lane that runs, that its loop has gone on for long without a blocking call."""
+
 
 class Hub(Protocol):
     """What lanes and waiters need of the scheduler."""

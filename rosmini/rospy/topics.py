@@ -8,6 +8,7 @@ from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import IllegalName, ROSException, ROSSerializationException, SerializationError
+from rosmini.graph.scheduler import CALL_TICKS
 from rosmini.graph.transport import extra_fields
 from rosmini.msgs.importer import how_to_import
 from rosmini.msgs.message import Message
@@ -116,7 +117,11 @@ class Topic(ABC):
 
     def get_num_connections(self) -> int:
         """Return to how many nodes this topic is connected."""
-        return 0 if self._handle is None else int(self._handle.num_connections())
+        handle = self._handle
+        if handle is None:
+            return 0
+        handle.node.scheduler.charge(CALL_TICKS)
+        return int(handle.num_connections())
 
     def unregister(self) -> None:
         """Leave the topic. Harmless when repeated."""
@@ -211,6 +216,7 @@ class Publisher(Topic):
             message = args_kwds_to_message(registered_class(self.data_class), args, kwds)
         else:
             message = args[0]
+        handle.node.scheduler.charge(CALL_TICKS)
         try:
             handle.publish(message)
         except SerializationError as error:

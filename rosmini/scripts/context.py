@@ -36,6 +36,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from rosmini.graph.lanes import LaneExit
+from rosmini.graph.rosout import caller
 from rosmini.graph.threads import on_hub
 from rosmini.graph.workers import running_scheduler
 from rosmini.packages import package_around
@@ -105,6 +106,7 @@ class ScriptContext:
         """Called when the last of its threads has ended after the script."""
         self.was_cut_short = False
         """A second Ctrl-C ended it, or what it was running."""
+        self._knows_that_it_polls = False
         self._sink = sink
         self._setup_modules(folders, modules or {})
         self._setup_swapped(feed)
@@ -133,8 +135,9 @@ class ScriptContext:
             del self.main_module.__dict__["__file__"]
 
     def _setup_swapped(self, feed: Feed) -> None:
-        self.stdout = ScriptOutput(self._sink, lambda: self.name)
-        self.stderr = ScriptOutput(self._sink, lambda: self.name, is_error=True)
+        charge = self.scheduler.charge
+        self.stdout = ScriptOutput(self._sink, lambda: self.name, charge=charge)
+        self.stderr = ScriptOutput(self._sink, lambda: self.name, is_error=True, charge=charge)
         self.stdin = ScriptInput(feed, self, self.stdout.flush)
         self._own: dict[str, Any] = {
             "argv": list(self.argv),
@@ -331,10 +334,10 @@ class ScriptContext:
             raise error
 
     def _make_tick(self) -> Callable[[], None]:
-        tick = self.scheduler.tick
+        turn = self.scheduler.turn
 
-        def __tick__() -> None:  # noqa: N807 - the name that scripts call
-            tick()
+        def __tick__(*, is_idle: bool = False) -> None:  # noqa: N807 - the name that scripts call
+            turn(is_idle=is_idle)
             if self.ended or self._to_raise is not None:
                 self.check()
 
@@ -380,6 +383,23 @@ class ScriptContext:
     def cut_short(self) -> None:
         """Learn that a second Ctrl-C ended what the script was running."""
         self.was_cut_short = True
+
+    def keeps_polling(self) -> None:
+        """Warn, once, of a loop that never sleeps."""
+        if self._knows_that_it_polls:
+            return
+        self._knows_that_it_polls = True
+        frame = caller(1)
+        place = f"{Path(frame.f_code.co_filename).name}, line {frame.f_lineno}"
+        text = (
+            f"{place}: this loop never sleeps. It keeps a processor busy, floods whoever listens, and in simulated "
+            "time it makes the whole graph slow. Add rate = rospy.Rate(10) before the loop, and rate.sleep() at the "
+            "end of its body."
+        )
+        if self.node is not None:
+            self.node.logwarn(text)
+        else:
+            self.stderr.write(f"Warning: {text}\n")
 
     def raise_in_main(self, error: BaseException) -> None:
         """Raise ``error`` in the script's main thread, where it blocks or at its next turn of a loop."""

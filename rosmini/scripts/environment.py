@@ -79,6 +79,9 @@ class OwnEnviron:
     def cut_short(self) -> None:
         """Nothing: a built-in node has no exit status to change."""
 
+    def keeps_polling(self) -> None:
+        """Nothing: the loops of built-in nodes are not counted."""
+
     def finish(self) -> None:
         """Give the process its environment back: the node has ended."""
         self._own.give_back()

@@ -7,6 +7,8 @@ import sys
 import threading
 from typing import TYPE_CHECKING, TextIO
 
+from rosmini.graph.scheduler import CALL_TICKS
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -82,9 +84,17 @@ class ErrorsOnly(OutputSink):
 class ScriptOutput(io.TextIOBase):
     """``sys.stdout`` or ``sys.stderr`` of one script."""
 
-    def __init__(self, sink: OutputSink, label: Callable[[], str], *, is_error: bool = False) -> None:
+    def __init__(
+        self,
+        sink: OutputSink,
+        label: Callable[[], str],
+        *,
+        is_error: bool = False,
+        charge: Callable[[int], object] = lambda _: None,
+    ) -> None:
         super().__init__()
         self._sink = sink
+        self._charge = charge
         self.label = label
         self.is_error = is_error
         self._partial = ""
@@ -136,6 +146,8 @@ class ScriptOutput(io.TextIOBase):
                 self._sink.emit(self, line[self._shown :], complete=True)
                 self._shown = 0
             self._partial = rest
+        if lines:
+            self._charge(CALL_TICKS * len(lines))
         return len(text)
 
     def flush(self) -> None:
@@ -196,6 +208,9 @@ class OwnStreams:
 
     def cut_short(self) -> None:
         """Nothing: a built-in node has no exit status to change."""
+
+    def keeps_polling(self) -> None:
+        """Nothing: the loops of built-in nodes are not counted."""
 
     def get_own(self, name: str) -> ScriptOutput:
         """Return the node's ``stdout`` or ``stderr``, from any thread."""

@@ -4,7 +4,7 @@ Public scripts wait in loops that never block (``while not got: pass``, ``while 
 a real robot other threads run meanwhile; here everything shares one thread, so the loader inserts a call of
 ``__tick__()`` as the first statement of each ``while`` and ``for`` body. Line numbers, tracebacks, docstrings and
 ``from __future__`` imports stay as they were, and ``async`` functions are left alone: their loops give way by
-``await``.
+``await``. A ``while`` loop whose body does nothing only waits for other lanes, and says so: ``__tick__(is_idle=True)``.
 """
 
 from __future__ import annotations
@@ -13,6 +13,19 @@ import ast
 
 TICK = "__tick__"
 """The name under which the scripts' builtins hold the function that is called."""
+
+
+def _does_nothing(statement: ast.stmt) -> bool:
+    """Return whether a statement of a loop's body changes nothing, apart from calls in its conditions."""
+    if isinstance(statement, ast.If):
+        return not _assigns(statement.test) and all(map(_does_nothing, (*statement.body, *statement.orelse)))
+    if isinstance(statement, ast.Expr):
+        return isinstance(statement.value, ast.Constant)
+    return isinstance(statement, (ast.Pass, ast.Continue, ast.Break))
+
+
+def _assigns(test: ast.expr) -> bool:
+    return any(isinstance(part, ast.NamedExpr) for part in ast.walk(test))
 
 
 class _TickInserter(ast.NodeTransformer):
@@ -28,8 +41,12 @@ class _TickInserter(ast.NodeTransformer):
         return node
 
     def _loop(self, node: ast.While | ast.For) -> ast.AST:
+        is_idle = (
+            isinstance(node, ast.While) and not _assigns(node.test) and all(map(_does_nothing, node.body))
+        )
         self.generic_visit(node)
-        call = ast.Expr(ast.Call(ast.Name(TICK, ast.Load()), [], []))
+        keywords = [ast.keyword("is_idle", ast.Constant(True))] if is_idle else []
+        call = ast.Expr(ast.Call(ast.Name(TICK, ast.Load()), [], keywords))
         # The loop's own line: a script that is ended while it polls shows `while ...`, not its first statement.
         place = node.test if isinstance(node, ast.While) else node.target
         for part in ast.walk(call):

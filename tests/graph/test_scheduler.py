@@ -172,6 +172,25 @@ def test_polling_loops_go_on_by_counting(scheduler: Scheduler) -> None:
         assert 0 <= scheduler.now_ns() - end <= TICK_QUANTUM_NS
 
 
+@pytest.mark.parametrize(("pause_after", "milliseconds"), [(None, 20), (100, 0)])
+def test_a_call_costs_time_from_the_hundredth_turn_without_a_blocking_call_on(
+    pause_after: int | None, milliseconds: int
+) -> None:
+    scheduler = Scheduler()
+
+    def poll() -> None:
+        for number in range(1, 501):
+            scheduler.turn()
+            scheduler.charge(49)
+            if pause_after is not None and number % pause_after == 0:
+                scheduler.give_way()
+
+    begin = scheduler.now_ns()
+    lane = scheduler.spawn("poll", poll)
+    scheduler.run(until=lambda: lane.idle)
+    assert scheduler.now_ns() - begin == milliseconds * TICK_QUANTUM_NS
+
+
 def test_a_ping_pong_at_one_instant_does_not_stop_simulated_time() -> None:
     scheduler = Scheduler()
 

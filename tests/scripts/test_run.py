@@ -170,6 +170,60 @@ def test_polling_loops_go_on_and_end(run):
     assert sorted(ran.lines) == ["[a] got", "[b] over"]
 
 
+POLLING = {
+    "publish and print": "while True:\n    pub.publish(Twist())\n    print(len(turns))\n    turns.append(1)",
+    "publish": "while not rospy.is_shutdown():\n    pub.publish(Twist())\n    turns.append(1)",
+    "connections": "while other.get_num_connections() < 1:\n    pass",
+    "lookup": "while True:\n    turns.append(1)\n    try:\n        listener.lookupTransform('a', 'b', rospy.Time(0))\n"
+    "    except tf.LookupException:\n        continue",
+    "parameter": "while rospy.get_param('/go', 0) == 0:\n    turns.append(1)",
+    "attribute": "while not got:\n    pass",
+    "attribute and break": "while True:\n    if got:\n        break",
+    "log": "while True:\n    rospy.loginfo('still here')\n    turns.append(1)",
+}
+"""Loops that never sleep, each from its line 10 on; ``turns`` counts."""
+
+BEFORE = """import atexit, rospy, tf
+from geometry_msgs.msg import Twist
+rospy.init_node("poller")
+turns, got = [], []
+rospy.Subscriber("never", Twist, got.append)
+pub = rospy.Publisher("cmd_vel", Twist, queue_size=10)
+other = rospy.Publisher("nobody", Twist, queue_size=10)
+listener = tf.TransformListener()
+atexit.register(lambda: print("turns", len(turns)))
+"""
+
+
+@pytest.mark.parametrize("kind", POLLING)
+def test_a_loop_that_never_sleeps_uses_graph_time_and_is_warned_of_once(sim, kind):
+    ran = sim(sim.text("poller", BEFORE + POLLING[kind]), duration=4.0, grace=0.0)
+    warnings = [line for line in ran.lines if "rate.sleep()" in line]
+    assert len(warnings) == 1
+    assert re.search(r"poller>?, line 1\d", warnings[0])
+    turns = [int(line.split()[-1]) for line in ran.lines if line.startswith("[poller] turns ")]
+    assert max(turns, default=0) < 4 * 25_000
+
+
+def test_a_loop_that_sleeps_or_computes_is_not_warned_of(sim):
+    ran = sim(
+        sim.text(
+            "sleeps", BEFORE + "for i in range(2000):\n    pub.publish(Twist())\n    rospy.sleep(0.002)"
+        ),
+        sim.text("computes", "total = 0\nfor i in range(300_000):\n    total += i\nprint(total)"),
+    )
+    assert "rate.sleep()" not in ran.text
+    assert "[computes] 44999850000" in ran.lines
+
+
+def test_a_hundred_turns_cost_no_time(sim):
+    loop = "start = rospy.get_time()\nfor i in range({}):\n    pub.publish(Twist())\nprint(rospy.get_time() - start)"
+    short, long = (sim(sim.text("poller", BEFORE + loop.format(count))) for count in (100, 1000))
+    assert "[poller] 0.0" in short.lines
+    spent = [float(line.split()[1]) for line in long.lines if re.fullmatch(r"\[poller\] [\d.]+", line)]
+    assert 0.03 < spent[0] < 0.1
+
+
 def test_duration_ends_what_never_ends(run):
     ran = run(
         run.text("poll", "import atexit\natexit.register(print, 'bye')\nwhile True: pass"),

@@ -34,6 +34,26 @@ def test_one_tick_for_each_turn(source, count):
     assert run(source)[0] == count
 
 
+@pytest.mark.parametrize(
+    ("loop", "is_idle"),
+    [
+        ("while n(): pass", True),
+        ("while n(): continue", True),
+        ("while n():\n    'waits'", True),
+        ("while n():\n    if done: break", True),
+        ("while n(): x = 1", False),
+        ("while n(): n()", False),
+        ("while (m := n()): pass", False),
+        ("for i in range(1): pass", False),
+    ],
+)
+def test_a_while_loop_whose_body_does_nothing_only_waits(loop, is_idle):
+    turns = []
+    names = {TICK: lambda **kinds: turns.append(kinds), "n": iter([1, 0, 0]).__next__, "done": False}
+    exec(compile(with_ticks(ast.parse(loop)), "<s>", "exec"), names)
+    assert turns == [{"is_idle": True} if is_idle else {}]
+
+
 def test_docstring_and_future_import_stay_first():
     _, names = run(
         '"""Doc."""\nfrom __future__ import annotations\ndef f(a: Unknown):\n    """F."""\n    for i in ():\n        '
@@ -56,7 +76,7 @@ def test_an_error_in_the_tick_is_at_the_loop():
         raise InterruptedError
 
     with pytest.raises(InterruptedError) as caught:
-        exec(compile(with_ticks(ast.parse("x = 1\nwhile x:\n    pass\n")), "<s>", "exec"), {TICK: stop})
+        exec(compile(with_ticks(ast.parse("x = 1\nwhile x:\n    x += 1\n")), "<s>", "exec"), {TICK: stop})
     assert traceback.extract_tb(caught.tb)[-2].lineno == 2
 
 

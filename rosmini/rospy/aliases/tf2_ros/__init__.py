@@ -6,6 +6,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from rosmini import tf
+from rosmini.graph.scheduler import CALL_TICKS
 from rosmini.rospy.session import any_node, require_node
 from rosmini.tf.buffer import BufferCore
 from rosmini.tf.errors import (
@@ -32,7 +33,7 @@ from .buffer_server import BufferServer
 
 if TYPE_CHECKING:
     from rosmini.graph import Node
-    from rosmini.time import Duration
+    from rosmini.time import Duration, Time
 
 __all__ = [
     "Buffer",
@@ -86,6 +87,20 @@ class Buffer(tf.Buffer, BufferInterface):
     def node(self) -> Node:
         """The script's node."""
         return any_node()
+
+    def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> Any:
+        """Do as :meth:`rosmini.tf.BufferCore.lookup_transform_core`; a loop that polls for it uses graph time."""
+        any_node().scheduler.charge(CALL_TICKS)
+        return super().lookup_transform_core(target_frame, source_frame, time)
+
+    def lookup_transform_full_core(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> Any:
+        """Do as :meth:`rosmini.tf.BufferCore.lookup_transform_full_core`."""
+        any_node().scheduler.charge(CALL_TICKS)
+        return super().lookup_transform_full_core(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
 
 
 class TransformBroadcaster(tf.TransformBroadcaster):
