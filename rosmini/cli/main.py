@@ -12,6 +12,7 @@ import importlib
 import io
 import os
 import sys
+import textwrap
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
@@ -35,6 +36,21 @@ class Command(Protocol):
         """Do it; the exit status."""
 
 
+ROS, OWN, BUILD, BOOK = "ROS's own commands", "Run and look", "Packages", "The book"
+"""The headings of `rosmini --help`."""
+
+WELCOME = """\
+Learn ROS by driving a robot.
+
+  rosmini lab                                       the chapters, in JupyterLab
+  rosmini run talker.py + listener.py               your own rospy scripts
+  rosmini roslaunch rosmini_sim navigation.launch   a robot that finds its way;
+  rosmini rviz                                      then click a goal for it
+
+`rosmini --help` lists all commands."""
+"""What `rosmini` prints without arguments."""
+
+
 class Entry(NamedTuple):
     """Where a subcommand lives, and the line that `rosmini --help` shows without importing it."""
 
@@ -46,6 +62,8 @@ class Entry(NamedTuple):
     """Whether notebooks have it as a line magic, too: its module has a ``TOOL``."""
     only: str = ""
     """The verb of that tool that the subcommand stands for, if it is one verb only."""
+    group: str = ROS
+    """The heading under which `rosmini --help` lists it."""
 
     def load(self) -> Command:
         """Import the subcommand. Raises `NoCheckout` if it needs a checkout and there is none."""
@@ -76,88 +94,97 @@ RQT = {
 """The tools of rqt, each a verb of `rosmini rqt`."""
 
 COMMANDS: dict[str, Entry] = {
-    "roscore": Entry("rosmini.cli.roscore", "the Master, the Parameter Server and /rosout"),
-    "rosrun": Entry("rosmini.cli.rosrun", "run a node in a process of its own, on the graph of a Master"),
+    "roscore": Entry("rosmini.cli.roscore", "start the Master, the Parameter Server and /rosout"),
+    "rosrun": Entry("rosmini.cli.rosrun", "run a node in a process of its own"),
     "roslaunch": Entry(
-        "rosmini.cli.roslaunch", "start the nodes of launch files, and look at what they mean", is_magic=True
+        "rosmini.cli.roslaunch", "start the nodes of launch files, or show what the files mean", is_magic=True
     ),
-    "test": Entry("rosmini.cli.test", "run the tests of launch files"),
-    "run": Entry("rosmini.cli.run", "run scripts written for rospy as nodes of one graph"),
-    "rosnode": Entry(
-        "rosmini.cli.rosnode",
-        "nodes: which there are, what they do, whether they answer; end them",
-        is_magic=True,
+    "test": Entry("rosmini.cli.test", "run the tests in launch files", group=OWN),
+    "run": Entry(
+        "rosmini.cli.run", "run rospy scripts as nodes of one graph, also faster than real time", group=OWN
     ),
+    "rosnode": Entry("rosmini.cli.rosnode", "list, describe, ping and end nodes", is_magic=True),
     "rostopic": Entry(
-        "rosmini.cli.rostopic",
-        "topics: which there are, what is published on them, how often; publish on one",
-        is_magic=True,
+        "rosmini.cli.rostopic", "list topics, print and publish messages, measure rates", is_magic=True
     ),
-    "rosservice": Entry(
-        "rosmini.cli.rosservice",
-        "services: which there are, of which types, who offers them; call one",
-        is_magic=True,
-    ),
-    "rosmsg": Entry(
-        "rosmini.cli.rosmsg", "message types: which there are, and their definitions", is_magic=True
-    ),
-    "rossrv": Entry(
-        "rosmini.cli.rossrv", "service types: which there are, and their definitions", is_magic=True
-    ),
+    "rosservice": Entry("rosmini.cli.rosservice", "list, describe and call services", is_magic=True),
+    "rosmsg": Entry("rosmini.cli.rosmsg", "show message types", is_magic=True),
+    "rossrv": Entry("rosmini.cli.rossrv", "show service types", is_magic=True),
     "roswtf": Entry(
-        "rosmini.cli.roswtf", "what is probably wrong with the graph, and what to do about it", is_magic=True
+        "rosmini.cli.roswtf", "find probable mistakes in the graph, and say how to fix them", is_magic=True
     ),
     "roswhy": Entry(
-        "rosmini.cli.roswhy", "why the last message on a topic came: the chain of its causes", is_magic=True
+        "rosmini.cli.roswhy", "explain why the last message on a topic was sent", is_magic=True, group=OWN
     ),
     "rossequence": Entry(
-        "rosmini.cli.rossequence", "who called whom, and sent what to whom, as it happened", is_magic=True
+        "rosmini.cli.rossequence", "show who called whom and who sent what to whom", is_magic=True, group=OWN
     ),
     "fault": Entry(
         "rosmini.cli.fault",
-        "make something go wrong: lose, delay or double messages, kill a node, cut a service, jump a clock",
+        "cause a fault: lost, late or repeated messages, a dead node, a clock that jumps",
         is_magic=True,
+        group=OWN,
     ),
     "rosparam": Entry(
-        "rosmini.cli.rosparam", "parameters: get, set, load, dump, delete and list them", is_magic=True
+        "rosmini.cli.rosparam", "get, set, load, dump, delete and list parameters", is_magic=True
     ),
-    "rqt": Entry("rosmini.cli.rqt", "the tools of rqt, as pictures", is_magic=True),
+    "rqt": Entry("rosmini.cli.rqt", "the tools of rqt as pictures", is_magic=True),
     **{
         f"rqt_{verb}": Entry("rosmini.cli.rqt", f"rqt: {summary}", is_magic=True, only=verb)
         for verb, summary in RQT.items()
     },
     "logo": Entry(
-        "rosmini.cli.logo", "run a program in Logo, which drives turtles and robots", is_magic=True
+        "rosmini.cli.logo", "run a Logo program that drives turtles and robots", is_magic=True, group=OWN
     ),
     "rviz": Entry(
-        "rosmini.cli.rviz", "what RViz shows: displays in a scene, and their status", is_magic=True
+        "rosmini.cli.rviz",
+        "show a robot, its sensors and its plans in the browser, and send it goals",
+        is_magic=True,
     ),
-    "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags", is_magic=True),
+    "rosbag": Entry("rosmini.cli.rosbag", "record, play and inspect bags", is_magic=True),
     "rospack": Entry(
-        "rosmini.cli.rospack", "packages: where they are, what they need, what they export", is_magic=True
+        "rosmini.cli.rospack",
+        "find packages, and list what they depend on and export",
+        is_magic=True,
+        group=BUILD,
     ),
     "rosstack": Entry(
-        "rosmini.cli.rosstack", "stacks and metapackages: where they are, what is in them", is_magic=True
+        "rosmini.cli.rosstack",
+        "find stacks and metapackages, and list their contents",
+        is_magic=True,
+        group=BUILD,
     ),
-    "roscd": Entry("rosmini.cli.roscd", "go to the folder of a package", is_magic=True),
-    "rosls": Entry("rosmini.cli.rosls", "list what is in the folder of a package", is_magic=True),
-    "rosversion": Entry("rosmini.cli.rosversion", "the version of a package", is_magic=True),
-    "aliases": Entry("rosmini.cli.aliases", "lines for a shell: bare names (rostopic ...) and completion"),
+    "roscd": Entry("rosmini.cli.roscd", "go to the folder of a package", is_magic=True, group=BUILD),
+    "rosls": Entry("rosmini.cli.rosls", "list the folder of a package", is_magic=True, group=BUILD),
+    "rosversion": Entry(
+        "rosmini.cli.rosversion", "print the version of a package", is_magic=True, group=BUILD
+    ),
+    "aliases": Entry(
+        "rosmini.cli.aliases",
+        "print shell lines that define the bare names (rostopic ...) and completion",
+        group=OWN,
+    ),
     "catkin_init_workspace": Entry(
-        "rosmini.cli.catkin_init_workspace", "make a folder the source space of a workspace", is_magic=True
+        "rosmini.cli.catkin_init_workspace",
+        "make a folder the source space of a workspace",
+        is_magic=True,
+        group=BUILD,
     ),
-    "catkin_create_pkg": Entry("rosmini.cli.catkin_create_pkg", "make a new package", is_magic=True),
-    "catkin_make": Entry("rosmini.cli.catkin_make", "build a catkin workspace", is_magic=True),
-    "stubs": Entry("rosmini.cli.stubs", "write type stubs of rospy and of messages, for editors"),
-    "mcap": Entry("rosmini.cli.mcap", "write a bag as an MCAP file, which Foxglove opens, or back"),
-    "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
-    "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),
-    "book": Entry("book.tools.book", "build the book from the stored outputs and open it", "."),
-    "lab": Entry("book.tools.lab", "open the notebooks in JupyterLab", "."),
+    "catkin_create_pkg": Entry(
+        "rosmini.cli.catkin_create_pkg", "create a package", is_magic=True, group=BUILD
+    ),
+    "catkin_make": Entry("rosmini.cli.catkin_make", "build a workspace", is_magic=True, group=BUILD),
+    "stubs": Entry("rosmini.cli.stubs", "write type stubs of rospy and of messages for editors", group=OWN),
+    "mcap": Entry("rosmini.cli.mcap", "convert between bags and MCAP files, which Foxglove opens", group=OWN),
+    "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files", group=OWN),
+    "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots", group=OWN),
+    "book": Entry("book.tools.book", "build this book and open it", ".", group=BOOK),
+    "lab": Entry("book.tools.lab", "open the chapters in JupyterLab", ".", group=BOOK),
     "bench": Entry(
         "rosmini_bench",
-        "measure rosmini, beside real ROS and ir-sim where they are installed",
+        "measure rosmini beside real ROS and other simulators",
         "tests/benchmarks",
+        group=BOOK,
     ),
 }
 
@@ -183,27 +210,48 @@ def chosen(argv: Sequence[str]) -> str | None:
     guess = NO_COMMANDS.get(word) or nearest(word, COMMANDS)
     if rest and f"ros{rest[0]}" in COMMANDS:  # `rostop node list`
         guess = f"did you mean `{' '.join(['ros' + rest[0], *rest[1:]])}`?"
-    raise RosminiError(f"there is no command {word!r}; {guess or 'the commands are: ' + ', '.join(COMMANDS)}")
+    raise RosminiError(f"there is no command {word!r}; {guess or '`rosmini --help` lists all commands'}")
 
 
 def build_parser(loaded: dict[str, Command], *, others: bool = True) -> argparse.ArgumentParser:
-    """The parser: in full for the `loaded` subcommands, and with ``others`` by name and summary for all that is left.
+    """The parser, with the options of the `loaded` subcommands and, with ``others``, the names of all the rest.
 
-    A tool that starts needs no others, and sixty of them take longer to make than its questions to be answered.
+    A tool that starts does not need the others: making sixty parsers takes longer than answering its question.
     """
     parser = argparse.ArgumentParser(
         prog="rosmini",
+        usage="rosmini COMMAND ..." if others else None,
         description="ROS 1 that you can read, run and test.",
-        epilog="`rosmini COMMAND --help` says more about a command.",
+        epilog=grouped_commands() if others else None,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="store_true", help="print the version and exit")
-    subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
-    for name, entry in COMMANDS.items():
+    subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", help=argparse.SUPPRESS)
+    for name in COMMANDS:
         if name in loaded:
             loaded[name].add_parser(subparsers)
         elif others:
-            subparsers.add_parser(name, help=entry.summary, add_help=False)
+            subparsers.add_parser(name, add_help=False)
     return parser
+
+
+def grouped_commands() -> str:
+    """The commands with their summaries, under headings; the tools of rqt are one line."""
+    lines = []
+    for group in (ROS, OWN, BUILD, BOOK):
+        lines.append(f"{group}:")
+        shown = {name: entry.summary for name, entry in COMMANDS.items() if entry.group == group}
+        tools = [name for name in shown if name.startswith("rqt_")]
+        width = max(len(name) for name in shown if name not in tools)
+        for name, summary in shown.items():
+            if name not in tools:
+                lines.append(f"  {name:{width}}  {summary}")
+            if name == "rqt":
+                lines += textwrap.wrap(
+                    ", ".join(tools), 78, initial_indent=" " * 4, subsequent_indent=" " * 4
+                )
+        lines.append("")
+    return "\n".join([*lines, "`rosmini COMMAND --help` says more about a command."])
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -246,7 +294,7 @@ def _run(name: str | None, argv: list[str]) -> int:
             print(f"rosmini {__version__}")
             return 0
         if name is None:
-            parser.print_help()
+            print(WELCOME)
             return 2
         status = loaded[name].main(args)
         sys.stdout.flush()
