@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rosmini.geometry.poses import Pose
+from rosmini.geometry.products import matrix_product, scalar_product
 from rosmini.navigation.map_server import GridMap
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.map_colours import painted
@@ -93,8 +94,8 @@ def _step(name: str, particles: ArrayLike, weights: ArrayLike | None, truth: Any
         )
     pose = None if truth is None else pose_of(truth, "the true pose")
     shares = given / given.sum()
-    mean = shares @ poses[:, :2]
-    spread = math.sqrt(float(shares @ np.square(poses[:, :2] - mean).sum(axis=1)))
+    mean = matrix_product(shares, poses[:, :2])
+    spread = math.sqrt(scalar_product(shares, np.square(poses[:, :2] - mean).sum(axis=1)))
     off = None if pose is None else math.dist(mean, pose[:2])
     shown = _shown(np.round(given / given.max(), 3))
     return Step(name, poses[shown], given[shown] / given.max(), pose, len(poses), spread, off)

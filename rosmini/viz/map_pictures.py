@@ -117,7 +117,7 @@ def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
     box, (x0, x1), (_, y1) = axes.get_position(), axes.get_xlim(), axes.get_ylim()
     left, top = box.x0 * width, (1 - box.y1) * height
     scale = box.width * width / (x1 - x0)
-    origin, right, _, up = cells.corners() @ np.diag([scale, -scale]) + (left - x0 * scale, top + y1 * scale)
+    origin, right, _, up = cells.corners() * (scale, -scale) + (left - x0 * scale, top + y1 * scale)
     pixelated = np.abs(right - origin).max() >= values.shape[1]  # else one left out may be a wall
     a, b, c, d, e, f = (fixed(value, 3) for value in (*(right - origin), *(up - origin), *origin))
     return element(

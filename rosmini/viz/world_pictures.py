@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.geometry.products import norms
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.sim.world import Obstacle, World
 from rosmini.viz.beams import Beams, beams_of
@@ -400,7 +401,7 @@ def pose_text(pose: Sequence[float]) -> str:
 
 def length_of(line: Floats) -> float:
     """The length [m] of a line (n, 2) or (n, 3)."""
-    return float(np.linalg.norm(np.diff(line[:, :2], axis=0), axis=1).sum())
+    return float(norms(np.diff(line[:, :2], axis=0)).sum())
 
 
 def pose_of(given: Sequence[float], what: str) -> Pose:

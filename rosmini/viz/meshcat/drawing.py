@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import matrix_product, norm, scalar_product
 from rosmini.viz import style
 from rosmini.viz.rounding import snap
 from rosmini.viz.svg import document, element
@@ -59,15 +60,15 @@ class _Look:
     def __init__(self, camera: Camera) -> None:
         self.position = camera.position
         ahead = camera.target - self.position
-        ahead /= np.linalg.norm(ahead)
+        ahead /= norm(ahead)
         right = np.cross(ahead, (0.0, 0.0, 1.0))
-        right /= np.linalg.norm(right)
+        right /= norm(right)
         self._axes = np.array([right, np.cross(right, ahead), ahead])
         self._scale = HEIGHT / 2 / math.tan(math.radians(camera.field_of_view / 2))
 
     def project(self, points: Floats) -> Floats:
         """A polygon or a line (n, 3) in the picture (m, 3): x, y [px], depth [m]; without what is behind the camera."""
-        seen = _before((points - self.position) @ self._axes.T)
+        seen = _before(matrix_product(points - self.position, self._axes.T))
         if not len(seen):
             return np.empty((0, 3))
         flat = seen[:, :2] / seen[:, 2:] * self._scale
@@ -81,18 +82,18 @@ class _Look:
     def face(self, polygon: Floats, colour: str) -> _Face | None:
         """A flat polygon (n, 3) of a colour; None if it looks away or is out of the picture."""
         normal = np.cross(polygon[1] - polygon[0], polygon[2] - polygon[1])
-        size = float(np.linalg.norm(normal))
-        towards = float(normal @ (self.position - polygon[0]))
+        size = norm(normal)
+        towards = scalar_product(normal, self.position - polygon[0])
         if size < 1e-12 or towards <= 1e-9 * size:
             return None
         outline = self.project(polygon)[:, :2]
         if not _within(outline):
             return None
-        across, up, ahead = -(self._axes @ normal) / towards
+        across, up, ahead = -matrix_product(self._axes, normal) / towards
         plane = (
             np.array([across, -up, ahead * self._scale - across * WIDTH / 2 + up * HEIGHT / 2]) / self._scale
         )
-        light = 0.66 + 0.36 * max(0.0, float(normal @ SUN) / size)
+        light = 0.66 + 0.36 * max(0.0, scalar_product(normal, SUN) / size)
         channels = (min(255.0, int(colour[i : i + 2], 16) * light) for i in (1, 3, 5))
         return _Face(outline, plane, "#" + "".join(f"{int(snap(channel, 1.0)):02x}" for channel in channels))
 
@@ -160,10 +161,10 @@ def _polygons(scene: Scene3D) -> Iterator[tuple[Floats, str]]:
         place = scene.transform(part.node)
         for solid in () if part.fine else part.solids:
             for face in solid.faces():
-                yield face @ place[:3, :3].T + place[:3, 3], part.colour
+                yield matrix_product(face, place[:3, :3].T) + place[:3, 3], part.colour
     for link in scene.surfaces:
         place = scene.transform(link.node)
-        for triangle in link.surface.triangles @ place[:3, :3].T + place[:3, 3]:
+        for triangle in matrix_product(link.surface.triangles, place[:3, :3].T) + place[:3, 3]:
             yield triangle, link.colour
 
 

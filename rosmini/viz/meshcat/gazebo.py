@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from rosmini.errors import nearest
+from rosmini.geometry.products import matrix_product, norm
 from rosmini.sim.gazebo.msgs import Model
 from rosmini.sim.gazebo.snapshot import Snapshot, place_of, solids_of
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Sphere, outline_at
@@ -82,7 +83,9 @@ def _add(scene: Scene3D, model: Model, *, collisions: bool) -> None:
     node = "models/" + model.name.replace("/", " ")
     there = transform(model.pose) if model.pose is not None else np.eye(4)
     for link in model.link:
-        parts = surfaces(link, there @ transform(link.pose), collisions=collisions, without=TINY)
+        parts = surfaces(
+            link, matrix_product(there, transform(link.pose)), collisions=collisions, without=TINY
+        )
         if parts:
             scene.place(node, there)
             below = f"{node}/{link.name.partition('::')[2].replace('/', ' ')}"
@@ -106,7 +109,7 @@ def _close(
     points = _corners(models[name])
     low, high = points.min(axis=0), points.max(axis=0)
     pose = models[name].pose
-    size = float(snap(np.linalg.norm(high - low), 0.01))
+    size = float(snap(norm(high - low), 0.01))
     away = round(CLOSE * size + 0.1, 2) if distance is None else distance
     there = replace(snapshot, models=tuple(model for model in snapshot.models if model.name != name)).world()
     x, y, z = (round(c, 3) for c in snap((low + high) / 2).tolist())
@@ -122,7 +125,7 @@ def _close(
 def _corners(model: Model) -> Floats:
     """Corners (n, 3) of what there is to see of a model, in the world."""
     there = transform(model.pose) if model.pose is not None else np.eye(4)
-    placed = ((link, there @ transform(link.pose)) for link in model.link)
+    placed = ((link, matrix_product(there, transform(link.pose))) for link in model.link)
     found = [surface.moved(at).vertices for link, at in placed for surface in surfaces(link, at)]
     for solid in solids_of(model) if not found else ():
         for shape, pose in solid.parts():

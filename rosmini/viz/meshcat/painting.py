@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.polygons import inside, sides_of
+from rosmini.geometry.products import matrix_product
 from rosmini.viz.rounding import snap
 
 Floats = NDArray[np.float64]
@@ -75,7 +76,7 @@ class Painting:
 
 
 def _nearnesses(points: Floats, plane: Floats) -> Floats:
-    return snap(points @ plane[:2] + plane[2], 1e-7)  # alike on every machine where faces lie in one plane
+    return snap(matrix_product(points, plane[:2]) + plane[2], 1e-7)
 
 
 def _sorted(

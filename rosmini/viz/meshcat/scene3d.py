@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rosmini.geometry.polygons import needed
 from rosmini.geometry.poses import compose, inverse
+from rosmini.geometry.products import inverse_matrix, matrix_product
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.models import Part as SimplePart
 from rosmini.sim.sensors.scene import trapezia
@@ -293,7 +294,10 @@ class Scene3D:
             if not surfaces:
                 continue
             above = f"{name}/{link.removesuffix('_link')}" if link.startswith("wheel_") else name
-            self.place(f"{above}/{link}", np.linalg.inv(self.nodes[above]) @ at if above != name else at)
+            self.place(
+                f"{above}/{link}",
+                matrix_product(inverse_matrix(self.nodes[above]), at) if above != name else at,
+            )
             for part in link_parts(f"{above}/{link}", surfaces):
                 self.add_surface(part)
 
@@ -316,7 +320,7 @@ class Scene3D:
         mount = np.eye(4)
         mount[:3, 3] = model.laser.mount
         if model.laser.yaw:
-            mount = mount @ planar((0.0, 0.0, model.laser.yaw))
+            mount = matrix_product(mount, planar((0.0, 0.0, model.laser.yaw)))
         if pose is not None:
             poses = np.atleast_2d(pose)
             lasers = compose(poses, (*model.laser.mount[:2], model.laser.yaw))
@@ -324,10 +328,10 @@ class Scene3D:
                 compose(inverse(lasers[:1]), lasers), np.column_stack([points[:, :2], np.zeros(len(points))])
             )
             points = rounded(np.column_stack([ends[:, :2], points[:, 2]]))
-            mount = np.linalg.inv(self.nodes[name]) @ planar(poses[0]) @ mount
+            mount = matrix_product(matrix_product(inverse_matrix(self.nodes[name]), planar(poses[0])), mount)
         self.place(f"{name}/scan", mount)
         place = self.transform(f"{name}/scan")
-        self.scans.append(points[np.isfinite(ranges)] @ place[:3, :3].T + place[:3, 3])
+        self.scans.append(matrix_product(points[np.isfinite(ranges)], place[:3, :3].T) + place[:3, 3])
         geometry = meshcat().geometry
         colours = np.tile(np.array([_rgb(style.LIGHT["vermilion"])]), (len(points), 1))
         # A beam that hits nothing has its point far below the ground, so that each beam keeps its place.
@@ -364,7 +368,7 @@ class Scene3D:
         result: Floats = np.eye(4)
         names = node.split("/")
         for i in range(1, len(names) + 1):
-            result = result @ self.nodes.get("/".join(names[:i]), np.eye(4))
+            result = matrix_product(result, self.nodes.get("/".join(names[:i]), np.eye(4)))
         return result
 
     @property

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from rosmini.geometry.products import norm
 from rosmini.urdf import Robot
 from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.view import ViewError
@@ -42,7 +43,7 @@ def urdf_3d(
         raise ViewError(f"the robot {robot.name!r} has no {what}: there is nothing to see")
     points = np.vstack(corners)
     low, high = points.min(axis=0), points.max(axis=0)
-    size = float(np.linalg.norm(high - low))
+    size = norm(high - low)
     camera = Camera(
         tuple(round(c, 3) for c in snap((low + high) / 2).tolist()),
         round(1.45 * size + 0.02, 3) if distance is None else distance,

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from rosmini.geometry.polygons import area
+from rosmini.geometry.products import matrix_product, norm
 from rosmini.sim.gazebo.msgs import Collision, Geometry, Link, Model, Pose, Visual
 from rosmini.sim.gazebo.snapshot import pose_of, solids_of
 from rosmini.sim.sdf.poses import matrix
@@ -70,9 +71,9 @@ def _is_ground(piece: Visual | Collision, place: Floats) -> bool:
     plane = piece.geometry.plane
     if plane is None:
         return False
-    at = place @ transform(piece.pose)
-    normal = at[:3, :3] @ (plane.normal.x, plane.normal.y, plane.normal.z)
-    return bool(abs(at[2, 3]) < FLAT and normal[2] > (1 - SAME) * np.linalg.norm(normal))
+    at = matrix_product(place, transform(piece.pose))
+    normal = matrix_product(at[:3, :3], (plane.normal.x, plane.normal.y, plane.normal.z))
+    return bool(abs(at[2, 3]) < FLAT and normal[2] > (1 - SAME) * norm(normal))
 
 
 def _shape(shape: Geometry) -> list[Surface]:
@@ -99,9 +100,9 @@ def _shape(shape: Geometry) -> list[Surface]:
 
 def _plane(normal: Floats, length: float, width: float) -> Surface:
     """A rectangle around the origin, seen from the side that its normal points to."""
-    up = normal / np.linalg.norm(normal)
+    up = normal / norm(normal)
     aside = np.cross(up, (1.0, 0.0, 0.0) if abs(up[0]) < 0.9 else (0.0, 1.0, 0.0))
-    aside /= np.linalg.norm(aside)
+    aside /= norm(aside)
     ahead = np.cross(aside, up)
     ends = ((-1, -1), (1, -1), (1, 1), (-1, 1))
     corners = [a * length / 2 * ahead + b * width / 2 * aside for a, b in ends]
@@ -128,7 +129,7 @@ def is_plain(model: Model) -> bool:
             return False
         for visual, collision in zip(link.visual, link.collision, strict=True):
             at, solid_at = transform(visual.pose), transform(collision.pose)
-            up = (there @ transform(link.pose) @ at)[2, 2]
+            up = matrix_product(matrix_product(there, transform(link.pose)), at)[2, 2]
             if visual.geometry.mesh is not None or visual.geometry != collision.geometry:
                 return False
             if up < 1 - SAME or not np.allclose(at, solid_at, atol=SAME):

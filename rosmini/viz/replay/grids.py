@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.poses import Pose
+from rosmini.geometry.products import matrix_product
 from rosmini.viz.map_colours import UNKNOWN, colours_of, scheme_of
 from rosmini.viz.replay.layers import Bounds, Frames, around
 from rosmini.viz.replay.packing import ANGLE, LENGTH, pack, pack_columns, pack_natural
@@ -161,7 +162,7 @@ class Grids(Frames):
             [(c, r) for c in (columns.min(), columns.max() + 1) for r in (rows.min(), rows.max() + 1)]
         )
         c, s = np.cos(heading), np.sin(heading)
-        return around([np.array([x, y]) + resolution * ends @ np.array([[c, s], [-s, c]])])
+        return around([np.array([x, y]) + matrix_product(resolution * ends, np.array([[c, s], [-s, c]]))])
 
 
 def _rounded(cells: Cells) -> Cells:

@@ -37,7 +37,7 @@ def small(pixels: NDArray[Any], most: int = MOST_PIXELS) -> Pixels:
         near = 1.0 / (1.0 + np.nan_to_num(thin, nan=np.inf, posinf=np.inf))
         thin = np.repeat((255 * near)[..., None], 3, axis=2)
     levels = np.clip(np.rint(thin.astype(float) * (LEVELS - 1) / 255), 0, LEVELS - 1).astype(np.uint8)
-    numbers: Pixels = (levels @ np.array([LEVELS * LEVELS, LEVELS, 1], dtype=np.uint8)).astype(np.uint8)
+    numbers: Pixels = (levels * np.array([LEVELS * LEVELS, LEVELS, 1])).sum(axis=-1).astype(np.uint8)
     return numbers
 
 

@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import norms
 from rosmini.viz.replay.packing import ANGLE, LENGTH, TIME, pack, pack_columns, whole
 from rosmini.viz.rounding import fixed, kept
 from rosmini.viz.view import ViewError
@@ -295,14 +296,14 @@ class Strokes(Layer):
         if len(stroke.times) < 3:
             return stroke
         spatial = set(kept(stroke.points, self.tolerance))
-        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(stroke.points, axis=0), axis=1))])
+        length = np.concatenate([[0.0], np.cumsum(norms(np.diff(stroke.points, axis=0)))])
         pace = set(kept(np.column_stack([stroke.times, length]), 10 * self.tolerance))
         which = sorted(spatial | pace)
         return replace(stroke, times=stroke.times[which], points=stroke.points[which])
 
     def text(self) -> str:
         """How many strokes, how long together."""
-        length = sum(float(np.linalg.norm(np.diff(s.points, axis=0), axis=1).sum()) for s in self.strokes)
+        length = sum(float(norms(np.diff(s.points, axis=0)).sum()) for s in self.strokes)
         return f"{plural(self.count, 'stroke')}, {fixed(length, 2)} m"
 
     @property

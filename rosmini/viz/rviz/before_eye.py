@@ -9,6 +9,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.products import matrix_product
+
 from .primitives import Floats, Lines, Mesh, Pixels, Points, Primitive, Texture
 from .projection import Perspective
 
@@ -86,7 +88,9 @@ def _outlines(pixels: Pixels, texture: Texture, look: Perspective) -> dict[bytes
     outlines: dict[bytes, list[Floats]] = {}
     for x0, y0, x1, y1 in _rectangles(pixels):
         flat = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]) * cell
-        corners = np.column_stack([flat, np.zeros(4)]) @ texture.pose[:3, :3].T + texture.pose[:3, 3]
+        corners = (
+            matrix_product(np.column_stack([flat, np.zeros(4)]), texture.pose[:3, :3].T) + texture.pose[:3, 3]
+        )
         corners = _clipped(corners, _away(corners, look))
         if len(corners) < 3:
             continue

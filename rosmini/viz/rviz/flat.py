@@ -12,6 +12,7 @@ from itertools import groupby
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product, norms
 from rosmini.geometry.slices import convex_hull
 from rosmini.viz.rounding import snap
 from rosmini.viz.style import LABEL_SIZE, variable
@@ -263,7 +264,7 @@ def _mesh(mesh: Mesh, look: Look) -> Iterator[str]:
         return
     triangles = placed[mesh.faces]
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    sizes = np.linalg.norm(normals, axis=1)
+    sizes = norms(normals)
     towards = (normals * look.towards(triangles[:, 0])).sum(axis=1)
     seen = np.flatnonzero((sizes > 1e-12) & (towards > 1e-9 * sizes if mesh.lit else sizes > 0))
     if len(seen) > MOST_FACES:
@@ -274,7 +275,7 @@ def _mesh(mesh: Mesh, look: Look) -> Iterator[str]:
     light = np.ones(len(order))
     see_through = mesh.colours.ndim == 1 and mesh.colours[3] < OPAQUE
     if mesh.lit and not see_through:  # else edges would be seen where faces overlap
-        light = 0.7 + 0.3 * np.clip(normals[order] @ SUN / sizes[order], 0.0, 1.0)
+        light = 0.7 + 0.3 * np.clip(matrix_product(normals[order], SUN) / sizes[order], 0.0, 1.0)
     colours = (
         mesh.colours[order] if mesh.colours.ndim == 2 else np.tile(mesh.colours, (len(order), 1))
     ).copy()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product, scalar_product
+
 from .primitives import Floats, Mesh
 
 Gaze = tuple[Floats, Floats]
@@ -30,7 +32,7 @@ def depths(mesh: Mesh, gaze: Gaze, edge: float = 0.0) -> list[float]:
     to = start - triangles[:, 0]
     s = (to * across).sum(axis=1) / safe
     turned = np.cross(to, u)
-    t = turned @ ahead / safe
+    t = matrix_product(turned, ahead) / safe
     found = (turned * v).sum(axis=1) / safe
     inside = np.isfinite(safe) & (s >= -edge) & (t >= -edge) & (s + t <= 1 + edge) & (found > 0)
     result: list[float] = found[inside].tolist()
@@ -40,19 +42,21 @@ def depths(mesh: Mesh, gaze: Gaze, edge: float = 0.0) -> list[float]:
 def on_axis(gaze: Gaze, point: Floats, axis: Floats) -> Floats | None:
     """The point (3,) of the line through `point` along `axis` that is nearest to a line of sight, or None along it."""
     start, ahead = gaze
-    slant = float(ahead @ axis)
+    slant = scalar_product(ahead, axis)
     if 1 - slant * slant < _PARALLEL:
         return None
     to = start - point
-    found: Floats = point + (to @ axis - slant * (to @ ahead)) / (1 - slant * slant) * axis
+    found: Floats = (
+        point + (scalar_product(to, axis) - slant * scalar_product(to, ahead)) / (1 - slant * slant) * axis
+    )
     return found
 
 
 def on_plane(gaze: Gaze, point: Floats, normal: Floats) -> Floats | None:
     """Where a line of sight meets the plane through `point` across `normal`; None beside it and behind the eye."""
     start, ahead = gaze
-    slant = float(ahead @ normal)
+    slant = scalar_product(ahead, normal)
     if abs(slant) < _PARALLEL:
         return None
-    reach = float((point - start) @ normal) / slant
+    reach = scalar_product(point - start, normal) / slant
     return start + reach * ahead if reach > 0 else None

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from rosmini.geometry.products import inverse_matrix, matrix_product, norm, scalar_product
 from rosmini.interactive_markers import auto_complete, title_control
 from rosmini.msgs import message_class
 from rosmini.tf.rigid import matrix, rigid
@@ -68,21 +69,21 @@ class Handle:
         if control.orientation_mode == Control.FIXED:
             found[:3, :3] = np.eye(3)
         elif control.orientation_mode == Control.VIEW_FACING:
-            found[:3, :3] = self.frame[:3, :3].T @ FACING_UP[:3, :3]
+            found[:3, :3] = matrix_product(self.frame[:3, :3].T, FACING_UP[:3, :3])
         return found
 
     def axis(self, control: Any) -> Floats:
         """The direction (3,) of a control's x axis in the frame of the marker's header."""
         q = control.orientation
         turned: Floats = matrix(rigid((0, 0, 0), (q.x, q.y, q.z, q.w)))[:3, 0]
-        found: Floats = self.control_frame(control)[:3, :3] @ turned
+        found: Floats = matrix_product(self.control_frame(control)[:3, :3], turned)
         return found
 
     # -- seen ----------------------------------------------------------------------------------------------------
 
     def shapes(self, control: Any, context: Context) -> Iterator[Primitive]:
         """What a control looks like; markers in it that are wrong are left out, and noted. Raises `DisplayError`."""
-        placed = self.frame @ self.control_frame(control)
+        placed = matrix_product(self.frame, self.control_frame(control))
         faces = control.orientation_mode == Control.VIEW_FACING
         for shape in control.markers:
             level, text = check(shape)
@@ -93,10 +94,10 @@ class Handle:
             if shape.header.frame_id:
                 base = matrix(context.place(shape.header.frame_id))
             elif faces and control.independent_marker_orientation:
-                base = self.frame @ self.pose
+                base = matrix_product(self.frame, self.pose)
             elif faces and shape.type == Marker.TEXT_VIEW_FACING:
-                base = self.frame @ self._upright()
-            yield from marker_primitives(shape, base @ matrix(self.heard.local(shape.pose)))
+                base = matrix_product(self.frame, self._upright())
+            yield from marker_primitives(shape, matrix_product(base, matrix(self.heard.local(shape.pose))))
 
     def _upright(self) -> Floats:
         found: Floats = np.eye(4)
@@ -108,13 +109,16 @@ class Handle:
         if self.message.description.strip():
             (text,) = title_control(self.message).markers
             yield from marker_primitives(
-                text, self.frame @ self._upright() @ matrix(self.heard.local(text.pose))
+                text,
+                matrix_product(
+                    matrix_product(self.frame, self._upright()), matrix(self.heard.local(text.pose))
+                ),
             )
 
     def axes(self) -> Iterator[Primitive]:
         """The axes of the marker."""
         size = abs(self.message.scale)
-        yield from axes(self.frame @ self.pose, size, 0.05 * size)
+        yield from axes(matrix_product(self.frame, self.pose), size, 0.05 * size)
 
     def under(self, gaze: Gaze, context: Context) -> list[tuple[float, Any]]:
         """The controls that a line of sight of the fixed frame meets: how far away [m], and they."""
@@ -151,8 +155,8 @@ class Grip:
         """Where the hand is in space (3,), in the fixed frame; `at` where its line of sight does not say."""
         if gaze is None:
             return at
-        origin = (self.handle.frame @ self._start)[:3, 3]
-        axis = self.handle.frame[:3, :3] @ self._axis
+        origin = matrix_product(self.handle.frame, self._start)[:3, 3]
+        axis = matrix_product(self.handle.frame[:3, :3], self._axis)
         mode = self.control.interaction_mode
         if mode == Control.MOVE_AXIS:
             found = on_axis(gaze, origin, axis)
@@ -162,7 +166,7 @@ class Grip:
         return at if found is None else found
 
     def _local(self, at: Floats) -> Floats:
-        found: Floats = np.linalg.inv(self.handle.frame)[:3] @ np.append(at, 1.0)
+        found: Floats = matrix_product(inverse_matrix(self.handle.frame)[:3], np.append(at, 1.0))
         return found
 
     def move(self, at: Floats, gaze: Gaze | None = None) -> bool:
@@ -174,13 +178,13 @@ class Grip:
         mode = self.control.interaction_mode
         shift = to - self._grab
         if mode == Control.MOVE_AXIS:
-            pose[:3, 3] += shift @ self._axis * self._axis
+            pose[:3, 3] += scalar_product(shift, self._axis) * self._axis
         elif mode == Control.MOVE_PLANE:
-            pose[:3, 3] += shift - shift @ self._axis * self._axis
+            pose[:3, 3] += shift - scalar_product(shift, self._axis) * self._axis
         elif mode in (Control.MOVE_3D, Control.MOVE_ROTATE_3D):
             pose[:3, 3] += shift
         elif mode == Control.ROTATE_AXIS:
-            pose[:3, :3] = self._turn(self._start[:3, 3], self._grab, to) @ self._start[:3, :3]
+            pose[:3, :3] = matrix_product(self._turn(self._start[:3, 3], self._grab, to), self._start[:3, :3])
         elif mode == Control.MOVE_ROTATE:
             pose = self._towed(to)
         else:
@@ -192,15 +196,15 @@ class Grip:
     def _turn(self, centre: Floats, start: Floats, end: Floats) -> Floats:
         """The rotation (3, 3) about the axis through `centre` that takes `start` towards `end`."""
         first, second = (self._across(each - centre) for each in (start, end))
-        if min(np.linalg.norm(first), np.linalg.norm(second)) < 1e-9:
+        if min(norm(first), norm(second)) < 1e-9:
             return np.eye(3)
-        angle = math.atan2(float(np.cross(first, second) @ self._axis), float(first @ second))
+        angle = math.atan2(scalar_product(np.cross(first, second), self._axis), scalar_product(first, second))
         half = math.sin(angle / 2)
         found: Floats = matrix(rigid((0, 0, 0), (*(self._axis * half), math.cos(angle / 2))))[:3, :3]
         return found
 
     def _across(self, vector: Floats) -> Floats:
-        found: Floats = vector - vector @ self._axis * self._axis
+        found: Floats = vector - scalar_product(vector, self._axis) * self._axis
         return found
 
     def _towed(self, to: Floats) -> Floats:
@@ -208,8 +212,8 @@ class Grip:
         pose = self.handle.pose.copy()
         centre = pose[:3, 3].copy()
         turn = self._turn(centre, self._last, to)
-        pose[:3, :3] = turn @ pose[:3, :3]
-        pose[:3, 3] += self._across(to - centre - turn @ (self._last - centre))
+        pose[:3, :3] = matrix_product(turn, pose[:3, :3])
+        pose[:3, 3] += self._across(to - centre - matrix_product(turn, self._last - centre))
         self._last = to
         return pose
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from rosmini import files
 from rosmini.errors import RosminiError
+from rosmini.geometry.products import matrix_product, norm
 from rosmini.packages import SCHEME, PackageIndex
 from rosmini.urdf.meshes import read
 
@@ -89,10 +90,10 @@ def _solids(boxes: bool, points: Floats, pose: Floats, scale: Floats, colours: F
 
 def _arrow(marker: Any, pose: Floats, scale: Floats, colour: Floats) -> Iterator[Primitive]:
     if not marker.points:
-        yield arrow(pose @ np.diag([*scale, 1.0]), colour, SHAFT, 0.5, HEAD, 1.0)
+        yield arrow(matrix_product(pose, np.diag([*scale, 1.0])), colour, SHAFT, 0.5, HEAD, 1.0)
         return
     start, end = _moved(_array(marker.points), pose)
-    length = float(np.linalg.norm(end - start))
+    length = norm(end - start)
     if length > 0:
         head = min(float(scale[2]) or HEAD * length, length)
         yield arrow(
@@ -102,9 +103,9 @@ def _arrow(marker: Any, pose: Floats, scale: Floats, colour: Floats) -> Iterator
 
 def towards(start: Floats, end: Floats) -> Floats:
     """The pose (4, 4) at `start` (3,) whose x axis points to `end` (3,), which is elsewhere."""
-    x = (end - start) / np.linalg.norm(end - start)
+    x = (end - start) / norm(end - start)
     y = np.cross((0.0, 0.0, 1.0) if abs(x[2]) < 0.9 else (0.0, 1.0, 0.0), x)
-    y /= np.linalg.norm(y)
+    y /= norm(y)
     pose = np.eye(4)
     pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = x, y, np.cross(x, y), start
     return pose
@@ -118,7 +119,7 @@ def _mesh(marker: Any, pose: Floats, scale: Floats, colour: Floats) -> Iterator[
         raise DisplayError(
             f"Mesh resource marker [{marker.ns}/{marker.id}] could not load [{marker.mesh_resource:.200}]: {said}"
         ) from error
-    sized = pose @ np.diag([*scale, 1.0])
+    sized = matrix_product(pose, np.diag([*scale, 1.0]))
     for surface in surfaces:
         own = surface.colour if marker.mesh_use_embedded_materials else None
         if own is None:
@@ -142,5 +143,5 @@ def _array(points: Sequence[Any]) -> Floats:
 
 
 def _moved(points: Floats, pose: Floats) -> Floats:
-    moved: Floats = points @ pose[:3, :3].T + pose[:3, 3]
+    moved: Floats = matrix_product(points, pose[:3, :3].T) + pose[:3, 3]
     return moved

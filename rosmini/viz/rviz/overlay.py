@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from rosmini.geometry.products import inverse_matrix, matrix_product, norms
 from rosmini.tf.rigid import Floats
 
 from .camera_images import PinHole
@@ -37,8 +38,8 @@ class Overlay:
         self._middle = np.array([camera.cx, camera.cy]) * scale
         shift = np.eye(4)
         shift[:2, 3] = camera.tx, camera.ty
-        self._pose = pose @ shift
-        self._inverse = np.linalg.inv(self._pose)
+        self._pose = matrix_product(pose, shift)
+        self._inverse = inverse_matrix(self._pose)
         self._image = Image.new("RGBA", (self.width, self.height), (0, 0, 0, 0))
         self._pen = ImageDraw.Draw(self._image, "RGBA")
 
@@ -69,7 +70,7 @@ class Overlay:
 
     def _seen(self, points: Floats) -> Floats:
         """Points (n, 3) of the fixed frame in the camera's (n, 3)."""
-        found: Floats = points @ self._inverse[:3, :3].T + self._inverse[:3, 3]
+        found: Floats = matrix_product(points, self._inverse[:3, :3].T) + self._inverse[:3, 3]
         return found
 
     def _pixels(self, seen: Floats) -> Floats:
@@ -113,7 +114,7 @@ class Overlay:
         seen = self._seen(mesh.placed)
         triangles = seen[mesh.faces]
         normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-        sizes = np.linalg.norm(normals, axis=1)
+        sizes = norms(normals)
         facing = (normals * triangles[:, 0]).sum(axis=1) < 0 if mesh.lit else np.ones(len(sizes), dtype=bool)
         chosen = _some(np.flatnonzero((triangles[..., 2] > NEAR).all(axis=1) & facing & (sizes > 0)))
         at = self._pixels(triangles[chosen].reshape(-1, 3)).reshape(-1, 3, 2)
@@ -132,8 +133,8 @@ class Overlay:
         columns, rows = np.meshgrid(np.arange(self.width) + 0.5, np.arange(self.height) + 0.5)
         rays = np.stack([(columns - self._middle[0]) / self._focal[0], (rows - self._middle[1]) / self._focal[1],
                          np.ones_like(rows)], axis=-1)  # fmt: skip
-        inside = np.linalg.inv(texture.pose) @ self._pose  # from the camera to the flat picture
-        start, way = inside[:3, 3], rays @ inside[:3, :3].T
+        inside = matrix_product(inverse_matrix(texture.pose), self._pose)  # from the camera to the picture
+        start, way = inside[:3, 3], matrix_product(rays, inside[:3, :3].T)
         level = np.abs(way[..., 2]) < 1e-9
         reach = -start[2] / np.where(level, 1.0, way[..., 2])
         height, width = texture.pixels.shape[:2]

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product
+
 from .primitives import DisplayError, Floats, Points
 from .properties import Colour, Property
 
@@ -95,7 +97,7 @@ def styled(
     elif kind == "RGBF32" and {"r", "g", "b"} <= channels.keys():
         colours[:, :3] = np.nan_to_num(np.column_stack([channels[name] for name in "rgb"]))
     elif kind == "MONO8" and "rgb" in channels:
-        colours[:, :3] = (channels["rgb"] @ (0.2989, 0.5870, 0.1140))[:, None]
+        colours[:, :3] = matrix_product(channels["rgb"], (0.2989, 0.5870, 0.1140))[:, None]
     elif kind in ("FlatColor", ""):
         colours[:, :3] = properties["Color"].rgba()[:3]
     elif kind != "Intensity":

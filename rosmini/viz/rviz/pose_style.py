@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rosmini.geometry.products import determinant, eigen, matrix_product
+
 from .primitives import INVALID, DisplayError, Floats, Mesh, Primitive
 from .properties import Colour, Property
 from .shapes import arrow, axes, ball
@@ -75,17 +77,17 @@ def covariance_shape(pose: Floats, covariance: ArrayLike, display: Any, heard: H
         raise DisplayError(INVALID)
     group = "Covariance/Position"
     if display[group]:
-        values, vectors = np.linalg.eigh((whole[:3, :3] + whole[:3, :3].T) / 2)
+        values, vectors = eigen((whole[:3, :3] + whole[:3, :3].T) / 2)
         if values.min() < -1e-6 * max(abs(values).max(), 1.0):
             raise DisplayError("Covariance matrix is not positive: it has negative variances")
-        if np.linalg.det(vectors) < 0:
+        if determinant(vectors) < 0:
             vectors[:, 0] *= -1
         sigma = np.sqrt(np.maximum(values, 0.0)) * display[f"{group}/Scale"]
         if (sigma > UNKNOWN).any():
             heard.note(f"a standard deviation of more than {UNKNOWN:g} m, which means unknown, is not drawn")
             sigma[sigma > UNKNOWN] = 0.0
         at = np.eye(4)
-        at[:3, :3], at[:3, 3] = pose[:3, :3] @ vectors, pose[:3, 3]
+        at[:3, :3], at[:3, 3] = matrix_product(pose[:3, :3], vectors), pose[:3, 3]
         colour = display[f"{group}/Color"].rgba(display[f"{group}/Alpha"])
         if sigma.max() > 1e-9:
             yield ball(at, colour, np.maximum(2.0 * sigma, 1e-3))

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rosmini.errors import RosminiError
+from rosmini.geometry.products import matrix_product
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -150,7 +151,7 @@ class Mesh:
         """The vertices (n, 3) in the fixed frame."""
         if self.pose is None:
             return self.vertices
-        return self.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
+        return matrix_product(self.vertices, self.pose[:3, :3].T) + self.pose[:3, 3]
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,7 +185,7 @@ class Texture:
         """The corners (4, 3) in the fixed frame: at the origin, along x, opposite, along y."""
         width, height = self.size
         flat = np.array([(0, 0, 0), (width, 0, 0), (width, height, 0), (0, height, 0)], dtype=float)
-        return flat @ self.pose[:3, :3].T + self.pose[:3, 3]
+        return matrix_product(flat, self.pose[:3, :3].T) + self.pose[:3, 3]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from typing import Protocol
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product, norm
 from rosmini.viz.rounding import snap
 
 from .gaze import HIGH, Gaze
@@ -77,7 +78,7 @@ class Projection:
 
     def pixels(self, points: Floats) -> Floats:
         """Points (n, 3) in the picture (n, 2) [px], from its left upper corner, to a tenth of a pixel."""
-        flat = points @ self.axes[:2].T - self.middle
+        flat = matrix_product(points, self.axes[:2].T) - self.middle
         right, up = flat[:, 0] * self.scale, flat[:, 1] * self.scale
         return snap(np.column_stack([self.width / 2 + right, self.height / 2 - up]), 0.1)
 
@@ -88,7 +89,7 @@ class Projection:
 
     def nearness(self, points: Floats) -> Floats:
         """How near points (n, 3) are to the viewer (n,) [m], to a millimetre."""
-        return snap(points @ self.axes[2])
+        return snap(matrix_product(points, self.axes[2]))
 
     def scale_at(self, points: Floats) -> float:
         """The same everywhere."""
@@ -147,7 +148,7 @@ class Perspective:
 
     def pixels(self, points: Floats) -> Floats:
         """Points (n, 3) in the picture (n, 2) [px], from its left upper corner; far outside what is behind the eye."""
-        right, up, back = ((points - self.eye) @ self.axes.T).T
+        right, up, back = matrix_product(points - self.eye, self.axes.T).T
         away = np.where(back < 0, -back, np.inf)
         seen = np.column_stack(
             [self.width / 2 + self._focal * right / away, self.height / 2 - self._focal * up / away]
@@ -157,7 +158,7 @@ class Perspective:
     @property
     def scale(self) -> float:
         """Pixels a metre at the target."""
-        return self._focal / float(np.linalg.norm(self.eye - self.target))
+        return self._focal / norm(self.eye - self.target)
 
     def scale_at(self, points: Floats) -> float:
         """Pixels a metre at the mean distance of points (n, 3) in front of the eye."""
@@ -167,7 +168,7 @@ class Perspective:
 
     def nearness(self, points: Floats) -> Floats:
         """How near points (n, 3) are to the eye (n,) [m], along where it looks; negative in front of it."""
-        return snap((points - self.eye) @ self.axes[2])
+        return snap(matrix_product(points - self.eye, self.axes[2]))
 
     def towards(self, points: Floats) -> Floats:
         """Directions (n, 3) from points to the eye."""
@@ -185,8 +186,8 @@ class Perspective:
     def gaze(self, x: float, y: float) -> Gaze:
         """The line of sight through a pixel, from the eye."""
         seen = np.array([x - self.width / 2, self.height / 2 - y, -self._focal])
-        ahead = seen @ self.axes
-        return self.eye, ahead / np.linalg.norm(ahead)
+        ahead = matrix_product(seen, self.axes)
+        return self.eye, ahead / norm(ahead)
 
 
 def projection(
@@ -197,9 +198,9 @@ def projection(
     axes = _axes(yaw, pitch)
     if sight is not None and sight.width > 0:
         high = 0.62 * width if height is None else height
-        return Projection(axes, axes[:2] @ sight.target, width / sight.width, width, high)
+        return Projection(axes, matrix_product(axes[:2], sight.target), width / sight.width, width, high)
     found = [corners(each) for each in shown]
-    flat = np.vstack([np.empty((0, 3)), *found]) @ axes[:2].T
+    flat = matrix_product(np.vstack([np.empty((0, 3)), *found]), axes[:2].T)
     if not len(flat):
         flat = np.array([(-LEAST, -LEAST), (LEAST, LEAST)])
     low, high_corner = snap(flat.min(axis=0)), snap(flat.max(axis=0))
@@ -229,5 +230,5 @@ def _box_of(points: Floats) -> Floats:
     directions = np.array(
         [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)], dtype=float
     )
-    found: Floats = points[np.argmax(points @ directions.T, axis=0)]
+    found: Floats = points[np.argmax(matrix_product(points, directions.T), axis=0)]
     return found

@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product, norms, scalar_product
+
 from .display import Display
 from .gaze import Gaze, depths
 from .primitives import Floats, Mesh, Primitive, Text, Texture
@@ -67,8 +69,8 @@ def hit(layers: Iterable[Layer], look: Look, pixel: Floats) -> Floats | None:
     best: Floats | None = None
     nearest = REACH
     for places in _places(each for each in shown if surface is None or not isinstance(each, Mesh)):
-        distances = np.linalg.norm(look.pixels(places) - pixel, axis=1)
-        distances[(places - gaze[0]) @ gaze[1] > farthest] = np.inf
+        distances = norms(look.pixels(places) - pixel)
+        distances[matrix_product(places - gaze[0], gaze[1]) > farthest] = np.inf
         index = int(np.argmin(distances))
         if distances[index] < nearest:
             best, nearest = places[index], float(distances[index])
@@ -85,7 +87,7 @@ def first_hit(meshes: Iterable[Mesh], gaze: Gaze) -> Floats | None:
 
 
 def _depth(point: Floats, gaze: Gaze) -> float:
-    return float((point - gaze[0]) @ gaze[1])
+    return scalar_product(point - gaze[0], gaze[1])
 
 
 def _places(primitives: Iterable[Primitive]) -> Iterator[Floats]:
@@ -102,5 +104,5 @@ def _places(primitives: Iterable[Primitive]) -> Iterator[Floats]:
 
 
 def _covers(texture: Texture, ground: Floats) -> bool:
-    x, y, _ = texture.pose[:3, :3].T @ (ground - texture.pose[:3, 3])
+    x, y, _ = matrix_product(texture.pose[:3, :3].T, ground - texture.pose[:3, 3])
     return bool(0 <= x <= texture.size[0] and 0 <= y <= texture.size[1])

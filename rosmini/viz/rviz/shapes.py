@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product
 from rosmini.urdf import Box, Cylinder, Sphere
 from rosmini.urdf.meshes import Surface
 from rosmini.viz.meshcat.links import lathe, surfaces_of
@@ -45,7 +46,7 @@ def flat_arrow(pose: Floats, colour: Floats, length: float) -> Lines:
     """An arrow of three lines in the plane of x and y of `pose`, as those of a PoseArray."""
     tip, back, side = (length, 0.0, 0.0), 0.75 * length, 0.2 * length
     flat = np.array([(0, 0, 0), tip, tip, (back, side, 0), tip, (back, -side, 0)], dtype=float)
-    return Lines(flat @ pose[:3, :3].T + pose[:3, 3], colour, strip=False)
+    return Lines(matrix_product(flat, pose[:3, :3].T) + pose[:3, 3], colour, strip=False)
 
 
 def axes(pose: Floats, length: float, radius: float, alpha: float = 1.0) -> tuple[Mesh, Mesh, Mesh]:
@@ -53,7 +54,7 @@ def axes(pose: Floats, length: float, radius: float, alpha: float = 1.0) -> tupl
     found = _rod(round(float(length), 6), round(float(radius), 6))
     turned = (_ALONG_X, _ALONG_Y, np.eye(4))
     x, y, z = (
-        Mesh(found.vertices, found.faces, colour * (1, 1, 1, alpha), pose @ turn)
+        Mesh(found.vertices, found.faces, colour * (1, 1, 1, alpha), matrix_product(pose, turn))
         for colour, turn in zip((RED, GREEN, BLUE), turned, strict=True)
     )
     return x, y, z
@@ -61,22 +62,22 @@ def axes(pose: Floats, length: float, radius: float, alpha: float = 1.0) -> tupl
 
 def box(pose: Floats, colour: Floats, size: tuple[float, float, float] | Floats) -> Mesh:
     """A box around the origin of `pose`."""
-    return surface_mesh(_box(), colour, pose @ np.diag([*size, 1.0]))
+    return surface_mesh(_box(), colour, matrix_product(pose, np.diag([*size, 1.0])))
 
 
 def cylinder(pose: Floats, colour: Floats, diameters: tuple[float, float], height: float) -> Mesh:
     """A cylinder along z around the origin of `pose`, with diameters along x and y."""
-    return surface_mesh(_cylinder(), colour, pose @ np.diag([*diameters, height, 1.0]))
+    return surface_mesh(_cylinder(), colour, matrix_product(pose, np.diag([*diameters, height, 1.0])))
 
 
 def cone(pose: Floats, colour: Floats, length: float, radius: float) -> Mesh:
     """A cone with its tip in the origin of `pose`, open along x."""
-    return surface_mesh(_cone(), colour, pose @ np.diag([length, radius, radius, 1.0]))
+    return surface_mesh(_cone(), colour, matrix_product(pose, np.diag([length, radius, radius, 1.0])))
 
 
 def ball(pose: Floats, colour: Floats, size: tuple[float, float, float] | Floats) -> Mesh:
     """An ellipsoid around the origin of `pose`; `size` are its diameters."""
-    return surface_mesh(_ball(), colour, pose @ np.diag([*size, 1.0]))
+    return surface_mesh(_ball(), colour, matrix_product(pose, np.diag([*size, 1.0])))
 
 
 def surface_mesh(surface: Surface, colour: Floats | None = None, pose: Floats | None = None) -> Mesh:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product, norms
 from rosmini.viz.meshcat.command_recorder import meshcat
 from rosmini.viz.meshcat.scene3d import Camera, Scene3D
 from rosmini.viz.meshcat.solids import rounded
@@ -99,7 +100,7 @@ class Drawing:
             width, height = primitive.size
             middle = np.eye(4)
             middle[:3, 3] = (width / 2, height / 2, -LIFT * (20 - min(maps + 1, 18) + 20 * primitive.behind))
-            self.scene.place(path, primitive.pose @ middle)
+            self.scene.place(path, matrix_product(primitive.pose, middle))
         elif primitive.pose is not None:
             self.scene.place(path, primitive.pose)
 
@@ -244,7 +245,7 @@ class _GifImage(_Lowered):
 def _largest(mesh: Mesh) -> Mesh:
     """The largest triangles of a mesh, without the vertices of the others."""
     corners = mesh.vertices[mesh.faces]
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    areas = norms(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     kept = np.sort(np.argsort(-areas, kind="stable")[:MOST_TRIANGLES])
     colours = mesh.colours if mesh.colours.ndim == 1 else mesh.colours[kept]
     faces = np.arange(3 * len(kept)).reshape(-1, 3)
@@ -278,9 +279,9 @@ def _ribbons(segments: Floats, width: float) -> tuple[Floats, Any]:
     """Flat strips along segments (m, 2, 3), level where that can be: vertices (4m, 3) and faces (2m, 3)."""
     along = segments[:, 1] - segments[:, 0]
     side = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))])
-    lengths = np.linalg.norm(side, axis=1)
+    lengths = norms(side)
     side[lengths < 1e-9] = (1.0, 0.0, 0.0)
-    side /= np.maximum(np.linalg.norm(side, axis=1), 1e-12)[:, None]
+    side /= np.maximum(norms(side), 1e-12)[:, None]
     half = side[:, None, :] * width / 2
     vertices = np.concatenate([segments + half, segments - half], axis=1).reshape(-1, 3)
     first = 4 * np.arange(len(segments))[:, None]

@@ -21,6 +21,7 @@ import numpy as np
 
 from rosmini.errors import nearest
 from rosmini.geometry.angles import quaternion_from_yaw
+from rosmini.geometry.products import norm
 from rosmini.plugins import Plugin, PluginError
 from rosmini.time import Time
 from rosmini.viz.view import ViewError
@@ -285,7 +286,7 @@ class Measure(Tool, plugin="rviz/Measure"):
     @property
     def length(self) -> float | None:
         """The distance [m], once two points were clicked."""
-        return float(np.linalg.norm(self.points[1] - self.points[0])) if len(self.points) == 2 else None
+        return norm(self.points[1] - self.points[0]) if len(self.points) == 2 else None
 
     def release(self, at: Floats) -> str:
         """Take a point; the third starts another line."""

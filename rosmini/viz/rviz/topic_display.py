@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from rosmini.errors import RosminiError
+from rosmini.geometry.products import matrix_product
 from rosmini.tf import ConnectivityException, LookupException, TransformException
 from rosmini.tf.rigid import IDENTITY, Floats, Rigid, matrix, transform_points
 
@@ -61,7 +62,7 @@ class Heard:
 
         A quaternion of zeros is taken as no rotation, as in RViz, and noted. Raises `DisplayError` for nan.
         """
-        return matrix(self.place) @ matrix(self.local(pose))
+        return matrix_product(matrix(self.place), matrix(self.local(pose)))
 
     def local(self, pose: Any) -> Rigid:
         """A `geometry_msgs/Pose` in the message's own frame; checked as `pose` does."""

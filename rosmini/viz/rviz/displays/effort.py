@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from rosmini.errors import RosminiError
+from rosmini.geometry.products import matrix_product
 from rosmini.tf import TransformException
 from rosmini.tf.rigid import matrix
 from rosmini.urdf import Joint, Robot, load
@@ -113,9 +114,9 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
         angles = np.arange(30) * (math.tau / 32)
         sign = -1.0 if effort < 0 else 1.0
         flat = np.column_stack([np.zeros(30), -sign * radius * np.sin(angles), radius * np.cos(angles)])
-        pose = place @ towards(np.zeros(3), np.array(joint.axis))
+        pose = matrix_product(place, towards(np.zeros(3), np.array(joint.axis)))
         colour = np.append(rainbow(np.array([share]))[0], self["Alpha"])
-        placed = flat @ pose[:3, :3].T + pose[:3, 3]
+        placed = matrix_product(flat, pose[:3, :3].T) + pose[:3, 3]
         yield Lines(placed, colour, width)
         head = towards(placed[0], placed[0] + sign * pose[:3, 1])
         yield arrow(head, colour, 0.0, 2 * width, 2 * width, 2 * width)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rosmini.errors import RosminiError, nearest
+from rosmini.geometry.products import inverse_matrix, matrix_product
 from rosmini.interactive_markers import InteractiveMarkerClient
 from rosmini.msgs import message_class
 from rosmini.tf import TransformException
@@ -229,7 +230,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         what is no point.
         """
         handle = self.handle(marker)
-        origin = (handle.frame @ handle.pose)[:3, 3]
+        origin = matrix_product(handle.frame, handle.pose)[:3, 3]
         first = origin if start is None else finite([list(start)], 3)[0]
         last = finite([list(to)], 3)[0]
         self.press(handle, handle.control(control), first)
@@ -240,7 +241,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
     def click(self, marker: str, control: str = "") -> str:
         """Click a control of a marker. Raises `DisplayError` if there is none."""
         handle = self.handle(marker)
-        return self.drag(marker, (handle.frame @ handle.pose)[:3, 3].tolist(), control)
+        return self.drag(marker, matrix_product(handle.frame, handle.pose)[:3, 3].tolist(), control)
 
     def choose(self, marker: str, entry: int | str) -> None:
         """Choose an entry of a marker's menu, by its number or by its titles, `Mode/Fast`.
@@ -284,9 +285,13 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         if handle.is_locked and handle.heard.frame.lstrip("/") != context.fixed_frame:
             stamp_ns = context.tree.latest_common_time(context.fixed_frame, handle.heard.frame.lstrip("/"))
             feedback.header.stamp = Time.from_nsec(stamp_ns)
-        feedback.pose = pose_message(base @ handle.pose)
+        feedback.pose = pose_message(matrix_product(base, handle.pose))
         if at is not None:
-            x, y, z = (np.linalg.inv(handle.frame) @ np.append(at, 1.0))[:3] if handle.is_locked else at
+            x, y, z = (
+                matrix_product(inverse_matrix(handle.frame), np.append(at, 1.0))[:3]
+                if handle.is_locked
+                else at
+            )
             feedback.mouse_point.x, feedback.mouse_point.y, feedback.mouse_point.z = (
                 float(x),
                 float(y),

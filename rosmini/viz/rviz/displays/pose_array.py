@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product
 from rosmini.tf.rigid import matrix
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
@@ -47,7 +48,7 @@ class PoseArray(TopicDisplay, plugin="rviz/PoseArray"):
         self.set_status(Level.OK if step == 1 else Level.WARN, "Poses", text)
         colour = self["Color"].rgba(self["Alpha"])
         base: Floats = matrix(heard.place)
-        placed = [base @ matrix(pose) for pose in shown]
+        placed = [matrix_product(base, matrix(pose)) for pose in shown]
         if is_flat:
             if placed:
                 arrows = [flat_arrow(pose, colour, self["Arrow Length"]).points for pose in placed]

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from rosmini.geometry.products import norm
 from rosmini.tf import TransformException
 from rosmini.tf.rigid import matrix
 from rosmini.viz.rviz.context import Context
@@ -92,7 +93,7 @@ class TF(Display, plugin="rviz/TF"):
             parent = context.tree.parent(frame)
             if self["Show Arrows"] and parent in poses:
                 start, end = pose[:3, 3], poses[parent][:3, 3]
-                if np.linalg.norm(end - start) > 1e-6:
+                if norm(end - start) > 1e-6:
                     middle = start + (end - start) * 0.75
                     ends += [start, middle, middle, end]
                     colours += [SHAFT * fade, SHAFT * fade, HEAD * fade, HEAD * fade]

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from rosmini.geometry.products import matrix_product, norm
 from rosmini.tf.rigid import matrix
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.marker_shapes import HEAD, SHAFT, towards
@@ -41,11 +42,13 @@ class WrenchStamped(TopicDisplay, plugin="rviz/WrenchStamped"):
         wrench, place = heard.message.wrench, matrix(heard.place)
         for vector, name in ((wrench.force, "Force"), (wrench.torque, "Torque")):
             along: Floats = finite([(vector.x, vector.y, vector.z)], 3)[0] * self[f"{name} Arrow Scale"]
-            length, width = float(np.linalg.norm(along)), self["Arrow Width"]
+            length, width = norm(along), self["Arrow Width"]
             if length > (width if self["Hide Small Values"] else LEAST):
                 colour = self[f"{name} Color"].rgba(self["Alpha"])
-                pose = place @ towards(np.zeros(3), along)
-                yield arrow(pose @ np.diag([length, width, width, 1.0]), colour, SHAFT, 0.05, HEAD, 0.1)
+                pose = matrix_product(place, towards(np.zeros(3), along))
+                yield arrow(
+                    matrix_product(pose, np.diag([length, width, width, 1.0])), colour, SHAFT, 0.05, HEAD, 0.1
+                )
                 if name == "Torque":
                     yield from _turning(pose, length, width, colour)
 
@@ -57,7 +60,7 @@ def _turning(pose: Floats, length: float, width: float, colour: Any) -> Iterator
     circle = np.column_stack(
         [np.full(len(angles), length / 2), radius * np.cos(angles), radius * np.sin(angles)]
     )
-    placed = circle @ pose[:3, :3].T + pose[:3, 3]
+    placed = matrix_product(circle, pose[:3, :3].T) + pose[:3, 3]
     yield Lines(placed, colour, 0.05 * width)
     head = towards(placed[-1], placed[-1] + pose[:3, 2])
     yield arrow(head, colour, 0.0, 0.05 * width, 0.1 * width, 0.1 * width)
