@@ -1,9 +1,10 @@
 """Each chapter comes out the same on each run and on another machine, and then its solutions pass their checks.
 
 Its stored outputs are of one run, and nbval compares a second one. This is a third, on the plainest machine: a kernel
-that orders sets and hashes strings differently, has no vector units beyond the least that numpy needs (its functions
-differ in the last bit between them), and casts the laser's rays in numpy instead of numba. The bytes of pictures, which
-nbval does not compare, are the same, too.
+that orders sets and hashes strings differently, and casts the laser's rays in numpy instead of numba. It uses no vector
+units beyond the least that numpy needs, no fused multiplication and addition in the C library, BLAS's routines for the
+oldest processor, and machine code of numba's for any processor: all of these differ in the last bit. The bytes of
+pictures, which nbval does not compare, are the same, too.
 
 Then it goes on as a reader does, in the same kernel: all that follows the first stub runs again, with the solutions.
 """
@@ -12,6 +13,7 @@ from __future__ import annotations
 
 import copy
 import os
+import platform
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +30,14 @@ DEAR = (
 )
 """Casting rays in numpy takes half a minute to two in each: on request only, since CI has half an hour for all."""
 
+IS_X86 = platform.machine().lower() in ("x86_64", "amd64")
+PLAIN_X86 = {
+    "OPENBLAS_CORETYPE": "Prescott",
+    "NUMBA_CPU_NAME": "generic",
+    "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4",  # "-FMA_Usable" before glibc 2.33
+}
+"""What makes OpenBLAS, numba and glibc take the oldest of their variants."""
+
 
 def outputs(notebook: Any) -> list[tuple[str, Any]]:
     """Every output of every cell, pictures' bytes included, which nbval does not compare."""
@@ -39,12 +49,16 @@ def test_there_are_chapters() -> None:
 
 
 def plain_machine(chapter: str) -> dict[str, str]:
-    """The environment of a kernel on the plainest machine; where it would be dear, numba casts the rays."""
+    """The environment of a kernel on the plainest machine; where it would be dear, numba casts the rays.
+
+    What the machine sets itself stays as it is.
+    """
     from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 
     features = [name for name in __cpu_dispatch__ if __cpu_features__.get(name)]
     rays = {} if chapter in DEAR else {"ROSMINI_RAYCAST": "numpy"}
-    return {"PYTHONHASHSEED": "2", "NPY_DISABLE_CPU_FEATURES": " ".join(features), **rays}
+    plain = {"NPY_DISABLE_CPU_FEATURES": " ".join(features), **(PLAIN_X86 if IS_X86 else {})}
+    return {"PYTHONHASHSEED": "2", **{name: plain[name] for name in plain if name not in os.environ}, **rays}
 
 
 @pytest.fixture(scope="module", params=CHAPTERS, ids=lambda path: path.stem)
