@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.errors import RosminiError
 from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import Pose
-from rosmini.geometry.products import eigen, matrix_product
+from rosmini.geometry.products import eigen, matrix_product, scalar_product
 from rosmini.graph.show import show
 
 Floats = NDArray[np.float64]
@@ -249,11 +249,14 @@ def summed(particles: Floats, weights: Floats) -> Cluster:
     """Mean and covariance of particles."""
     weight = float(weights.sum())
     shares = weights / weight if weight > 0 else np.full(len(weights), 1 / len(weights))
-    x, y = (shares[:, None] * particles[:, :2]).sum(axis=0).tolist()
-    cos, sin = (float((shares * part(particles[:, 2])).sum()) for part in (np.cos, np.sin))
-    off = particles[:, :2] - (x, y)
+    xs, ys, headings = particles.T
+    x, y = scalar_product(shares, xs), scalar_product(shares, ys)
+    cos, sin = scalar_product(shares, np.cos(headings)), scalar_product(shares, np.sin(headings))
+    ahead, aside = xs - x, ys - y
     covariance = np.zeros((3, 3))
-    covariance[:2, :2] = ((off * shares[:, None])[:, :, None] * off[:, None, :]).sum(axis=0)
+    covariance[0, 0] = scalar_product(shares, ahead * ahead)
+    covariance[0, 1] = covariance[1, 0] = scalar_product(shares, ahead * aside)
+    covariance[1, 1] = scalar_product(shares, aside * aside)
     covariance[2, 2] = -2 * math.log(max(math.hypot(cos, sin), 1e-300))
     return Cluster(weight, (x, y, math.atan2(sin, cos)), covariance, len(particles))
 
