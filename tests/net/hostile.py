@@ -8,6 +8,7 @@ import socket
 import struct
 import threading
 import time
+from collections import Counter
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -91,12 +92,31 @@ def frame(body: bytes) -> bytes:
 
 
 def talk(graph: Graph) -> tuple[Any, list[str]]:
-    """A publisher of `/t` whose subscriber is there at both ends, and what that hears."""
+    """A publisher of `/t` and what its subscriber hears; both ends of every connection of the graph are open."""
     heard: list[str] = []
-    subscriber = graph.node("listener").subscriber("t", String, lambda message: heard.append(message.data))
+    graph.node("listener").subscriber("t", String, lambda message: heard.append(message.data))
     publisher = graph.node("talker").publisher("t", String, queue_size=100)
-    until(graph, lambda: publisher.num_connections() and subscriber.num_connections(), "a connection")
+    until(graph, lambda: _is_connected(graph), "all connections")
     return publisher, heard
+
+
+def _is_connected(graph: Graph) -> bool:
+    """Whether each publisher and each subscriber of the graph's nodes has its connections, those of `/rosout` too.
+
+    A connection that is still being made when `Held` counts for the first time looks like one that is left behind.
+    """
+    nodes = list(graph.nodes.values())
+    published = Counter(topic for node in nodes for topic in node.publications)
+    subscribed = Counter(topic for node in nodes for topic in node.subscriptions)
+    return all(
+        len(publication.senders) == subscribed[topic]
+        for node in nodes
+        for topic, publication in node.publications.items()
+    ) and all(
+        subscription.num_open() == published[topic]
+        for node in nodes
+        for topic, subscription in node.subscriptions.items()
+    )
 
 
 class Held:
