@@ -116,14 +116,15 @@ def serve(graph: Graph, where: Addresses, port: int, *, verbose: bool) -> Master
     from rosmini.net.network import network_of
 
     master: Any = graph.master
+    network = network_of(graph)
     return MasterServer(
-        network_of(graph).io,
+        network.io,
         master,
         where,
         port,
         on_shutdown=lambda _: graph.scheduler.stop(),
         on_call=show_call if verbose else None,
-        warn=lambda text: print(f"[WARN] {text}", file=sys.stderr, flush=True),
+        warn=network.warn,
     )
 
 

@@ -212,7 +212,7 @@ def _complaint(uri: str, cause: BaseException) -> str:
     if isinstance(cause, OSError):
         return f"{silent}{_reason(cause)}. Start it with `rosmini roscore`, or {another}"
     if isinstance(cause, xmlrpc.client.ProtocolError):
-        why = f"it answered with HTTP status {cause.errcode}"
+        why = f"it answered with HTTP status {cause.errcode}: {shown(cause.errmsg, 500)}"
     else:
         why = _reason(cause)
     return f"what answers at {uri} is not a ROS Master: {why}. Set ROS_MASTER_URI to the address that roscore shows"

@@ -39,6 +39,8 @@ class Addresses(NamedTuple):
     """The host name or address that others are told."""
     bind: str
     """The address to listen on: one of loopback, or 0.0.0.0 for every network of the machine."""
+    names: tuple[str, ...] = ()
+    """The names and addresses that the user gave this machine: ``ROS_HOSTNAME``, ``ROS_IP`` and the like."""
 
     @property
     def is_open(self) -> bool:
@@ -104,17 +106,12 @@ class Addresses(NamedTuple):
     @property
     def mistake(self) -> str | None:
         """A line about an address that others are told and that is not this machine's, or None. Asks the system."""
-        if not is_literal(self.host):
+        if not is_literal(self.host) or is_own_address(self.host):
             return None
-        with socket(AF_INET6 if ":" in self.host else AF_INET, SOCK_DGRAM) as probe:
-            try:
-                probe.bind((self.host, 0))
-            except OSError:
-                return (
-                    f"{self.host} is not an address of this machine, but others are told to look for this process "
-                    "there. Set ROS_IP to one of those that `hostname -I` prints."
-                )
-        return None
+        return (
+            f"{self.host} is not an address of this machine, but others are told to look for this process "
+            "there. Set ROS_IP to one of those that `hostname -I` prints."
+        )
 
     @property
     def warning(self) -> str | None:
@@ -150,15 +147,15 @@ def addresses(
         ("the default", MASTER_URI),
     )
     master_host, _ = host_and_port(uri, source)
-    source, host = _first(
+    given = (
         ("__hostname:=", arguments.get("__hostname")),
         ("__ip:=", arguments.get("__ip")),
         ("ROS_HOSTNAME", environ.get("ROS_HOSTNAME")),
         ("ROS_IP", environ.get("ROS_IP")),
-        ("the default", LOCALHOST if master_host == LOCALHOST else LOOPBACK),
     )
+    source, host = _first(*given, ("the default", LOCALHOST if master_host == LOCALHOST else LOOPBACK))
     _check_host(host, source)
-    return Addresses(uri, host, _bound(host))
+    return Addresses(uri, host, _bound(host), tuple(name for _, name in given if name))
 
 
 def host_and_port(uri: str, source: str = "the Master's address") -> tuple[str, int]:
@@ -195,6 +192,16 @@ def is_literal(host: str) -> bool:
         ip_address(host)
     except ValueError:
         return False
+    return True
+
+
+def is_own_address(address: str) -> bool:
+    """Return whether a literal address is one of this machine's. Asks the system, which answers at once."""
+    with socket(AF_INET6 if ":" in address else AF_INET, SOCK_DGRAM) as probe:
+        try:
+            probe.bind((address, 0))
+        except OSError:
+            return False
     return True
 
 

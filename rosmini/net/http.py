@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING
 
 import h11
@@ -9,7 +10,7 @@ import h11
 from rosmini.errors import TransportException
 
 if TYPE_CHECKING:
-    import asyncio
+    from collections.abc import Awaitable, Callable
 
 HEAD_LIMIT = 64 * 1024
 """The longest start line with header fields, in bytes."""
@@ -21,14 +22,23 @@ CHUNK = 64 * 1024
 
 
 async def read_message(
-    connection: h11.Connection, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
-) -> tuple[h11.Request | h11.Response, bytes] | None:
-    """Return the next message and its body; None when the peer closed the connection before it began.
+    connection: h11.Connection,
+    reader: asyncio.StreamReader,
+    writer: asyncio.StreamWriter,
+    feed: Callable[[bytes], object],
+    check: Callable[[h11.Request], Awaitable[None]] | None = None,
+) -> h11.Request | h11.Response | None:
+    """Return the next message; None when the peer closed the connection before it began.
 
-    Raises ``TransportException`` for a body over the limit, and ``h11.RemoteProtocolError`` for what is no HTTP.
+    Its body goes to ``feed`` in chunks, between which the loop's other tasks have their turn. If ``check`` raises
+    an error for a request, its body is read and dropped, and then the error is raised: a client that is still sending
+    when the connection is closed does not get the answer.
+
+    Raises ``TransportException`` for a body over the limit, and ``h11.RemoteProtocolError`` for what is not HTTP.
     """
     head: h11.Request | h11.Response | None = None
-    body = bytearray()
+    refusal: TransportException | None = None
+    length = 0
     while True:
         event = connection.next_event()
         if event is h11.NEED_DATA:
@@ -42,11 +52,22 @@ async def read_message(
         elif isinstance(event, h11.Request | h11.Response):
             head = event
             _check(next((int(value) for key, value in event.headers if key == b"content-length"), 0))
+            if check is not None and isinstance(event, h11.Request):
+                try:
+                    await check(event)
+                except TransportException as error:
+                    refusal = error
         elif isinstance(event, h11.Data):
-            body += event.data
-            _check(len(body))
+            if length:
+                await asyncio.sleep(0)
+            length += len(event.data)
+            _check(length)
+            if refusal is None:
+                feed(event.data)
         elif isinstance(event, h11.EndOfMessage) and head is not None:
-            return head, bytes(body)
+            if refusal is not None:
+                raise refusal
+            return head
         elif isinstance(event, h11.ConnectionClosed) or event is h11.PAUSED:
             return None
 

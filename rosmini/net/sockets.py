@@ -8,9 +8,15 @@ import os
 import socket
 import sys
 import threading
-from typing import Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rosmini.errors import TransportException, shown
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+T = TypeVar("T")
 
 BACKLOG = 128
 
@@ -73,41 +79,53 @@ def literal(host: str, port: int) -> Address | None:
 
 
 async def resolve(host: str, port: int) -> Address:
-    """Return the address of a host; names are looked up in a thread of their own, which may take its time.
+    """Return the address of a host; names are looked up in a separate thread, which may take its time.
 
     Raises :class:`Unreached` for a name that does not resolve.
     """
     found = literal(host, port)
     if found is not None:
         return found
-    loop = asyncio.get_running_loop()
-    answer: asyncio.Future[Address] = loop.create_future()
-
-    def settle(address: Address | None, error: OSError | ValueError | None) -> None:
-        if answer.done():
-            return
-        if address is not None:
-            answer.set_result(address)
-            return
-        problem = Unreached(
+    try:
+        addresses = await _look_up(partial(socket.getaddrinfo, host, port, type=socket.SOCK_STREAM), host)
+    except (OSError, ValueError) as error:
+        raise Unreached(
             f"the host name {shown(host)} does not resolve on this machine ({error}): add it to /etc/hosts here, or "
             "set ROS_IP or ROS_HOSTNAME, on the machine that calls itself so, to an address that others reach",
             host,
-        )
-        problem.__cause__ = error
-        answer.set_exception(problem)
+        ) from error
+    family, _, _, _, address = addresses[0]
+    return family, address
 
-    def look_up() -> None:
-        found: tuple[Address | None, OSError | ValueError | None]
+
+async def full_name() -> str:
+    """Return the fully qualified name of this machine; it is looked up as in :func:`resolve`."""
+    return await _look_up(socket.getfqdn, "of this machine")
+
+
+async def _look_up(look_up: Callable[[], T], what: str) -> T:
+    """Return the result of a function that asks the name service, from a thread that the process does not wait for."""
+    loop = asyncio.get_running_loop()
+    answer: asyncio.Future[T] = loop.create_future()
+
+    def settle(value: Any, error: Exception | None) -> None:
+        if answer.done():
+            return
+        if error is None:
+            answer.set_result(value)
+        else:
+            answer.set_exception(error)
+
+    def work() -> None:
+        found: tuple[T | None, Exception | None]
         try:
-            family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-            found = ((family, address), None)
-        except (OSError, ValueError) as error:
+            found = (look_up(), None)
+        except Exception as error:
             found = (None, error)
         if not loop.is_closed():
             loop.call_soon_threadsafe(settle, *found)
 
-    threading.Thread(target=look_up, name=f"rosmini-resolver {host}", daemon=True).start()
+    threading.Thread(target=work, name=f"rosmini-resolver {what}", daemon=True).start()
     return await answer
 
 

@@ -71,7 +71,7 @@ class TcpTransport:
 
         Raises ``TransportException`` when the address to listen at is not this machine's.
         """
-        network, (_, host, bind) = self.network, self.network.where
+        network, where = self.network, self.network.where
 
         def answer(method: str, arguments: tuple[Any, ...]) -> Triple:
             if method not in METHODS:
@@ -79,20 +79,19 @@ class TcpTransport:
             return endpoint.slave_call(method, *arguments)
 
         def complain(host: str, reason: str) -> None:
-            text = f"{endpoint.name} closed a connection from {host}: at its port for XML-RPC it sent no call: {reason}"
-            network.warn(text, (endpoint.name, host, "slave API"))
+            network.warn(f"{endpoint.name} refused a request from {host}, at its port for XML-RPC: {reason}")
 
         try:
-            slave = XmlRpcServer(network.io, answer, bind=bind, warn=complain)
-            topics = TcpServer(network.io, network.scheduler, endpoint, network.warn, bind=bind)
+            slave = XmlRpcServer(network.io, answer, bind=where.bind, names=where.names, warn=complain)
+            topics = TcpServer(network.io, network.scheduler, endpoint, network.warn, bind=where.bind)
         except OSError as error:
             msg = (
-                f"{endpoint.name} cannot listen at {bind}: {error.strerror or error}. "
+                f"{endpoint.name} cannot listen at {where.bind}: {error.strerror or error}. "
                 "Set ROS_IP or ROS_HOSTNAME to an address of this machine."
             )
             raise TransportException(msg) from error
-        uri = uri or network.where.uri(slave.port)
-        self._places[uri] = _Place(host, slave, topics)
+        uri = uri or where.uri(slave.port)
+        self._places[uri] = _Place(where.host, slave, topics)
         return uri
 
     def detach(self, uri: str) -> None:

@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 
 import h11
 
-from rosmini.errors import TransportException, TransportTerminated
+from rosmini.errors import TransportException, TransportTerminated, shown
 
 from .http import HEAD_LIMIT, read_message, write_message
 from .sockets import Unreached, connect
@@ -25,7 +25,10 @@ TIMEOUT_S = 10.0
 """How long a call waits for its answer, by the clock on the wall."""
 
 KEPT = 32
-"""So many connections are kept open between calls."""
+"""How many connections are kept open between calls."""
+
+LONGEST_REASON = 500
+"""How much of a server's reason for a refusal an error shows, in characters."""
 
 
 class _Open(NamedTuple):
@@ -132,16 +135,17 @@ class XmlRpcClient:
             request = h11.Request(method="POST", target=path, headers=fields)
             write_message(way.state, way.writer, request, body)
             await way.writer.drain()
-            message = await read_message(way.state, way.reader, way.writer)
-            if message is None:
+            answer = bytearray()
+            head = await read_message(way.state, way.reader, way.writer, answer.extend)
+            if head is None:
                 return None
-            head, answer = message
             if isinstance(head, h11.Response) and head.status_code != 200:
+                reason = shown(head.reason.decode("latin-1"), LONGEST_REASON)
                 raise TransportException(
-                    f"http://{host}:{port}/ answered with HTTP status {head.status_code}"
+                    f"http://{host}:{port}/ answered with HTTP status {head.status_code}: {reason}"
                 )
             keep = way.state.our_state is h11.DONE and way.state.their_state is h11.DONE
-            return answer
+            return bytes(answer)
         finally:
             if keep:
                 way.state.start_next_cycle()

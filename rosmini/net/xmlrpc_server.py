@@ -6,6 +6,7 @@ import asyncio
 import inspect
 from contextlib import contextmanager, suppress
 from functools import partial
+from http import HTTPStatus
 from typing import TYPE_CHECKING, Any, cast
 
 import h11
@@ -13,12 +14,13 @@ import h11
 from rosmini.errors import TransportException
 
 from .http import HEAD_LIMIT, read_message, write_message
+from .request_check import Refused, RequestCheck
 from .sockets import listen
-from .xmlrpc_text import XmlRpcFault, decode, encode_answer, encode_fault
+from .xmlrpc_text import Document, XmlRpcFault, encode_answer, encode_fault
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Awaitable, Callable, Iterator
+    from collections.abc import Awaitable, Callable, Iterable, Iterator
 
     from .io_thread import IoThread
 
@@ -36,18 +38,28 @@ IDLE_S = 300.0
 WAITING = 256
 """How many connections may be silent; beyond that, the one that has been for the longest is closed."""
 
+CLIENTS = 1_000
+"""How many clients' mistakes are logged, once each."""
+
+
+class EncodedAnswer(bytes):
+    """The document of an answer, which a handler has encoded itself."""
+
 
 class XmlRpcServer:
-    """Answers calls at a port of this machine, from when it is made.
+    """Answers calls at a port of this machine, from when it is made; requests that a web page can send are refused.
 
     Args:
         io: the thread that reads and writes.
-        handler: called in that thread with a method's name and the arguments; returns the value, or what has to be
-            awaited for it. It must not block. An :class:`XmlRpcFault` that it raises is answered as such, any other
-            exception as fault 1, as rospy does.
+        handler: called in that thread with a method's name and the arguments; returns the value, an
+            :class:`EncodedAnswer`, or an awaitable for one of them. It must not block. An :class:`XmlRpcFault` that it
+            raises is answered as such, any other exception as fault 1, as rospy does.
         bind: the address at which to listen; "" or "0.0.0.0": all of the machine's.
         port: 0 for any that is free.
-        warn: called in that thread with the host that has sent what is no call, and what is wrong with it.
+        names: the names and addresses that the user gave this machine; see
+            :class:`~rosmini.net.request_check.RequestCheck`.
+        warn: called in that thread with a client's host and what is wrong with its request: once for each host's
+            refused requests, and once for those that are not XML-RPC.
 
     Raises ``OSError`` at once when the port is in use or the address is not the machine's.
 
@@ -60,13 +72,16 @@ class XmlRpcServer:
         *,
         bind: str = "127.0.0.1",
         port: int = 0,
+        names: Iterable[str] = (),
         warn: Callable[[str, str], object] | None = None,
     ) -> None:
         self._handler = handler
+        self._check = RequestCheck(names)
         self._io = io
         self._socket = listen(bind, port)
         self.port: int = self._socket.getsockname()[1]
         self._warn = warn
+        self._warned: set[tuple[str, bool]] = set()
         self._tasks: set[asyncio.Task[None]] = set()
         self._waiting: dict[asyncio.Task[None], None] = {}
         """Those that wait for a call, the oldest first."""
@@ -142,34 +157,32 @@ class XmlRpcServer:
         patience: float,
     ) -> bool:
         """Answer the next call; return whether a further one may come."""
+        document = Document()
         try:
             with self._its_turn():
                 async with asyncio.timeout(patience):
-                    message = await read_message(connection, reader, writer)
-            if message is None:
+                    head = await read_message(connection, reader, writer, document.feed, self._check.check)
+            if head is None:
                 return False
-            head, body = message
-            status, answer = 200, b""
-            if isinstance(head, h11.Request) and head.method == b"POST":
-                answer = await self._answer(body, host)
-            else:
-                status = 501
+            answer = await self._answer(document, host)
+            response = _response(HTTPStatus.OK, "", answer)
         except (h11.RemoteProtocolError, TransportException) as error:
-            if self._warn is not None:
-                self._warn(host, str(error))
+            self._complain(host, error)
             if connection.our_state is h11.ERROR:
                 return False
-            status, answer = getattr(error, "error_status_hint", 400), str(error).encode()
-        fields = [
-            ("Server", "rosmini"),
-            ("Content-Type", "text/xml" if status == 200 else "text/plain"),
-            ("Content-Length", str(len(answer))),
-            *([] if status == 200 else [("Connection", "close")]),
-        ]
-        write_message(connection, writer, h11.Response(status_code=status, headers=fields), answer)
+            answer = f"{error}\n".encode() if getattr(error, "has_body", True) else b""
+            response = _response(_status(error), str(error), answer)
+        write_message(connection, writer, response, answer)
         async with asyncio.timeout(IDLE_S):
             await writer.drain()
         return connection.our_state is h11.DONE and connection.their_state is h11.DONE
+
+    def _complain(self, host: str, error: Exception) -> None:
+        """Log what is wrong with a client's request, unless that was logged before."""
+        cause = (host, isinstance(error, Refused))
+        if self._warn is not None and cause not in self._warned and len(self._warned) < CLIENTS:
+            self._warned.add(cause)
+            self._warn(host, str(error))
 
     @contextmanager
     def _its_turn(self) -> Iterator[None]:
@@ -183,8 +196,8 @@ class XmlRpcServer:
         finally:
             self._waiting.pop(task, None)
 
-    async def _answer(self, body: bytes, caller: str) -> bytes:
-        arguments, method = decode(body)
+    async def _answer(self, document: Document, caller: str) -> bytes:
+        arguments, method = document.close()
         if method is None:
             raise TransportException("the document is no call: it names no method")
         try:
@@ -192,8 +205,28 @@ class XmlRpcServer:
             value = self._handler(method, arguments)
             if inspect.isawaitable(value):
                 value = await value
-            return encode_answer(value)
+            return value if isinstance(value, EncodedAnswer) else encode_answer(value)
         except XmlRpcFault as fault:
             return encode_fault(fault.code, fault.text)
         except Exception as error:
             return encode_fault(1, f"{type(error)}:{error}")
+
+
+def _status(error: Exception) -> int:
+    """Return the status with which an error is answered."""
+    if isinstance(error, Refused):
+        return error.status
+    return int(getattr(error, "error_status_hint", HTTPStatus.BAD_REQUEST))
+
+
+def _response(status: int, reason: str, body: bytes) -> h11.Response:
+    """Return the head of an answer. The reason is what ROS's own clients show of a refusal."""
+    fields = [
+        ("Server", "rosmini"),
+        ("Content-Type", "text/xml" if status == HTTPStatus.OK else "text/plain; charset=utf-8"),
+        ("Content-Length", str(len(body))),
+        *([("Allow", "POST")] if status == HTTPStatus.METHOD_NOT_ALLOWED else []),
+        *([] if status == HTTPStatus.OK else [("Connection", "close")]),
+    ]
+    line = "".join(letter if letter.isascii() and letter.isprintable() else "?" for letter in reason)
+    return h11.Response(status_code=status, reason=line.encode(), headers=fields)

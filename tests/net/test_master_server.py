@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import socket
 from collections.abc import Iterator
+from contextlib import closing
 from datetime import datetime
 from functools import partial
+from http.client import HTTPConnection
 from typing import Any
-from xmlrpc.client import Binary, Fault, ServerProxy
+from xmlrpc.client import Binary, Fault, ProtocolError, ServerProxy, dumps
 
 import pytest
 
 from rosmini.errors import RosminiError
 from rosmini.graph import Graph
 from rosmini.graph.master import Master
+from rosmini.net import master_server
 from rosmini.net.addresses import addresses
 from rosmini.net.io_thread import IoThread
 from rosmini.net.master_server import AddressInUse, MasterServer
+from rosmini.net.xmlrpc_client import XmlRpcClient
 
-from ..processes import free_port
+from ..processes import PATIENCE, free_port
 
 
 @pytest.fixture
@@ -104,6 +108,103 @@ def test_several_calls_that_make_no_sense_are_a_fault(io: IoThread, arguments: t
             except Fault:
                 answers = []
             assert all("faultString" in answer for answer in answers)
+        server.close()
+
+
+def several(port: int, count: int, method: str, *arguments: Any) -> list[Any]:
+    """Make the same call several times in one request. Raises ``Fault``."""
+    with ServerProxy(f"http://127.0.0.1:{port}") as proxy:
+        calls = [{"methodName": method, "params": list(arguments)}] * count
+        answers: Any = getattr(proxy, "system.multicall")(calls)
+        assert isinstance(answers, list)
+        return answers
+
+
+def test_too_many_calls_at_once_are_a_fault_and_none_is_made(
+    io: IoThread, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(master_server, "MOST_CALLS", 5)
+    calls: list[str] = []
+    with Graph(rosout=False) as graph:
+        server = MasterServer(
+            io, master_of(graph), addresses({}), 0, on_call=lambda method, *_: calls.append(method)
+        )
+        assert len(several(server.port, 5, "getPid", "/test")) == 5
+        with pytest.raises(Fault, match="has 6 calls, at most 5"):
+            several(server.port, 6, "getPid", "/test")
+        assert len(calls) == 5
+        server.close()
+
+
+def test_calls_end_where_their_answers_exceed_the_limit(
+    io: IoThread, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """So a short request for a large parameter, a thousand times, costs no more than the limit."""
+    monkeypatch.setattr(master_server, "MOST_BYTES", 100_000)
+    calls: list[str] = []
+    with Graph(rosout=False) as graph:
+        master_of(graph).setParam("/test", "/large", "x" * 30_000)
+        server = MasterServer(
+            io, master_of(graph), addresses({}), 0, on_call=lambda method, *_: calls.append(method)
+        )
+        assert len(several(server.port, 3, "getParam", "/test", "/large")) == 3
+        with pytest.raises(Fault, match="exceed 100000 bytes: of its 1000 calls 4 were made"):
+            several(server.port, 1000, "getParam", "/test", "/large")
+        assert len(calls) == 3 + 4
+        server.close()
+
+
+def test_another_client_is_answered_between_the_calls_of_one(io: IoThread) -> None:
+    count, before = 3_000, []
+    with Graph(rosout=False, simulated=False) as graph:
+        client = XmlRpcClient(io, graph.scheduler)
+        made: list[str] = []
+
+        async def ask() -> None:
+            await client.request(graph.master_uri, "getParam", ("/other", "/rosdistro"))
+            before.append(len(made))
+
+        def watch(method: str, *_: Any) -> None:
+            made.append(method)
+            if len(made) == 10:
+                io.start(ask())
+
+        server = MasterServer(io, master_of(graph), addresses({}), 0, on_call=watch)
+        assert len(several(server.port, count, "getPid", "/test")) == count
+        assert len(before) == 1
+        assert before[0] < count / 2
+        server.close()
+
+
+def test_a_refused_client_is_logged_once(io: IoThread) -> None:
+    lines: list[str] = []
+    with Graph(rosout=False) as graph:
+        server = MasterServer(io, master_of(graph), addresses({}), 0, warn=lines.append)
+        for _ in range(3):
+            with (
+                ServerProxy(
+                    f"http://127.0.0.1:{server.port}", headers=[("Origin", "http://x.example")]
+                ) as proxy,
+                pytest.raises(ProtocolError),
+            ):
+                proxy.setParam("/test", "/a", 1)
+        (line,) = lines
+        assert "127.0.0.1" in line
+        assert "http://x.example" in line
+        assert master_of(graph).hasParam("/test", "/a")[2] is False
+        server.close()
+
+
+def test_the_host_in_the_masters_address_is_one_of_its_names(io: IoThread) -> None:
+    with Graph(rosout=False) as graph:
+        where = addresses({"ROS_MASTER_URI": "http://my-robot:11311", "ROS_IP": "127.0.0.1"})
+        server = MasterServer(io, master_of(graph), where, 0)
+        with closing(HTTPConnection("127.0.0.1", server.port, timeout=PATIENCE)) as connection:
+            for host, status in (("my-robot:11311", 200), ("other:11311", 403)):
+                headers = {"Host": host, "Content-Type": "text/xml"}
+                connection.request("POST", "/", dumps(("/test",), "getPid"), headers)
+                answer = connection.getresponse()
+                assert (answer.status, bool(answer.read())) == (status, True)
         server.close()
 
 

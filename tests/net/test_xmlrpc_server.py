@@ -126,8 +126,8 @@ CALL = xmlrpc.client.dumps(("/me",), "getPid").encode()
 
 
 def post(body: bytes, *, version: str = "1.1", extra: str = "") -> bytes:
-    head = f"POST /any/path HTTP/{version}\r\nHost: h\r\nContent-length: {len(body)}\r\n{extra}\r\n"
-    return head.encode() + body
+    head = f"POST /any/path HTTP/{version}\r\nHost: localhost\r\nContent-Type: text/xml\r\n"
+    return f"{head}Content-length: {len(body)}\r\n{extra}\r\n".encode() + body
 
 
 @pytest.mark.parametrize("version", ["1.0", "1.1"])
@@ -141,6 +141,44 @@ def test_two_calls_in_one_packet_get_two_answers(server: XmlRpcServer) -> None:
     assert say(server, post(CALL) + post(CALL)).count(b"HTTP/1.1 200") == 2
 
 
+def test_a_refused_request_calls_nothing_and_is_logged_once(io: IoThread, client: XmlRpcClient) -> None:
+    called: list[str] = []
+    logged: list[tuple[str, str]] = []
+
+    def answer(method: str, _arguments: tuple[Any, ...]) -> int:
+        called.append(method)
+        return 1
+
+    server = XmlRpcServer(io, answer, warn=lambda *line: logged.append(line))
+    for field in ("Origin: http://evil.example\r\n", "Content-Type: text/plain\r\n"):
+        for _ in range(2):
+            head, _, body = say(server, post(CALL, extra=field) + post(CALL)).partition(b"\r\n\r\n")
+            assert head.startswith((b"HTTP/1.1 403", b"HTTP/1.1 415"))
+            assert b"connection: close" in head.lower()
+            assert b"web page" in body
+    assert called == []
+    ((host, line),) = logged
+    assert host == "127.0.0.1"
+    assert "'http://evil.example'" in line
+    assert client.call(uri_of(server), "getPid") == 1
+    server.close()
+
+
+def test_the_error_of_pythons_client_says_why(server: XmlRpcServer) -> None:
+    """So do those of rospy and of ROS's tools."""
+    with (
+        xmlrpc.client.ServerProxy(uri_of(server), headers=[("Origin", "null")]) as proxy,
+        pytest.raises(xmlrpc.client.ProtocolError, match=r"403 .*web page"),
+    ):
+        proxy.getPid("/me")
+
+
+def test_head_is_refused_without_a_body(server: XmlRpcServer) -> None:
+    answer = say(server, b"HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n")
+    assert answer.startswith(b"HTTP/1.1 405")
+    assert answer.endswith(b"\r\n\r\n")
+
+
 BOMB = b"""<?xml version="1.0"?><!DOCTYPE b [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">]>
 <methodCall><methodName>&b;</methodName><params/></methodCall>"""
 
@@ -149,7 +187,7 @@ BOMB = b"""<?xml version="1.0"?><!DOCTYPE b [<!ENTITY a "aaaaaaaaaa"><!ENTITY b 
     ("text", "says"),
     [
         (b"\x10\x00\x00\x00callerid=/x", b"400"),
-        (b"GET / HTTP/1.1\r\nHost: h\r\n\r\n", b"501"),
+        (b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n", b"405"),
         (post(b"no xml at all"), b"no XML-RPC"),
         (post(b"<methodCall><methodName>x</methodName><params><param>"), b"no XML-RPC"),
         (post(b"<methodResponse><params/></methodResponse>"), b"names no method"),
