@@ -42,6 +42,10 @@ def check_value(name: str, value: Any) -> Any:
         return value
     if isinstance(value, str):
         return str.__str__(value)  # an enumeration's member is its value
+    if type(value).__name__ == "Binary" and hasattr(
+        value, "data"
+    ):  # xmlrpc.client's, which rospy's scripts use
+        value = value.data
     if isinstance(value, bytes):
         return bytes(value)
     if isinstance(value, datetime):

@@ -250,7 +250,8 @@ class ServiceClient:
     def call(self, *args: Any, **fields: Any) -> Any:
         """Send a request and block until the response is there.
 
-        Raises ``ServiceException`` when there is no server, when its handler fails, or when it goes away meanwhile;
+        Raises ``ServiceException`` when there is no server, when it offers another type, when its handler fails, or
+        when it goes away meanwhile; then ``SerializationError`` for a field of the wrong type;
         ``ROSInterruptException`` when this node is shut down meanwhile.
         """
         request_class = self.service_class._request_class
@@ -258,16 +259,18 @@ class ServiceClient:
             request = args[0]
         else:
             request = request_class(*args, **fields)
-        frozen = request_class._freeze(request)
-        return self.node.scheduler.on_hub(self._call, frozen)
+        return self.node.scheduler.on_hub(self._call, request)
 
-    def _call(self, frozen: Any) -> Any:
+    def _call(self, given: Any) -> Any:
         link = self._link or self._connect()
         history, request = self.node.scheduler.history, None
-        if history is not None:
-            request = history.requested(self.node.name, link.header.get("callerid", ""), self.name, frozen)
         waiter = self.node.waiter(f"the service {self.name}", remote=link.is_remote)
         try:
+            frozen = type(given)._freeze(given)
+            if history is not None:
+                request = history.requested(
+                    self.node.name, link.header.get("callerid", ""), self.name, frozen
+                )
             link.call(frozen, lambda response, problem: waiter.wake((response, problem)))
             self.node.wait(waiter)
         finally:

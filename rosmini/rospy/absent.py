@@ -47,6 +47,10 @@ _ABSENT = {
         "spawns models from Python",
         "call the service /gazebo/spawn_urdf_model with gazebo_msgs.srv.SpawnModel",
     ),
+    "genmsg": (
+        "reads message definitions and computes md5 sums when catkin builds",
+        "take message._slot_types, message._full_text and message._md5sum",
+    ),
     "genpy.generator": (
         "makes Python files of message definitions",
         "call genpy.dynamic.generate_dynamic(type, text)",
@@ -100,6 +104,14 @@ _ABSENT = {
     "rosgraph.impl": ("watches the whole graph", "ask rosgraph.Master(name).getSystemState()"),
     "rosgraph.network": ("knows addresses and headers of the wire", _ALONE),
     "rosgraph.xmlrpc": ("serves and calls XML-RPC", "ask rosgraph.Master, which is in the same process here"),
+    "roslaunch.arg_dump": (
+        "lists the arguments of launch files",
+        "run `rosmini roslaunch --ros-args PACKAGE FILE`, which prints them",
+    ),
+    "roslaunch.pmon": (
+        "starts and watches the processes of roslaunch",
+        "start nodes with roslaunch.scriptapi.ROSLaunch: what launch() returns has is_alive() and stop()",
+    ),
     "roslib.gentools": ("computes md5 sums of definitions", "take message._md5sum and message._full_text"),
     "roslib.launcher": ("changes Python's path by manifests", "call roslib.load_manifest, or nothing at all"),
     "roslib.manifest": (
@@ -115,6 +127,14 @@ _ABSENT = {
     "rosmaster": (
         "is the Master's own program",
         "ask rosgraph.Master: the Master is in the same process here",
+    ),
+    "rospy.impl": (
+        "is the inside of rospy, its sockets and threads",
+        "use the public functions of rospy; rosgraph.Master(rospy.get_name()) asks the Master",
+    ),
+    "rospy_message_converter": (
+        "turns messages into dictionaries and back",
+        "write yaml.safe_load(str(message)), and genpy.message.fill_message_args(message, [dictionary]) to go back",
     ),
     "rosserial": ("talks to Arduino boards", _ALONE),
     "rosserial_python": ("talks to Arduino boards", _ALONE),

@@ -261,10 +261,21 @@ def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration
 def get_param(param_name: str, default: Any = _unspecified) -> Any:
     """Return a parameter's value, or ``default`` if it is not set; a tree of them as a dictionary.
 
-    Raises ``KeyError``.
+    Bytes come as an ``xmlrpc.client.Binary``, as in rospy. Raises ``KeyError``.
     """
     node = any_node()
-    return node.get_param(param_name) if default is _unspecified else node.get_param(param_name, default)
+    found = node.get_param(param_name) if default is _unspecified else node.get_param(param_name, default)
+    return _with_binaries(found)
+
+
+def _with_binaries(value: Any) -> Any:
+    if isinstance(value, bytes):
+        from xmlrpc.client import Binary
+
+        return Binary(value)
+    if isinstance(value, dict):
+        return {key: _with_binaries(each) for key, each in value.items()}
+    return [_with_binaries(each) for each in value] if isinstance(value, list) else value
 
 
 def get_param_cached(param_name: str, default: Any = _unspecified) -> Any:

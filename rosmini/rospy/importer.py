@@ -30,7 +30,7 @@ _ALIASES = {
     "message_filters": "",
     "rosbag": "",
     "rosgraph": "masterapi names rosenv roslogging",
-    "roslib": "names packages",
+    "roslib": "names packages scriptutil",
     "rosmsg": "",
     "rosnode": "",
     "rosparam": "",
@@ -46,8 +46,8 @@ _ALIASES = {
 }
 """The packages of `rosmini.rospy.aliases`, and the modules in them that are files of their own."""
 _THE_SAME = {
-    "actionlib": "action_client action_server exceptions goal_id_generator server_goal_handle simple_action_client "
-    "simple_action_server status_tracker",
+    "actionlib": "action_client action_server exceptions goal_id_generator handle_tracker_deleter server_goal_handle "
+    "simple_action_client simple_action_server status_tracker",
     "dynamic_reconfigure": "client encoding server",
     "rosbag": "bag rosbag_main",
     "tf": "broadcaster listener",

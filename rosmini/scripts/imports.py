@@ -72,6 +72,36 @@ class Importer:
     ) -> ModuleType:
         """Do what ``builtins.__import__`` does, with the script's modules first."""
         absolute = name if level == 0 else self._absolute(name, globals, level)
+        package, _, child = absolute.partition(".")
+        if child.partition(".")[0] != "cfg":
+            return self._import(absolute, name, globals, locals, fromlist, level)
+        try:
+            module = self._import(absolute, name, globals, locals, fromlist, level)
+            missing = next(
+                (each for each in fromlist or () if each != "*" and not hasattr(module, each)), None
+            )
+            if missing is not None:
+                raise ImportError(f"cannot import name {missing!r} from {absolute!r}", name=absolute)
+        except ImportError as error:
+            files = self._reconfigure_files(package)
+            if files and not isinstance(error, RosminiError):
+                raise type(error)(
+                    f"{error}. catkin_make makes {package}.cfg from {', '.join(files)}: run catkin_make in the "
+                    "workspace, and source its devel/setup.bash",
+                    name=error.name,
+                ) from None
+            raise
+        return module
+
+    def _import(
+        self,
+        absolute: str,
+        name: str,
+        globals: Mapping[str, Any] | None,
+        locals: Mapping[str, Any] | None,
+        fromlist: Sequence[str] | None,
+        level: int,
+    ) -> ModuleType:
         top = absolute.partition(".")[0]
         if not self._owns(top):
             return self._from_host(name if level == 0 else absolute, globals, locals, fromlist)
@@ -111,6 +141,9 @@ class Importer:
             module = self._message_module(name)
         elif parent_name in self.local:
             module = self._load_local_child(name, parent)
+        elif parent_name in self._given and not self._defines_messages(parent_name):
+            _explain(name)
+            raise self._not_in_ours(name, parent_name)
         elif parent_name in self._given or parent.__name__.startswith(_MESSAGES):
             return self._message_module(name)
         else:
@@ -173,6 +206,18 @@ class Importer:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name) from None
         return module
 
+    def _not_in_ours(self, name: str, package: str) -> ModuleNotFoundError:
+        """Return the error for a submodule that rosmini's own ``package`` does not have."""
+        inner = sorted(
+            each.removeprefix(f"{package}.") for each in self._given if each.startswith(f"{package}.")
+        )
+        has = (
+            f"rosmini's {package} has the modules {', '.join(inner)}"
+            if inner
+            else f"{package} has no modules here"
+        )
+        return ModuleNotFoundError(f"No module named {name!r}: {has}", name=name)
+
     def _local_spec(self, name: str) -> ModuleSpec | None:
         """Where the script's own folders have the top-level module ``name``; None if they have not."""
         if name in _NEVER_LOCAL or name in sys.builtin_module_names:
@@ -202,6 +247,14 @@ class Importer:
         """Where catkin_make has made ``my_package.cfg``."""
         source = registry().source
         return source.reconfigure_folder(package) if isinstance(source, PackageSource) else None
+
+    def _reconfigure_files(self, package: str) -> list[str]:
+        """Return the ``.cfg`` files of a package, relative to its folder."""
+        source = registry().source
+        if not isinstance(source, PackageSource) or package not in source.index:
+            return []
+        home = source.index.path(package)
+        return sorted(str(file.relative_to(home)) for file in home.glob("cfg/*.cfg"))
 
     def _load_reconfigure(self, name: str, folder: Path) -> ModuleType:
         spec = self._find(name, [str(folder.parent)])

@@ -27,6 +27,10 @@ IMPORTS = {
     "from rosgraph.impl.graph import Graph": "getSystemState",
     "from dynamic_reconfigure.parameter_generator_catkin import *": "which catkin_make turns into modules",
     "import PyKDL as kdl": "tf.transformations",
+    "import roslaunch.pmon": "roslaunch.scriptapi",
+    "from rospy.impl import tcpros": "public functions",
+    "import genmsg.msgs": "_md5sum",
+    "from rospy_message_converter import message_converter": "yaml.safe_load",
 }
 
 

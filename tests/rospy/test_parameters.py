@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from xmlrpc.client import Binary
+
 import pytest
 
 from rosmini import rospy
@@ -127,3 +129,12 @@ def test_filling_messages():
         with pytest.raises((genpy.MessageException, ValueError)):
             fill(Header(), bad)
     assert genpy.message.get_printable_message_args(header) == "seq stamp frame_id"
+
+
+def test_bytes_come_as_rospy_gives_them(sim_programs):
+    def main():
+        rospy.set_param("/model", Binary(b"\x00\xff"))
+        found = rospy.get_param("/model")
+        return type(found), found.data, rospy.get_param("/")["model"].data
+
+    assert sim_programs(main) == (Binary, b"\x00\xff", b"\x00\xff")

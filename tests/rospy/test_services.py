@@ -182,3 +182,17 @@ def test_parse_rosrpc_uri():
     for bad in ("http://localhost:1", "rosrpc://localhost", "rosrpc://localhost:x"):
         with pytest.raises(rospy.core.ParameterInvalid):
             rospy.parse_rosrpc_uri(bad)
+
+
+def test_another_type_is_refused_before_the_values_are_looked_at(programs):
+    def main():
+        rospy.init_node("main")
+        rospy.Service("flip", Trigger, lambda request: (True, ""))
+        with pytest.raises(rospy.ServiceException, match="std_srvs/Trigger"):
+            rospy.ServiceProxy("flip", SetBool)("no bool")
+        rospy.Service("switch", SetBool, lambda request: (True, ""))
+        with pytest.raises(genpy.SerializationError):
+            rospy.ServiceProxy("switch", SetBool)("no bool")
+        return rospy.ServiceProxy("switch", SetBool)(True).success
+
+    assert programs(main) is True

@@ -88,3 +88,26 @@ def test_the_environment_is_given_back(workspace, capsys, monkeypatch):
         "import os\nprint(os.environ['ROS_PACKAGE_PATH'])\n", encoding="utf-8"
     )
     assert said(capsys, workspace / "my_pkg" / "scripts" / "z.py") == [str(workspace)]
+
+
+@pytest.mark.parametrize(
+    "module", ["", "other/src/other/cfg/__init__.py"], ids=["no module", "a module without it"]
+)
+def test_parameters_that_are_not_built_yet(workspace, capsys, module):
+    files = {"other/cfg/Speed.cfg": "PACKAGE = 'other'", "other/x.py": "from other.cfg import SpeedConfig"}
+    for name, text in {**files, **({module: ""} if module else {})}.items():
+        (workspace / name).parent.mkdir(parents=True, exist_ok=True)
+        (workspace / name).write_text(text, encoding="utf-8")
+    assert run_scripts([ScriptSpec(str(workspace / "other" / "x.py"))], stdin="", prefix=False).status == 1
+    said = capsys.readouterr().err
+    assert "catkin_make" in said
+    assert "cfg/Speed.cfg" in said
+
+
+def test_a_module_that_is_not_in_ours_although_a_package_has_its_name(workspace, capsys):
+    (workspace / "other" / "package.xml").write_text(MANIFEST.format("roslib"), encoding="utf-8")
+    (workspace / "other" / "x.py").write_text("import roslib.nothing", encoding="utf-8")
+    assert run_scripts([ScriptSpec(str(workspace / "other" / "x.py"))], stdin="", prefix=False).status == 1
+    said = capsys.readouterr().err
+    assert "ModuleNotFoundError: No module named 'roslib.nothing'" in said
+    assert "scriptutil" in said

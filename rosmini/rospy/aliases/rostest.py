@@ -7,9 +7,26 @@ from typing import Any
 
 from rosmini.rospy.core import signal_shutdown
 
+from .rosgraph.masterapi import Master
 from .rosunit import unitrun
 
-__all__ = ["rosrun", "run", "unitrun"]
+__all__ = ["is_publisher", "is_subscriber", "rosrun", "run", "unitrun"]
+
+CALLER = "/script"
+
+
+def is_subscriber(topic: str, subscriber_id: str) -> bool:
+    """Return whether the node ``subscriber_id`` subscribes to a topic, by its full name, according to the Master."""
+    return _holds(1, topic, subscriber_id)
+
+
+def is_publisher(topic: str, publisher_id: str) -> bool:
+    """Return whether the node ``publisher_id`` publishes on a topic, by its full name, according to the Master."""
+    return _holds(0, topic, publisher_id)
+
+
+def _holds(part: int, topic: str, node: str) -> bool:
+    return node in dict(Master(CALLER).getSystemState()[part]).get(topic, [])
 
 
 def rosrun(package: str, test_name: str, test: Any, sysargs: Sequence[str] | None = None) -> None:

@@ -46,7 +46,8 @@ __all__ = [
 ]
 
 action_client = action_server = exceptions = goal_id_generator = sys.modules[__name__]
-server_goal_handle = simple_action_client = simple_action_server = status_tracker = sys.modules[__name__]
+handle_tracker_deleter = server_goal_handle = simple_action_client = sys.modules[__name__]
+simple_action_server = status_tracker = sys.modules[__name__]
 
 GoalID = message_class("actionlib_msgs/GoalID")
 GoalStatus = message_class("actionlib_msgs/GoalStatus")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from rosmini.rospy.aliases.genpy import message
 
-from . import names, packages
+from . import names, packages, scriptutil
 
-__all__ = ["is_interactive", "load_manifest", "message", "names", "packages", "set_interactive"]
+__all__ = ["is_interactive", "load_manifest", "message", "names", "packages", "scriptutil", "set_interactive"]
 
 
 def load_manifest(package_name: str, bootstrap_version: str = "0.7") -> None:

@@ -36,11 +36,11 @@ def package_resource_name(name: str) -> tuple[str, str]:
     return package, base
 
 
-def is_legal_resource_name(name: str) -> bool:
+def is_legal_resource_name(name: str | None) -> bool:
     """Return whether ``name`` may name something in a package."""
-    return bool(_RESOURCE.fullmatch(name)) and "//" not in name
+    return name is not None and bool(_RESOURCE.fullmatch(name)) and "//" not in name
 
 
-def is_legal_resource_base_name(name: str) -> bool:
+def is_legal_resource_base_name(name: str | None) -> bool:
     """Return whether ``name`` may name something, without its package."""
-    return bool(_RESOURCE_BASE.fullmatch(name))
+    return name is not None and bool(_RESOURCE_BASE.fullmatch(name))
