@@ -12,7 +12,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("geometry", "navigation", "sim", "tf", "urdf", "viz")
+FOLDERS = (
+    "assets/generate/meshes",
+    *(f"rosmini/{name}" for name in ("geometry", "navigation", "sim", "tf", "urdf", "viz")),
+)
 NAMES = {"convolve", "correlate", "dot", "einsum", "inner", "linalg", "matmul", "tensordot", "vdot", "vecdot"}
 """Functions of numpy that call BLAS, and the module that calls LAPACK."""
 REASON = "# BLAS: "
@@ -20,7 +23,7 @@ REASON = "# BLAS: "
 
 def sources() -> list[Path]:
     """The files that the rule is for."""
-    return [path for folder in FOLDERS for path in sorted((ROOT / "rosmini" / folder).rglob("*.py"))]
+    return [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py"))]
 
 
 def depends_on_processor(node: ast.AST) -> bool:

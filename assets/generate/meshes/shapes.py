@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rosmini.geometry.products import inverse_matrix, matrix_product, norm, norms
 from rosmini.urdf.meshes.surface import Floats, Surface
 
 
@@ -22,8 +23,8 @@ class Shape(Surface):
 
     def moved(self, transform: Floats) -> Shape:
         """The shape after a transform (4, 4), which may also stretch and mirror."""
-        normals = self.normals @ np.linalg.inv(transform[:3, :3])
-        normals = normals / (np.linalg.norm(normals, axis=1, keepdims=True) + 1e-300)
+        normals = matrix_product(self.normals, inverse_matrix(transform[:3, :3]))
+        normals = normals / (norms(normals)[:, None] + 1e-300)
         return replace(super().moved(transform), normals=normals)
 
     def at(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Shape:
@@ -49,7 +50,7 @@ def polygon(corners: ArrayLike) -> Shape:
     """A flat convex polygon (n, 3), counter-clockwise seen from outside."""
     points = np.asarray(corners, dtype=float)
     normal = np.cross(points[1] - points[0], points[2] - points[1])
-    normal /= np.linalg.norm(normal)
+    normal /= norm(normal)
     fan = [(0, i, i + 1) for i in range(1, len(points) - 1)]
     return Shape(points, np.array(fan), normals=np.tile(normal, (len(points), 1)))
 
