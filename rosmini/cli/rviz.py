@@ -96,11 +96,11 @@ def _live(given: Values, call: Call) -> Result:
         return Shown(view=window)
     import webbrowser
 
-    from rosmini.widgets.loopback import PageServer
+    from rosmini.widgets.loopback import PageServer, has_screen
 
     with PageServer(window.link.widget, title="RViz") as server:
         call.say(f"RViz: {server.url}\nThis page follows the graph until Ctrl-C.")
-        if not given.no_browser:
+        if has_screen() and not given.no_browser:
             webbrowser.open(server.url)
         for _ in Span.of(call.graph, None).every(100_000_000):
             pass

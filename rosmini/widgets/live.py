@@ -1,8 +1,6 @@
 """A pad in a live notebook: what goes between the node in the kernel and the page that shows it.
 
-What a page sends arrives in the kernel's main thread or, if that is busy, on a thread of JupyterLab's (a subshell):
-it goes through the scheduler's inbox, and everything else happens in the graph. The page is sent a frame at 30 Hz of
-the graph's time while somebody looks.
+The page is sent a frame at 30 Hz of the graph's time while it is open.
 
 A page that shows a robot in motion has to say that it is still there. This is about the reader at the browser, so it
 is wall time that counts, in a graph in simulated time too; what a script presses needs no page, and goes on without
@@ -12,20 +10,17 @@ one.
 from __future__ import annotations
 
 import time
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
 from rosmini.msgs import message_class
 
 from .page import Pad, module, pad_data, scripts_of
 from .teleop import TeleopError
 
 try:
-    import anywidget
-    import traitlets
+    from .page_link import LEFT_S, PageLink
 except ImportError as error:
     raise TeleopError(
         "a pad in a live notebook needs anywidget, which is not installed here: `pip install anywidget`. "
@@ -37,14 +32,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from rosmini.graph import Node
     from rosmini.graph.clock import Timer
     from rosmini.graph.subscriber import Subscriber
 
 FRAME_HZ = 30.0
 DEAD_MAN_S = 1.0
 """After so long without a word from the page the robot stops."""
-LEFT_S = 3.0
-"""After so long nobody looks any more, and no frames are sent."""
 QUIET_S = 0.2
 """So often a frame is sent in which nothing has changed: the page sees by it that the kernel answers."""
 SHORTEST_S = 0.015
@@ -55,43 +49,14 @@ AROUND_S = 1.0
 """No two looks for other drivers follow one another faster [s]."""
 
 
-class PageWidget(anywidget.AnyWidget):
-    """The page of a pad or of a view, as Jupyter knows it."""
+class Link(PageLink):
+    """Takes what the page of a pad sends (see `rosmini-pad-kernel.js`), and sends it frames."""
 
-    data = traitlets.Dict().tag(sync=True)
-
-    elsewhere: Callable[[dict[str, Any], list[bytes] | None], None] | None = None
-    """Where it is not Jupyter that shows the page: what takes what is sent to it (`rosmini.widgets.loopback`)."""
-
-    def send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
-        """Send the page a message."""
-        if self.elsewhere is None:
-            super().send(content, buffers)
-        else:
-            self.elsewhere(content, buffers)
-
-    @property
-    def script(self) -> str:
-        """The page's module."""
-        return str(self._esm)
-
-    @property
-    def state(self) -> dict[str, Any]:
-        """What the page knows at the beginning."""
-        return dict(self.data)
-
-    def hear(self, content: dict[str, Any]) -> None:
-        """Take what the page says, in any thread."""
-        self._handle_custom_msg(content, [])
-
-
-class Link:
-    """Takes what the page of a pad sends, and sends it what it shows. `clock` is the wall's, in seconds."""
+    acts = frozenset({"key", "steer", "start", "reset", "choose", "keys"})
+    signs = frozenset({"beat"})
 
     def __init__(self, pad: Pad, clock: Callable[[], float] = time.monotonic) -> None:
         self.pad = pad
-        self._clock = clock
-        self._heard = clock()
         self._driven_by_page = False
         self._timer: Timer | None = None
         self._messages: list[list[float]] = []
@@ -106,12 +71,8 @@ class Link:
         self._scan: NDArray[np.float32] | None = None
         """A scan that the page has not got: ranges (beams,), then the robot's pose at each beam (beams, 3)."""
         self._scans: Subscriber | None = None
-        data = self._data()
-        self.widget = PageWidget(
-            _esm=module((*scripts_of(pad), "rosmini-pad-kernel.js"), "rosminiPadKernel"), data=data
-        )
-        answer_in_subshells(self.widget.comm)
-        self.widget.on_msg(self.receive)
+        script = module((*scripts_of(pad), "rosmini-pad-kernel.js"), "rosminiPadKernel")
+        super().__init__(script, self._data(), clock)
         pad.on_publish(self._published)
 
     def _data(self) -> dict[str, Any]:
@@ -123,25 +84,15 @@ class Link:
             data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
         return data
 
-    # -- from the page, in any thread ----------------------------------------------------------------------------
+    @property
+    def node(self) -> Node:
+        """The pad's."""
+        return self.pad.node
 
-    def receive(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
-        """Take a message of the page: see `rosmini-pad-kernel.js`."""
-        self._heard = self._clock()
-        graph, kind = self.pad.node.graph, content.get("type")
-        try:
-            if kind in ("key", "steer", "start", "reset", "choose", "keys") and not graph.is_live:
-                graph.live()
-        except RosminiError as error:
-            if not graph.scheduler.driven:  # else a program drives it, which is as good
-                self._send({"type": "error", "text": str(error)})
-                return
-        if kind == "beat" and not graph.is_live and not graph.scheduler.driven:
-            self._send({"type": "still"})
-            return
-        graph.scheduler.call_soon_threadsafe(
-            lambda: self.pad.node.spawn(f"{self.pad.node.name} page", partial(self._take, kind, content))
-        )
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to drive any more, or None."""
+        return self.pad.gone
 
     # -- in the graph --------------------------------------------------------------------------------------------
 
@@ -166,17 +117,22 @@ class Link:
             elif kind == "hello":
                 self._hello()
         except (TeleopError, TypeError, ValueError) as error:
-            why = self.pad.gone
+            why = self.gone
             if why is None:
-                self._send({"type": "error", "text": str(error)})
+                self._refuse(content, str(error))
             else:
                 self._tell_gone(why)
 
     def _look_around(self) -> None:
-        """See who else drives; not at each key, since the Master may be far away."""
+        """Find out who else drives: not at each key, and no key waits for it, since the Master may be far away."""
         now = self._clock()
         if now - self._looked >= AROUND_S:
-            self._looked, self._others = now, tuple(self.pad.others)
+            self._looked = now
+            self.node.spawn(f"{self.node.name} other drivers", self._note_others)
+
+    def _note_others(self) -> None:
+        if not self.node.is_shutdown():
+            self._others = tuple(self.pad.others)
 
     def _choose(self, name: str) -> None:
         self.pad.choose(name)
@@ -312,16 +268,3 @@ class Link:
         buffers = [numbers.tobytes()] if scan is None else [numbers.tobytes(), scan.tobytes()]
         self._send(content, buffers)
         self._messages = []
-
-    def _send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
-        self.widget.send(content, buffers)
-
-
-def answer_in_subshells(comm: Any) -> None:
-    """Let the page choose the thread that hears it.
-
-    ipykernel 7.4 has a page's messages handled where the kernel last sent it one. That is the main thread, which is
-    busy while a cell runs: the stop key would wait for the cell's end.
-    """
-    if hasattr(comm, "_reply_subshell_for"):
-        vars(comm)["_reply_subshell_for"] = lambda _data, asked: asked

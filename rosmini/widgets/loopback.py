@@ -10,9 +10,12 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import queue
 import secrets
+import sys
 import threading
+import webbrowser
 from contextlib import suppress
 from functools import partial
 from http import HTTPStatus
@@ -50,12 +53,13 @@ const model = {{
     // One after the other: of two requests at a time the later may come first, and a stop would end what came after it.
     said = said.then(() => fetch("./say", {{
       method: "POST", headers: {{ "Content-Type": "application/json" }}, body: JSON.stringify(content),
-    }})).catch(() => gone());
+    }})).then((answer) => answer.ok || refused(answer)).catch(() => gone());
   }},
 }};
 let said = Promise.resolve();
 const link = document.getElementById("link");
 const gone = () => {{ link.textContent = "The program behind this page has ended, or does not answer."; }};
+const refused = ({{ status }}) => {{ link.textContent = `The program behind this page refused it (${{status}}).`; }};
 const events = new EventSource("./events");
 events.onopen = () => {{ link.textContent = ""; model.send({{ type: "hello" }}); }};
 events.onerror = gone;
@@ -70,7 +74,7 @@ app.render({{ model, el: document.getElementById("page") }});
 
 
 class Served(Protocol):
-    """A widget, as it is served: :class:`~rosmini.widgets.live.PageWidget`."""
+    """A widget, as it is served: :class:`~rosmini.widgets.page_link.PageWidget`."""
 
     elsewhere: Any
     """Takes what is sent to the page, in place of Jupyter."""
@@ -173,6 +177,24 @@ class PageServer:
         """Forget a page."""
         with self._lock:
             self._pages.discard(page)
+
+
+def open_window(server: PageServer, name: str) -> None:
+    """Say in the terminal where the window of a node is, and open it in a browser where there is a screen.
+
+    Not by the log: roslaunch writes what a node logs into a file.
+    """
+    out, err = sys.__stdout__, sys.__stderr__
+    is_redirected = err is None or not err.isatty()
+    stream = sys.stdout if is_redirected and out is not None and out.isatty() else sys.stderr
+    print(f"{name}: its window is the page {server.url}", file=stream, flush=True)
+    if has_screen():
+        webbrowser.open(server.url)
+
+
+def has_screen() -> bool:
+    """Return whether a browser has somewhere to appear; without a screen a text browser would take the terminal."""
+    return sys.platform in ("darwin", "win32") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
 
 
 def _drain(page: queue.Queue[str | None]) -> None:

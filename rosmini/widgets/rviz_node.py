@@ -6,9 +6,6 @@ screen. In a graph with other nodes, a notebook's for instance, it opens nothing
 
 from __future__ import annotations
 
-import os
-import sys
-import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -57,13 +54,10 @@ class RViz:
         self._serve(self.window)
 
     def _serve(self, window: RVizWindow) -> None:
-        from .loopback import PageServer
+        from .loopback import PageServer, open_window
 
         self._server = PageServer(window.link.widget, title="RViz")
-        # Not by the log: roslaunch writes what a node prints into a file, but for its errors.
-        print(f"RViz: {self._server.url}", file=sys.stderr, flush=True)
-        if has_screen():
-            webbrowser.open(self._server.url)
+        open_window(self._server, window.node.name.lstrip("/"))
 
     def close(self) -> None:
         """End the page. Harmless when repeated."""
@@ -78,8 +72,3 @@ def _parser() -> Parser:
     parser.add_option("-d", "--display-config", metavar="FILE", help="a .rviz file")
     parser.add_option("-f", "--fixed-frame", metavar="FRAME", help="the frame in which everything is drawn")
     return parser
-
-
-def has_screen() -> bool:
-    """Return whether a browser has somewhere to appear; without a screen a text browser would take the terminal."""
-    return sys.platform in ("darwin", "win32") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))

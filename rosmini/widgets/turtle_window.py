@@ -1,20 +1,18 @@
 """The window of a turtlesim in a terminal: a page on this machine, as `rosmini rviz` is.
 
-A page shows the turtles and what they draw, and drives them by keys. Its node, `/teleop_pad`, is there from the moment
-that somebody opens the page: a graph at which nobody looks is ROS's own.
+A page shows the turtles and what they draw, and drives them by keys. Its node, `/teleop_pad`, starts when the page is
+first opened: until then the graph has the nodes that it has in ROS.
 """
 
 from __future__ import annotations
 
 import sys
 import threading
-import webbrowser
 from concurrent.futures import Future
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from .loopback import PageServer
-from .rviz_node import has_screen
+from .loopback import PageServer, open_window
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -86,16 +84,12 @@ class PadOnDemand:
 
 
 def turtle_window(sim: TurtleSim) -> PageServer | None:
-    """The renderer "turtle_window": serve the window until the node ends, where a terminal or a screen shows it."""
+    """The renderer "turtle_window": serve the window until the node ends, and say where it is."""
     name = sim.node.name.lstrip("/")
-    if not (has_screen() or (sys.__stderr__ is not None and sys.__stderr__.isatty())):
-        return None
     if find_spec("anywidget") is None:
         print(f"{name}: its window needs `pip install anywidget`", file=sys.stderr, flush=True)
         return None
     server = PageServer(PadOnDemand(sim), title=name)
     sim.node.on_shutdown(server.close)
-    print(f"{name}: its window is the page {server.url}", file=sys.stderr, flush=True)
-    if has_screen():
-        webbrowser.open(server.url)
+    open_window(server, name)
     return server

@@ -1,14 +1,11 @@
 """A view of a simulation in a live notebook: what goes between the kernel and the page that shows it.
 
-As with the pad (`rosmini.widgets.live`), what a page sends goes through the scheduler's inbox, from whatever thread
-it comes, and everything else happens in the graph. Frames are sent at up to 30 Hz while somebody looks. They never
-keep a graph going that would have nothing else to do.
+Frames are sent at up to 30 Hz while the page is open. They never keep a graph going that has nothing else to do.
 """
 
 from __future__ import annotations
 
 import time
-from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -20,7 +17,8 @@ from rosmini.viz.view import ViewError
 from .teleop import TeleopError
 
 try:
-    from .live import FRAME_HZ, LEFT_S, QUIET_S, SHORTEST_S, PageWidget, answer_in_subshells
+    from .live import FRAME_HZ, QUIET_S, SHORTEST_S
+    from .page_link import LEFT_S, PageLink
 except TeleopError as error:
     raise ViewError(
         "a view in a live notebook needs anywidget, which is not installed here: `pip install anywidget`. "
@@ -34,6 +32,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from rosmini.geometry.poses import Pose
+    from rosmini.graph import Node
 
     from .watch import Body, Watch
 
@@ -45,7 +44,6 @@ SCRIPTS = (
 )
 LASER_S = 0.1
 """No two looks of the lasers follow one another faster [s]."""
-ACTIONS = ("drag", "pause", "unpause", "step", "reset", "start")
 
 
 class LinkedView(Protocol):
@@ -86,49 +84,32 @@ class _Same:
     __hash__ = None  # type: ignore[assignment]  # it is only compared
 
 
-class ViewLink:
-    """Takes what the page of a view sends, and sends it what it shows. `clock` is the wall's, in seconds."""
+class ViewLink(PageLink):
+    """Takes what the page of a view sends (see `rosmini-view-kernel.js`), and sends it frames."""
+
+    acts = frozenset({"drag", "pause", "unpause", "step", "reset", "start"})
 
     def __init__(self, view: LinkedView, clock: Callable[[], float] = time.monotonic) -> None:
         self.view = view
         self.watch = view.watch
-        self._clock = clock
-        self._heard = clock()
         self._cancel: Callable[[], None] | None = None
         self._key: tuple[Any, ...] = ()
         self._bodies: list[Body] = []
         self._last: tuple[Any, ...] = ()
         self._last_sent = self._last_looked = 0.0
         self._seen: list[Pose] = []
-        self.widget = PageWidget(
-            _esm=module(SCRIPTS, "rosminiViewKernel"), data=self.watch.node.scheduler.on_hub(self._data)
-        )
-        answer_in_subshells(self.widget.comm)
-        self.widget.on_msg(self.receive)
+        data = self.node.scheduler.on_hub(self._data)
+        super().__init__(module(SCRIPTS, "rosminiViewKernel"), data, clock)
 
-    # -- from the page, in any thread ----------------------------------------------------------------------------
+    @property
+    def node(self) -> Node:
+        """The simulation's."""
+        return self.watch.node
 
-    def receive(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
-        """Take a message of the page: see `rosmini-view-kernel.js`."""
-        self._heard = self._clock()
-        node, kind = self.watch.node, content.get("type")
-        graph = node.graph
-        why = self.watch.gone
-        if why is not None:
-            self._send({"type": "gone", "text": why})
-            return
-        try:
-            if kind in ACTIONS and not graph.is_live:
-                graph.live()
-        except RosminiError as error:
-            self._refuse(content, str(error))
-            return
-        if not graph.is_live and not graph.scheduler.driven:
-            self._send({"type": "still"})
-            return
-        graph.scheduler.call_soon_threadsafe(
-            lambda: node.spawn(f"{node.name} view", partial(self._take, kind, content))
-        )
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to see any more, or None."""
+        return self.watch.gone
 
     # -- in the graph --------------------------------------------------------------------------------------------
 
@@ -162,7 +143,7 @@ class ViewLink:
         if self._cancel is not None:
             self._cancel()
             self._cancel = None
-        why = self.watch.gone
+        why = self.gone
         if why is not None:
             self._send({"type": "gone", "text": why})
             return
@@ -227,6 +208,3 @@ class ViewLink:
             "paused": watch.host.paused,
             "step": STEP_S,
         }
-
-    def _send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
-        self.widget.send(content, buffers)

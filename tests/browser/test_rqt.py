@@ -9,6 +9,7 @@ import pytest
 
 from rosmini import Graph
 from rosmini.dynamic_reconfigure import Description, ParameterGroup, ReconfigurableParameter, Server
+from rosmini.errors import RosminiError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 from rosmini.viz.embed import STATIC
@@ -227,6 +228,23 @@ def test_what_is_logged_appears(show, graph):
     graph.nodes["/lamp"].logwarn("<i>hot</i>")
     opened.pump(0.5)
     assert "<i>hot</i>" in opened.page.get_by_role("region", name="Log messages").inner_text()
+
+
+def test_why_a_message_was_refused_is_seen_until_the_next_click(show, graph):
+    opened = show(LoggerLevel(graph))
+    alert = opened.page.get_by_role("alert")
+
+    def refuse() -> None:
+        raise RosminiError("a live graph needs an event loop")
+
+    start, opened.graph.live = opened.graph.live, refuse
+    opened.press("refresh")
+    opened.pump(1.0)
+    assert "needs an event loop" in alert.inner_text()
+    opened.graph.live = start
+    opened.press("refresh")
+    assert alert.is_hidden()
+    assert opened.note == "live"
 
 
 def test_an_ended_panel_is_disabled_and_says_why(show, graph):

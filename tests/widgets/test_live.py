@@ -92,7 +92,7 @@ def test_a_graph_that_cannot_be_live_says_why(pad, page):
     pad.graph.live = refuse
     page.say("key", key="w")
     assert [content for content, _ in page.sent] == [
-        {"type": "error", "text": "a live graph needs an event loop"}
+        {"type": "refused", "text": "a live graph needs an event loop"}
     ]
     page.run(0.1, beats=False)
     assert pad.sent == 0
@@ -106,7 +106,7 @@ def test_a_graph_that_a_program_drives_needs_no_event_loop(pad, page, graph):
     graph.node("program").timer(0.1, lambda _: page.say("key", key="w"), oneshot=True)
     graph.run(0.5)
     assert pad.teleop.command == (0.01, 0.0)
-    assert "error" not in page.kinds()
+    assert "refused" not in page.kinds()
 
 
 def test_a_pad_is_served_as_a_page_on_loopback(pad):
@@ -260,7 +260,7 @@ def test_a_wrong_key_from_a_page_changes_nothing(page, pad):
     page.say("key")
     page.run(0.1)
     assert pad.sent == 0
-    assert "no key 'q'" in next(content["text"] for content, _ in page.sent if content["type"] == "error")
+    assert "no key 'q'" in next(content["text"] for content, _ in page.sent if content["type"] == "refused")
     assert page.frames() != []
 
 
@@ -292,7 +292,8 @@ def test_the_messages_of_a_pad_without_a_simulator_are_shown(graph):
 
 
 def test_without_anywidget_the_twin_works_and_the_page_says_what_to_install(graph, monkeypatch):
-    monkeypatch.delitem(sys.modules, "rosmini.widgets.live")
+    for name in ("page_link", "live"):
+        monkeypatch.delitem(sys.modules, f"rosmini.widgets.{name}", raising=False)
     monkeypatch.setitem(sys.modules, "anywidget", None)
     pad = TeleopPad(graph)
     pad.press("w")

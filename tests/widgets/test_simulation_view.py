@@ -401,7 +401,7 @@ def test_an_ended_simulation_is_told(stage):
 
 
 def test_without_anywidget_the_twin_works_and_the_page_says_what_to_install(stage, monkeypatch):
-    for name in ("view_link", "live"):
+    for name in ("page_link", "view_link", "live"):
         monkeypatch.delitem(sys.modules, f"rosmini.widgets.{name}", raising=False)
     monkeypatch.setitem(sys.modules, "anywidget", None)
     view = stage.view()

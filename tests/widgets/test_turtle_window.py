@@ -16,7 +16,7 @@ from rosmini import Graph, rosrun
 from rosmini.graph.show import has_own_process
 from rosmini.turtlesim import TurtleSim
 from rosmini.turtlesim import node as turtlesim_node
-from rosmini.widgets import turtle_window
+from rosmini.widgets import loopback, turtle_window
 from rosmini.widgets.turtle_window import PadOnDemand
 
 from ..processes import PATIENCE
@@ -24,10 +24,9 @@ from ..processes import PATIENCE
 
 @pytest.fixture
 def terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Be a process of a graph, in a terminal without a screen."""
+    """Be a process of a graph, without a screen."""
     monkeypatch.setattr(turtlesim_node, "has_own_process", lambda graph: True)
-    monkeypatch.setattr(turtle_window, "has_screen", lambda: False)
-    monkeypatch.setattr(sys, "__stderr__", SimpleNamespace(isatty=lambda: True))
+    monkeypatch.setattr(loopback, "has_screen", lambda: False)
 
 
 def asked(graph: Graph, url: str) -> Any:
@@ -69,12 +68,14 @@ def test_in_a_terminal_the_window_is_a_page_whose_node_comes_when_it_is_opened(t
             urllib.request.urlopen(url)
 
 
-def test_where_nobody_sees_its_address_there_is_no_page(terminal, capsys, monkeypatch):
+def test_where_only_the_output_is_a_terminal_the_address_is_written_there(terminal, capsys, monkeypatch):
     monkeypatch.setattr(sys, "__stderr__", SimpleNamespace(isatty=lambda: False))
-    with Graph() as graph:
-        sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
-        assert turtle_window.turtle_window(sim) is None
-    assert "page" not in capsys.readouterr().err
+    monkeypatch.setattr(sys, "__stdout__", SimpleNamespace(isatty=lambda: True))
+    with Graph(simulated=False) as graph:
+        rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
+    said = capsys.readouterr()
+    assert "turtlesim: its window is the page http://127.0.0.1:" in said.out
+    assert said.err == ""
 
 
 def test_a_notebook_opens_no_window():

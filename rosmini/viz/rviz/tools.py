@@ -319,6 +319,7 @@ class MoveCamera(Tool, plugin="rviz/MoveCamera"):
 
     label, key = "Move Camera", "m"
     hint = "Drag to move the camera; the wheel zooms."
+    _held: Floats | None = None
 
     def press(self, at: Floats) -> str:
         """Take hold."""
@@ -326,14 +327,15 @@ class MoveCamera(Tool, plugin="rviz/MoveCamera"):
         return self.hint
 
     def move(self, at: Floats) -> str:
-        """Move the view so that what was taken hold of follows the hand."""
-        if self.scene.view is not None:
+        """Move the view so that the point that was pressed follows the hand. Without a press, nothing happens."""
+        if self.scene.view is not None and self._held is not None:
             self.scene.view.pan(self._held - at, self.scene.context)
         return self.hint
 
     def release(self, at: Floats) -> str:
         """Let go."""
         del at
+        self._held = None
         return self.hint
 
 
@@ -366,7 +368,7 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
     def release(self, at: Floats) -> str:
         """Let go of it."""
         held, self._marker = self._marker, None
-        return self.hint if held is None else str(held.release(at))
+        return super().release(at) if held is None else str(held.release(at))
 
 
 class Select(Tool, plugin="rviz/Select"):

@@ -7,7 +7,7 @@
    From the kernel: {type: "pad", data} another robot is driven; {type: "frame", messages, sent, at_rest, blocked, scan, keys, speed, others, choices?, pushed?, window?} with a buffer of seven float64 (target and command, each linear and
                    angular, and x, y, theta), and one of float32 (ranges, then x, y, theta of the robot at each beam) if `scan` is true;
                    {type: "trail"} with one of float32 (x, y, ...); {type: "still"} nobody drives the graph; {type: "gone", text} and
-                   {type: "error", text}. */
+                   {type: "refused", text}. */
 
 (() => {
   "use strict";
@@ -22,6 +22,7 @@
       this.data = data;
       this.changed = () => {};
       this.begun = false; // whether frames are to be expected
+      this.refused = ""; // why nothing was done, until the next thing that a hand does
       this.heard = performance.now();
       this.frames = 0;
       this.rates = [];
@@ -88,6 +89,7 @@
           break;
         default:
           state.startable = true;
+          this.refused = content.text;
           this.show("gone", content.text);
       }
     }
@@ -125,7 +127,8 @@
       const mood = content.blocked ? "blocked" : content.at_rest ? "ready" : "driving";
       const driving = state.pose ? `driving, ${this.rates.length} frames/s` : "driving";
       const note = content.blocked ? state.window ? "Oh no! I hit the wall!" : "something is in the way" : content.at_rest ? "live" : driving;
-      this.show(mood, content.others.length ? `${note}; ${content.others.join(", ")} drives too` : note);
+      if (this.refused) this.show("gone", this.refused);
+      else this.show(mood, content.others.length ? `${note}; ${content.others.join(", ")} drives too` : note);
     }
 
     press(key) {
@@ -154,6 +157,7 @@
     begin() {
       if (!this.begun) this.heard = performance.now();
       this.begun = true;
+      this.refused = "";
     }
 
     start() {

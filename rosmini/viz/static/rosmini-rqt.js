@@ -3,7 +3,7 @@
 
    To the kernel:   {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "start"} let the graph go on,
                     {type: "set", key, value} a control was operated; a pointer on a drawing is told in words, "press 10 20".
-   From the kernel: {type: "sheet", html} what the panel shows now, {type: "alive"} the same as before, {type: "said", text},
+   From the kernel: {type: "sheet", html} what the panel shows now, {type: "alive"} the same as before, {type: "refused", text},
                     {type: "still"} nobody drives the graph; {type: "gone", text};
                     {type: "solid", ...} with buffers, for the script rosmini-rviz.js.
 
@@ -57,11 +57,15 @@
       this.pill.className = "rq-pill";
       this.pill.style.cssText = "margin:4px 12px;font:12px sans-serif;opacity:0.75";
       this.pill.setAttribute("role", "status");
+      this.refusal = document.createElement("p");
+      this.refusal.style.cssText = "margin:4px 12px;padding-left:8px;border-left:4px solid #d33;font:bold 14px sans-serif";
+      this.refusal.setAttribute("role", "alert");
       this.startButton = document.createElement("button");
       Object.assign(this.startButton, { type: "button", textContent: "Start the graph", hidden: true });
       this.startButton.addEventListener("click", () => this.tell({ type: "start" }));
-      el.replaceChildren(this.host, this.pill, this.startButton);
+      el.replaceChildren(this.host, this.refusal, this.pill, this.startButton);
       this.note("ready");
+      this.refuse("");
       this.receive = (content, buffers) => this.hear(content, buffers);
       model.on("msg:custom", this.receive);
       for (const kind of ["change", "click", "input", "keydown"]) this.host.addEventListener(kind, (event) => this[kind](event));
@@ -137,6 +141,7 @@
     }
 
     set(key, value) {
+      this.refuse("");
       this.tell({ type: "set", key, value });
     }
 
@@ -165,7 +170,7 @@
         case "alive": this.note("live"); break;
         case "solid": globalThis.rosminiRviz.show(this, content, buffers); break;
         case "still": this.note("the graph stands still"); break;
-        case "said": this.note(content.text); break;
+        case "refused": this.refuse(content.text); break;
         default: this.end(content.text);
       }
     }
@@ -174,6 +179,12 @@
       this.over = true;
       this.host.querySelector("fieldset")?.setAttribute("disabled", "");
       this.note(text);
+    }
+
+    /* Say why nothing was done, until the next thing that a hand does. */
+    refuse(text) {
+      this.refusal.textContent = text;
+      this.refusal.hidden = !text;
     }
 
     note(text) {

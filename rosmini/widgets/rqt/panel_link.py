@@ -1,25 +1,21 @@
 """A panel of rqt in a live notebook: what goes between the kernel and the page that shows it.
 
-As with the view of a simulation (`rosmini.widgets.view_link`), what a page sends goes through the scheduler's inbox,
-from whatever thread it comes, and everything else happens in the graph. A page is sent the panel's HTML when that has
-changed, while somebody looks, a few times a second.
+The page is sent the panel's HTML when that has changed, a few times a second while the page is open.
 """
 
 from __future__ import annotations
 
 import time
 from contextlib import suppress
-from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from rosmini.errors import RosminiError
 from rosmini.viz.view import ViewError
 from rosmini.widgets.page import module
-from rosmini.widgets.teleop import TeleopError
 
 try:
-    from rosmini.widgets.live import LEFT_S, PageWidget, answer_in_subshells
-except TeleopError as error:
+    from rosmini.widgets.page_link import LEFT_S, PageLink
+except ImportError as error:
     raise ViewError(
         "a panel in a live notebook needs anywidget, which is not installed here: `pip install anywidget`. "
         "panel.set() and the panel's own functions work without it."
@@ -66,42 +62,27 @@ class LinkedPanel(Protocol):
         """What its page is to be sent beside the sheet."""
 
 
-class PanelLink:
-    """Takes what the page of a panel sends, and sends it what it shows. `clock` is the wall's, in seconds."""
+class PanelLink(PageLink):
+    """Takes what the page of a panel sends (see `rosmini-rqt.js`), and sends it what it shows."""
+
+    acts = frozenset({"set", "start"})
 
     def __init__(self, panel: LinkedPanel, clock: Callable[[], float] = time.monotonic) -> None:
         self.panel = panel
-        self._clock = clock
-        self._heard = clock()
         self._last_sent = 0.0
         self._last = panel.markup(live=True)
         self._cancel: Callable[[], None] | None = None
-        self.widget = PageWidget(
-            _esm=module((*SCRIPTS, *panel.scripts), "rosminiRqt"), data={"html": self._last}
-        )
-        answer_in_subshells(self.widget.comm)
-        self.widget.on_msg(self.receive)
+        super().__init__(module((*SCRIPTS, *panel.scripts), "rosminiRqt"), {"html": self._last}, clock)
 
-    def receive(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
-        """Take a message of the page, in any thread: see `rosmini-rqt.js`."""
-        self._heard = self._clock()
-        panel, kind = self.panel, content.get("type")
-        graph, node = panel.graph, panel.node
-        if panel.gone is not None:
-            self._send({"type": "gone", "text": panel.gone})
-            return
-        try:
-            if kind in ("set", "start") and not graph.is_live:
-                graph.live()
-        except RosminiError as error:
-            self._send({"type": "said", "text": str(error)})
-            return
-        if not graph.is_live and not graph.scheduler.driven:
-            self._send({"type": "still"})
-            return
-        graph.scheduler.call_soon_threadsafe(
-            lambda: node.spawn(f"{node.name} page", partial(self._take, kind, content))
-        )
+    @property
+    def node(self) -> Node:
+        """The panel's."""
+        return self.panel.node
+
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to operate any more, or None."""
+        return self.panel.gone
 
     # -- in the graph --------------------------------------------------------------------------------------------
 
@@ -121,8 +102,9 @@ class PanelLink:
             self._cancel()
         self._cancel = None
         now = self._clock()
-        if self.panel.gone is not None:
-            self._send({"type": "gone", "text": self.panel.gone})
+        why = self.gone
+        if why is not None:
+            self._send({"type": "gone", "text": why})
             return
         if now - self._heard > LEFT_S:
             return
@@ -150,6 +132,3 @@ class PanelLink:
         if news is not None:
             self._send(*news)
         self._last, self._last_sent = html, now
-
-    def _send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
-        self.widget.send(content, buffers)

@@ -15,6 +15,7 @@ from rosmini.viz import ViewError
 from rosmini.viz.rviz import Config, DisplayError
 from rosmini.viz.rviz.primitives import Lines, Mesh
 from rosmini.viz.rviz.tools import PoseTool, Tool, Tools, point
+from rosmini.viz.rviz.views import TopDownOrtho
 
 
 @pytest.fixture
@@ -126,6 +127,14 @@ def test_a_release_without_a_press_publishes_nothing(stage):
     goal = Tools(stage.scene())["2D Nav Goal"]
     assert goal.release(np.zeros(3)) == goal.hint
     assert not goal.is_finished
+
+
+@pytest.mark.parametrize("label", ["Interact", "Move Camera"])
+def test_a_move_without_a_press_does_not_move_the_camera(stage, label):
+    scene = stage.scene()
+    scene.view = TopDownOrtho()
+    Tools(scene)[label].move(np.array([1.0, 1.0, 0.0]))
+    assert (scene.view["X"], scene.view["Y"]) == (0.0, 0.0)
 
 
 def test_measure_tells_the_distance_of_each_pair(stage):

@@ -127,7 +127,7 @@ def test_where_the_graph_cannot_go_on_by_itself_the_page_is_told(page):
 
     page.graph.live = live
     page.say("start")
-    assert page.sent == [{"type": "said", "text": "no event loop"}]
+    assert page.sent == [{"type": "refused", "text": "no event loop"}]
 
 
 def test_messages_may_come_from_any_thread(page):
@@ -161,7 +161,7 @@ def test_a_notebook_gets_a_widget_and_a_page_gets_html(page, monkeypatch):
 
 
 def test_without_anywidget_it_is_said_what_to_install(graph, monkeypatch):
-    for name in ("rosmini.widgets.live", "rosmini.widgets.rqt.panel_link"):
+    for name in ("rosmini.widgets.page_link", "rosmini.widgets.rqt.panel_link"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setitem(sys.modules, "anywidget", None)
     panel = MessagePublisher(graph)
