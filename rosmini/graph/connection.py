@@ -21,6 +21,7 @@ from rosmini.msgs.full_text import class_from
 
 from .callbacks import Callback
 from .mismatch import describe_mismatch, recast
+from .rosout import LEVELS
 from .transport import DirectReceiver, LocalTransport, refuse, set_header
 
 if TYPE_CHECKING:
@@ -84,6 +85,7 @@ class Connection(DirectReceiver):
         self._gone = False
         self._gate: Gate | Chain | None = node.graph.gates.gate(subscription.topic, node.name)
         self._draining = False
+        self._has_told = False
         self._last: Any = None
         self._keep = False
         self._drain_ref = self._drain
@@ -191,7 +193,7 @@ class Connection(DirectReceiver):
         self.begin = partial(self._lane.post_if_idle, self._drain_ref) if is_direct else refuse
 
     def deliver(self, messages: Iterable[Any]) -> None:
-        """Queue frozen messages for the callbacks; beyond the queue size the oldest are dropped."""
+        """Queue frozen messages for the callbacks; while one is busy, the oldest beyond the queue size are dropped."""
         if self._gate is None:
             self._accept(messages)
         else:
@@ -208,17 +210,35 @@ class Connection(DirectReceiver):
         for message in messages:
             set_header(message, self.header)
             self.incoming.append(message)
-        self._trim()
+        if self._lane.waiter is not None:
+            self._trim()
         if self._draining or self.pending:
             return
         self.pending = self._is_direct  # else what is sent would join the queue past the gate
         self._lane.post(self._drain_ref)
 
     def _trim(self) -> None:
+        """Drop the oldest messages beyond the queue size: the callback that is running takes longer than they do."""
         size = self.subscription.queue_size
         while size and len(self.incoming) > size:
             self.incoming.popleft()
             self.dropped += 1
+        if self.dropped and not self._has_told:
+            self._tell_dropped()
+
+    def _tell_dropped(self) -> None:
+        """Log on ``/rosout``, once for each connection, that messages are dropped; that may well be meant to be so."""
+        self._has_told = True
+        subscription = self.subscription
+        node, topic = subscription.node, subscription.topic
+        if topic not in ("/rosout", "/rosout_agg"):
+            node.logger.log(
+                LEVELS["INFO"],
+                f"the callback of {node.name} takes messages on {topic} more slowly than {self.peer} publishes them: "
+                f"with queue_size={subscription.queue_size}, the oldest are dropped. `rostopic info -v {topic}` counts "
+                "them.",
+                is_shown=False,
+            )
 
     @property
     def waiting(self) -> int:
@@ -229,8 +249,8 @@ class Connection(DirectReceiver):
         """Call the callbacks for what is queued. In the connection's lane."""
         incoming, take, header = self.incoming, self.incoming.popleft, self.header
         self.pending, self._draining = False, True
-        if self.subscription.queue_size:
-            self._trim()
+        lane, is_bounded = self._lane, bool(self.subscription.queue_size)
+        parks = lane.parks
         try:
             while incoming:
                 way = self.way or self._find_way()
@@ -251,6 +271,11 @@ class Connection(DirectReceiver):
                             call(message)
                         except Exception as error:
                             self._failed(error, callback, message)
+                    if (
+                        is_bounded and lane.parks != parks
+                    ):  # a callback has blocked: what came meanwhile had to wait
+                        parks = lane.parks
+                        self._trim()
         finally:
             self._draining = False
             if incoming and not self._gone:

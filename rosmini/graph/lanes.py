@@ -118,6 +118,7 @@ class Lane:
         "node",
         "on_error",
         "on_exit",
+        "parks",
         "waiter",
         "woken",
     )
@@ -142,6 +143,8 @@ class Lane:
         self._busy = False
         self.waiter: Waiter | None = None
         """What the lane is parked for. Set by the scheduler only."""
+        self.parks = 0
+        """The number of times that the lane has blocked. Set by the scheduler only."""
         self.cause: int | None = None
         """The number of the event that its task acts on, where the graph records what happens."""
         self.woken: tuple[int, int] | None = None

@@ -38,6 +38,8 @@ class NodePort(Protocol):
     publications: dict[str, Any]
     subscriptions: dict[str, Any]
     timers: dict[Any, None]
+    logger: Any
+    """A :class:`~rosmini.graph.rosout.Logger`, which needs a node itself."""
 
     @property
     def clock(self) -> NodeClock: ...

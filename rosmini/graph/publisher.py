@@ -224,6 +224,17 @@ class Publication:
             f"{self.how_to_wait}, or publish with latch=True if late subscribers need the last message."
         )
 
+    def _warn_dropped(self, sender: Sender) -> None:
+        """Say, once for each connection, that messages are dropped."""
+        if self.topic in ("/rosout", "/rosout_agg"):
+            return
+        size = self._queue_size
+        queue = "no queue_size, and too many bytes wait" if size is None else f"queue_size={size}"
+        self.node.logwarn(
+            f"{sender.destination} takes messages on {self.topic} more slowly than {self.node.name} publishes them: "
+            f"with {queue}, the oldest are dropped. `rostopic info -v {self.topic}` counts them."
+        )
+
     def accept(self, header: Header, sender: Sender) -> Header:
         """Take a subscriber's connection.
 
@@ -266,6 +277,7 @@ class Publication:
         number = self.node.next_connection_id()
         self.senders[number] = sender
         sender.on_closed = lambda: self.remove(number)
+        sender.on_dropped = lambda: self._warn_dropped(sender)
         self._connections_changed()
         if self._latched is not None:
             latched = self._latched

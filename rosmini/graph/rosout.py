@@ -111,8 +111,13 @@ class Logger:
         """Tell whether a message of this level is logged."""
         return level >= self.tree.level(logger)
 
-    def log(self, level: int, text: str, *, logger: str | None = None, depth: int = 2) -> None:
-        """Log ``text``; ``depth`` is how many frames above this call the user's code stands."""
+    def log(
+        self, level: int, text: str, *, logger: str | None = None, depth: int = 2, is_shown: bool = True
+    ) -> None:
+        """Log ``text``; ``depth`` is the number of frames from this call up to the user's code.
+
+        Without ``is_shown`` it goes to ``/rosout`` and to the log file, and not to the console.
+        """
         logger = logger or "rosout"
         if not self.is_enabled(level, logger):
             return
@@ -127,7 +132,8 @@ class Logger:
             shown = (
                 f"{_shown(node.graph.now())}, {shown}"  # rospy's way: the wall's time, then that of /clock
             )
-        self.console(level, f"[{NAMES[level]}] [{shown}]: {text}")
+        if is_shown:
+            self.console(level, f"[{NAMES[level]}] [{shown}]: {text}")
         publication = node.publications.get("/rosout")
         if publication is not None:
             publication.send(self._message(level, text, now, caller(depth + 1)))

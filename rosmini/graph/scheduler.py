@@ -259,6 +259,7 @@ class Scheduler(EventQueue):
             return False
         waiter.greenlet = getcurrent()
         lane.waiter = waiter
+        lane.parks += 1
         self._parked[waiter] = lane
         try:
             worker = self._idle.pop() if self._idle else self._new_worker()

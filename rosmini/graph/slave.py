@@ -109,11 +109,14 @@ class SlaveApi:
             raise
 
     def getBusStats(self, caller_id: str) -> Triple:
-        """Return counts of what went over each connection: [publish stats, subscribe stats, service stats]."""
+        """Return counts of what went over each connection: [publish stats, subscribe stats, service stats].
+
+        A publisher's row has a fifth value that ROS has not: the number of dropped messages.
+        """
         now = self._current()
         publish: dict[str, list[Any]] = {topic: [] for topic in self._published}
         for topic, number, sender in now.out:
-            publish.setdefault(topic, []).append([number, 0, getattr(sender, "sent", 0), True])
+            publish.setdefault(topic, []).append([number, 0, sender.sent, True, sender.dropped])
         subscribe: dict[str, list[Any]] = {topic: [] for topic in self._subscribed}
         for topic, link in now.into:
             subscribe.setdefault(topic, []).append([link.id, link.bytes_received, link.dropped, link.is_open])

@@ -64,6 +64,10 @@ class Sender(Protocol):
     """What ``getBusInfo`` says of the connection; empty where there is nothing to add to the destination."""
     on_closed: Callable[[], None]
     """Set by the publisher; called in the hub's thread when the subscriber has closed the connection."""
+    on_dropped: Callable[[], None]
+    """Set by the publisher; called in the hub's thread when the first message is dropped."""
+    dropped: int
+    """The number of messages dropped because the subscriber takes them too slowly."""
     receiver: DirectReceiver | None
     """The other end, if its queue may be appended to while it is pending."""
 
@@ -118,7 +122,7 @@ class DirectReceiver(ABC):
         self.received = 0
         """How many messages the callbacks got."""
         self.dropped = 0
-        """How many messages were dropped because too many waited."""
+        """The number of messages dropped because too many waited."""
         self.bytes_received = 0
         """How many bytes of messages were taken from a wire."""
         self.info = ""
@@ -257,8 +261,19 @@ def _nothing() -> None:
     """Do nothing: what is called when nobody has asked to be."""
 
 
+IN_FLIGHT = 6 * 2**20
+"""Bytes that the buffers of a connection take, as those of two sockets do [bytes]; what follows waits in the queue."""
+
+OVERHEAD = 64
+"""What a message takes of that besides its own bytes [bytes]."""
+
+
 class QueuedSender:
-    """Collects messages until the next event of the queue, and then flushes them."""
+    """Collects messages until the next event of the queue, and then flushes them.
+
+    As in rospy, whose threads send while the publisher goes on, a burst fills no queue. A publisher's queue only counts
+    while the subscriber takes so few that the buffers between the two are full.
+    """
 
     protocol = "INPROC"
     wants_bytes = False
@@ -272,6 +287,7 @@ class QueuedSender:
         "destination",
         "dropped",
         "on_closed",
+        "on_dropped",
         "receiver",
     )
 
@@ -282,6 +298,7 @@ class QueuedSender:
         self._closed = False
         self.destination = destination
         self.on_closed: Callable[[], None] = _nothing
+        self.on_dropped: Callable[[], None] = _nothing
         self.receiver: DirectReceiver | None = None
         self._queued = 0
         self.dropped = 0
@@ -292,15 +309,27 @@ class QueuedSender:
         return self._queued
 
     def send(self, frozen: Any, size: int | None) -> None:
-        """Queue a message; the oldest makes room when ``size`` are waiting."""
-        waiting = self._queue
+        """Queue a message. If the buffers are full and ``size`` messages wait, the oldest of these is dropped."""
+        if size is not None and len(self._queue) >= size and self._is_full(frozen, size, len(self._queue)):
+            del self._queue[-size]
+            self._drop()
+        self._add(frozen)
+
+    def _add(self, frozen: Any) -> None:
         self._queued += 1
-        if not waiting:
+        if not self._queue:
             self._ready.append(self._flush)
-        elif size is not None and len(waiting) >= size:
-            waiting.popleft()
-            self.dropped += 1
-        waiting.append(frozen)
+        self._queue.append(frozen)
+
+    @staticmethod
+    def _is_full(frozen: Any, size: int, waiting: int) -> bool:
+        """Return whether the buffers and a queue of ``size`` are full when ``waiting`` such messages wait."""
+        return waiting - size >= IN_FLIGHT // (len(frozen._encode(frozen)) + OVERHEAD)
+
+    def _drop(self) -> None:
+        self.dropped += 1
+        if self.dropped == 1:
+            self.on_dropped()
 
     def _flush(self) -> None:
         queue = self._queue
@@ -342,20 +371,22 @@ class LocalSender(QueuedSender):
         return self.dropped + len(self._queue) + len(self._incoming) + to.dropped + to.received
 
     def send(self, frozen: Any, size: int | None) -> None:
-        """Hand a message over; the oldest makes room when ``size`` are waiting."""
-        receiver = self._direct
-        if receiver.pending:
-            incoming = self._incoming
-            if size is not None and len(incoming) >= size:
-                incoming.popleft()
-                self.dropped += 1
-        elif not self._queue and receiver.begin():
+        """Hand a message over. If the buffers are full and ``size`` messages wait, the oldest of these is dropped."""
+        receiver, incoming, queue = self._direct, self._incoming, self._queue
+        waiting = len(incoming) + len(queue)
+        if size is not None and waiting >= size and self._is_full(frozen, size, waiting):
+            if len(queue) >= size:
+                del queue[-size]
+            else:
+                del incoming[len(queue) - size]
+            self._drop()
+        if not receiver.pending:
+            if queue or not receiver.begin():
+                self._add(frozen)
+                return
             receiver.pending = True
-        else:
-            super().send(frozen, size)
-            return
         set_header(frozen, receiver.header)
-        self._incoming.append(frozen)
+        incoming.append(frozen)
 
 
 class LocalServiceLink:

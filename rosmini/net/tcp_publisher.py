@@ -27,12 +27,9 @@ class TcpSender:
     wants_bytes = True
     receiver: DirectReceiver | None = None
 
-    def __init__(
-        self, scheduler: Scheduler, stream: Stream, destination: str, warn: Callable[[str], None]
-    ) -> None:
+    def __init__(self, scheduler: Scheduler, stream: Stream, destination: str) -> None:
         self._scheduler = scheduler
         self._stream = stream
-        self._warn = warn
         self._header: bytes | None = None
         self._is_open = False
         self._is_closed = False
@@ -43,10 +40,11 @@ class TcpSender:
         self.destination = destination
         self.info = stream.describe()
         self.on_closed: Callable[[], None] = _nothing
+        self.on_dropped: Callable[[], None] = _nothing
         self.sent = 0
         """How many messages were sent, dropped ones included."""
         self.dropped = 0
-        """How many of them were dropped because the subscriber reads too slowly."""
+        """The number of messages dropped because the subscriber reads too slowly."""
         stream.source = self._next
 
     def open(self, header: bytes) -> None:
@@ -78,16 +76,13 @@ class TcpSender:
         """Write what waits, and drop the oldest where that was not enough."""
         if self._is_open:
             self._stream.flush()
-        waiting = self._waiting
+        waiting, before = self._waiting, self.dropped
         with self._stream.lock:
             while waiting and (len(waiting) >= size if size else self._queued - self._taken > UNBOUNDED):
                 self._taken += len(waiting.popleft())
                 self.dropped += 1
-                if self.dropped == 1 and size is None:
-                    self._warn(
-                        f"{self.destination} reads more slowly than is published, and the publisher has no queue_size: "
-                        f"{UNBOUNDED // 2**20} MiB wait, so the oldest messages are dropped. Give it a queue_size."
-                    )
+        if self.dropped and not before:
+            self.on_dropped()
 
     def _flush(self) -> None:
         self._is_due = False

@@ -172,7 +172,7 @@ class _Arrival:
     def _take_subscriber(self, header: Header, more: list[bytes]) -> None:  # noqa: ARG002 - it ought to be silent
         server, stream = self._server, self._stream
         caller = NOT_XML.sub("?", header.get("callerid", "unknown"))  # others learn it over XML-RPC
-        sender = TcpSender(server.scheduler, stream, caller, server.warn)
+        sender = TcpSender(server.scheduler, stream, caller)
         try:
             reply = server.endpoint.accept_subscriber(header, sender)
         except TransportInitError as error:

@@ -85,8 +85,8 @@ def test_the_bus_lists_each_connection(talking: Graph) -> None:
     assert row[2:6] == ["i", protocol, "/chatter", True]
     code, status, (published, subscribed, services) = call(talking, "/talker", "getBusStats")
     assert (code, status, subscribed, services) == (1, "", [], [])
-    ((number, _, sent, connected),) = {topic: links for topic, _, links in published}["/chatter"]
-    assert (sent, connected) == (1, True)
+    ((number, _, sent, connected, dropped),) = {topic: links for topic, _, links in published}["/chatter"]
+    assert (sent, connected, dropped) == (1, True, 0)
     assert isinstance(number, int)
     ((topic, links),) = call(talking, "/listener", "getBusStats")[2][1]
     on_a_wire = isinstance(talking.transport.ways[0], TcpTransport)

@@ -9,20 +9,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
+from rosmini import Graph
 from rosmini.errors import GraphEnded, ROSException, SerializationError, TypeMismatch
 from rosmini.msgs.geometry_msgs.msg import Point, PointStamped, Polygon, Twist, Vector3
 from rosmini.msgs.nav_msgs.msg import Path
+from rosmini.msgs.rosgraph_msgs.msg import Log
 from rosmini.msgs.sensor_msgs.msg import Image, JointState, LaserScan
 from rosmini.msgs.std_msgs.msg import Int32, String
 from rosmini.msgs.template import template
-from rosmini.net.tcp_transport import TcpTransport
 
 from .conftest import KINDS, LONG, close, make, settle, until
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.graph import Graph, Node, Publisher
+    from rosmini.graph import Node, Publisher
 
 
 def connected(node: Node, topic: str, cls: Any, subscribers: int = 1, **options: Any) -> Publisher:
@@ -372,17 +373,42 @@ def test_values_are_rounded_as_the_wire_rounds_them(graph: Graph) -> None:
 # -- queues ------------------------------------------------------------------------------------------------------
 
 
-def test_a_publishers_queue_drops_the_oldest(graph: Graph) -> None:
+@pytest.mark.parametrize("size", [1, 10, None])
+def test_a_burst_is_delivered_whatever_the_publishers_queue_size_is(graph: Graph, size: int | None) -> None:
     heard: list[int] = []
     graph.node("listener").subscriber("n", Int32, lambda message: heard.append(message.data))
-    publisher = connected(graph.node("talker"), "n", Int32, queue_size=3)
-    for number in range(10):
+    publisher = connected(graph.node("talker"), "n", Int32, queue_size=size)
+    for number in range(100):
         publisher.publish(number)
-    settle(graph)
-    if isinstance(graph.transport.ways[0], TcpTransport):  # drops only what the network does not take
-        until(graph, lambda: len(heard) == 10)
-    assert heard[-3:] == [7, 8, 9]
-    assert len(heard) == (10 if isinstance(graph.transport.ways[0], TcpTransport) else 3)
+    until(graph, lambda: heard[-1:] == [99])
+    assert heard == list(range(100))
+
+
+def test_a_publishers_queue_drops_the_oldest_once_the_connection_is_full() -> None:
+    with Graph() as graph:
+        node = graph.node("listener")
+        waiting = node.waiter("the test")
+        heard: list[int] = []
+        log: list[str] = []
+
+        def slow(message: Any) -> None:
+            heard.append(int(message.data[:3]))
+            node.wait(waiting)
+
+        node.subscriber("big", String, slow)
+        graph.node("log").subscriber("/rosout", Log, lambda message: log.append(message.msg))
+        publisher = connected(graph.node("talker"), "big", String, queue_size=3)
+        body = "x" * 2**20
+        for number in range(50):
+            publisher.publish(f"{number:03}{body}")
+            settle(graph)
+        waiting.wake()
+        settle(graph)
+        (sender,) = graph.nodes["/talker"].publications["/big"].senders.values()
+        assert heard[-3:] == [47, 48, 49], "the queue keeps the newest"
+        assert heard[:4] == [0, 1, 2, 3], "the buffers keep the oldest"
+        assert len(heard) == 50 - sender.dropped < 20
+        assert [text for text in log if "queue_size=3" in text and "/big" in text] == log[-1:]
 
 
 @pytest.mark.parametrize("size", [None, 0])
@@ -420,6 +446,47 @@ def test_a_subscribers_queue_drops_the_oldest_while_its_callback_blocks(graph: G
     until(graph, lambda: len(heard) == 3)
     settle(graph)
     assert heard == [0, 5, 6]
+
+
+def test_a_subscribers_queue_drops_nothing_of_a_burst_that_its_callback_keeps_up_with() -> None:
+    heard: list[int] = []
+    with Graph() as graph:
+        graph.node("listener").subscriber(
+            "n", Int32, lambda message: heard.append(message.data), queue_size=1
+        )
+        publisher = connected(graph.node("talker"), "n", Int32)
+        for number in range(100):
+            publisher.publish(number)
+        settle(graph)
+    assert heard == list(range(100))
+
+
+def test_drops_of_a_subscribers_queue_are_logged_once_on_rosout_and_not_on_the_console(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    heard: list[int] = []
+    log: list[str] = []
+    with Graph() as graph:
+        node = graph.node("listener")
+
+        def slow(message: Any) -> None:
+            heard.append(message.data)
+            node.sleep(1.0)
+
+        node.subscriber("n", Int32, slow, queue_size=2)
+        graph.node("log").subscriber("/rosout", Log, lambda message: log.append(message.msg))
+        publisher = connected(graph.node("talker"), "n", Int32)
+        for number in range(20):
+            publisher.publish(number)
+        graph.run(0.5)
+        publisher.publish(20)
+        graph.run(5.0)
+        (connection,) = node.subscriptions["/n"].connections.values()
+        assert heard == [0, 19, 20]
+        assert connection.dropped == 18
+    (text,) = log
+    assert all(part in text for part in ("/listener", "/talker", "/n", "queue_size=2"))
+    assert capsys.readouterr() == ("", "")
 
 
 def test_a_callback_may_sleep_while_messages_come_on_another_connection(graph: Graph) -> None:
