@@ -33,9 +33,9 @@ from .host import Host
 from .models import RobotModel
 from .models import model as model_called
 from .simulation import Simulation
-from .starts import Start, add, read_starts, start_pose
+from .starts import PLACE, Start, add, displacement, read_starts, start_pose
 from .turtlebot import COMMAND_TIMEOUT, ODOMETRY, Options, TurtleBot
-from .world import World
+from .world import World, WorldError
 from .worlds import world as world_called
 
 
@@ -120,8 +120,13 @@ class Simulator(Simulation):
         starts = read_starts(node, self.model, world, pose, own.tf_prefix)
         self.name = starts[0].name
         """Of the robot that is meant where none is named."""
-        for start in starts:
-            add(engine, start)
+        try:
+            for start in starts:
+                add(engine, start)
+        except WorldError as error:
+            raise WorldError(f"{error}. {PLACE}") from error
+        if moved := displacement(engine, starts[0]):
+            node.logwarn(moved)
         if starts[0].model.lidar is not None:
             engine.scan(self.name)  # where numba has to compile, it does so now and not on the way
         super().__init__(node, Host(node, engine))

@@ -28,6 +28,11 @@ KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
 MOST_ROBOTS = 1000
 """How many robots may begin."""
 
+PLACE = (
+    "Say where with the arguments x:=, y:= and yaw:= of the launch file, or the parameters ~x, ~y and ~yaw"
+)
+"""What a user does about a place that is taken."""
+
 GAP, RINGS = 0.05, 60
 """A robot without a pose looks for one on squares around the first start, so far apart [m] and so many to a side."""
 
@@ -139,6 +144,18 @@ def add(engine: Engine, start: Start) -> Robot:
     if outside and start.name not in engine.robots:
         raise WorldError(f"the robot {start.name!r} cannot start there: {outside}")
     return engine.add(start.name, model, start.pose)
+
+
+def displacement(engine: Engine, start: Start) -> str:
+    """Return a warning if a robot that was to come to the world's first start could not, since something is there."""
+    first, model = engine.world.starts[0], start.model
+    blocked = None if start.pose else engine.world.blocked(first, model.footprint, model.height)
+    if blocked is None:
+        return ""
+    x, y, theta = engine.robot(start.name).pose
+    wanted = f"({first[0]:.2f}, {first[1]:.2f})"
+    there = f"the robot {start.name!r} cannot start at {wanted} in the world {engine.world.name!r}: {blocked} is there"
+    return f"{there}. It starts at ({x:.2f}, {y:.2f}) with heading {theta:.2f}. {PLACE}"
 
 
 def _check(name: str) -> None:

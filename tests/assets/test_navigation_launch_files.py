@@ -130,6 +130,16 @@ def test_of_two_robots_one_is_removed_on_its_way_and_one_loses_its_move_base(gra
     assert statuses(second) == [(4, "Aborting on the goal because the node has been killed")]
 
 
+def test_arguments_place_the_robot_and_amcl_agrees(model):
+    plain = plan_of("rosmini_sim", "navigation.launch", localization="amcl")
+    assert "/simulator/x" not in plain.settings
+    assert plain.settings["/amcl/initial_pose_x"].value == -3.0
+    placed = plan_of("rosmini_sim", "navigation.launch", localization="amcl", x=0, y=-1.5, yaw=0.5)
+    for ours, theirs, value in (("x", "x", 0.0), ("y", "y", -1.5), ("yaw", "a", 0.5)):
+        assert placed.settings[f"/simulator/{ours}"].value == value
+        assert placed.settings[f"/amcl/initial_pose_{theirs}"].value == value
+
+
 def test_a_map_and_no_way_back_are_arguments(model):
     plan = plan_of(
         "turtlebot3_navigation", "turtlebot3_navigation.launch", map_file="/my.yaml", move_forward_only=True

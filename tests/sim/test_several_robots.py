@@ -641,7 +641,7 @@ def test_the_launch_files_say_what_the_simulator_understands(graph, name):
     for element in tree:
         key = element.get("name") or element.get("param")
         text = element.text if element.tag == "rosparam" else defaults[key]
-        if text is not None and not text.startswith("$"):
+        if text and not text.startswith("$"):
             node.set_param(f"~{key}", yaml.safe_load(text))
     simulator = Simulator(node)
     assert simulator.world.name == "room"

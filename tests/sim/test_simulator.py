@@ -6,6 +6,7 @@ import math
 import sys
 import threading
 from collections import defaultdict
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from rosmini.scripts import run_source
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.models import BURGER, GRAVITY, UnknownModel
 from rosmini.sim.simulator import Simulator
-from rosmini.sim.world import World, WorldError
+from rosmini.sim.world import Box, Obstacle, World, WorldError
 from rosmini.sim.worlds import world
 
 from ..processes import PATIENCE, run
@@ -582,3 +583,20 @@ def test_the_rooms_start_is_free_for_every_robot_it_offers(graph):
     for x, y, yaw in world("room").starts:
         with Graph() as own:
             assert start(own, parameters={"x": x, "y": y, "yaw": yaw}).truth() == (x, y, yaw)
+
+
+def test_a_start_that_is_taken_is_named_with_the_arguments_that_move_it(graph, capsys):
+    taken = world("arena").with_obstacles([Obstacle("crate", Box(0.5, 0.5))])
+    taken = replace(taken, starts=((0.0, 0.0, 0.0),))
+    simulator = start(graph, world=taken)
+    assert simulator.world.blocked(simulator.truth(), BURGER.footprint) is None
+    said = "".join(capsys.readouterr())
+    assert said.count("the obstacle 'crate' is there") == 1
+    assert "x:=, y:= and yaw:=" in said
+
+
+def test_a_place_that_is_taken_is_refused_with_the_arguments_that_move_it(graph):
+    taken = world("arena").with_obstacles([Obstacle("crate", Box(0.5, 0.5))])
+    taken = replace(taken, starts=((0.0, 0.0, 0.0),))
+    with pytest.raises(WorldError, match=r"'crate' is in its way.*There is room at .*x:=, y:= and yaw:="):
+        start(graph, world=taken, parameters={"x": 0.1, "y": 0.0})
