@@ -230,6 +230,15 @@ class GraphEnded(RosminiError):
     """Nothing more can happen in the graph, so what was waited for will never come."""
 
 
+_LONGEST_NAME = 300
+"""A longer name is not compared with others."""
+
+
+def _counts(letters: str, text: str) -> list[int]:
+    """How often each of the letters is in a text."""
+    return [text.count(letter) for letter in dict.fromkeys(letters)]
+
+
 def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
     """The clause "did you mean ...?" for a mistyped ``name``; empty if no candidate resembles it.
 
@@ -239,16 +248,29 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
     >>> nearest("/chater", ["/chatter", "/rosout"])
     'did you mean /chatter?'
     """
+    if len(name) > _LONGEST_NAME:
+        return ""
     from difflib import SequenceMatcher  # only needed once something has gone wrong
 
-    def likeness(candidate: str) -> float:
-        folded, wanted = candidate.lower(), name.lower()
-        whole = SequenceMatcher(None, wanted, folded).ratio()
-        wanted_base, folded_base = wanted.rpartition("/")[2], folded.rpartition("/")[2]
-        base = SequenceMatcher(None, wanted_base, folded_base).ratio() if wanted_base and folded_base else 0.0
-        return max(whole, 0.95 * base)
+    wanted = name.lower()
+    wanted_base = wanted.rpartition("/")[2]
 
-    ranked = sorted((-likeness(candidate), candidate) for candidate in set(candidates) if candidate != name)
+    def ratio(one: str, other: str) -> float:
+        """The ratio of `SequenceMatcher`; 0 if it is certainly too small."""
+        if (
+            not one
+            or not other
+            or 2 * sum(map(min, _counts(one, one), _counts(one, other))) < 0.7 * (len(one) + len(other))
+        ):
+            return 0.0
+        return SequenceMatcher(None, one, other).ratio()
+
+    def likeness(candidate: str) -> float:
+        folded = candidate.lower()
+        return max(ratio(wanted, folded), 0.95 * ratio(wanted_base, folded.rpartition("/")[2]))
+
+    known = {each for each in candidates if each != name and len(each) <= _LONGEST_NAME}
+    ranked = sorted((-likeness(candidate), candidate) for candidate in known)
     if not ranked or ranked[0][0] > -0.7:
         return ""
     best = ranked[0][0]

@@ -9,13 +9,14 @@ values are read by the caller's `Fields`, never by ``getattr``. Sizes and steps 
 
 from __future__ import annotations
 
-from .budget import Budget, ExpressionError, NotAllowed
+from .budget import STEPS_OF_A_FILE, Budget, ExpressionError, NotAllowed
 from .expression import Expression, Fields, no_fields
 from .functions import FUNCTIONS, MATH, Function, Namespace
 
 __all__ = [
     "FUNCTIONS",
     "MATH",
+    "STEPS_OF_A_FILE",
     "Budget",
     "Expression",
     "ExpressionError",

@@ -101,7 +101,6 @@ class Expression:
 
     def _with_spot(self, node: ast.AST, made: Step) -> Step:
         """The same function, whose errors are ours and name the part of the expression that failed."""
-        spot = self._spot(node)
 
         def checked(run: Run) -> Any:
             try:
@@ -110,7 +109,7 @@ class Expression:
                 if isinstance(error, ExpressionError) and error.has_spot:
                     raise
                 kind = NotAllowed if isinstance(error, NotAllowed) else ExpressionError
-                failed = kind(f"{error if error.args else type(error).__name__}{spot}")
+                failed = kind(f"{error if error.args else type(error).__name__}{self._spot(node)}")
                 failed.has_spot = True
                 raise failed from error
 
@@ -279,6 +278,8 @@ class Expression:
     def _display(self, node: ast.List | ast.Tuple | ast.Set) -> Step:
         kind = {ast.List: list, ast.Tuple: tuple, ast.Set: set}[type(node)]
         parts = [self._make(part) for part in node.elts]
+        if kind is set:
+            return lambda run: run.budget.made(set(run.budget.unique([part(run) for part in parts])))
         return lambda run: run.budget.made(kind(part(run) for part in parts))
 
     def _mapping(self, node: ast.Dict) -> Step:
@@ -286,7 +287,13 @@ class Expression:
             raise self._refused(node, "** is not allowed")
         keys = [self._make(key) for key in node.keys if key is not None]
         pairs = list(zip(keys, map(self._make, node.values), strict=True))
-        return lambda run: run.budget.made({key(run): value(run) for key, value in pairs})
+
+        def display(run: Run) -> Any:
+            found = [(key(run), value(run)) for key, value in pairs]
+            run.budget.unique([key for key, _ in found])
+            return run.budget.made(dict(found))
+
+        return display
 
     def _comprehension(self, node: ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp) -> Step:
         if isinstance(node, ast.DictComp):
@@ -294,8 +301,19 @@ class Expression:
             turns = self._loop(node.generators, pair)
         else:
             turns = self._loop(node.generators, node.elt)
-        kind = {ast.ListComp: list, ast.SetComp: set, ast.DictComp: dict}.get(type(node))
-        return turns if kind is None else lambda run: run.budget.made(kind(turns(run)))
+        if isinstance(node, ast.GeneratorExp):
+            return turns
+
+        def collect(run: Run) -> Any:
+            found = list(turns(run))
+            if isinstance(node, ast.ListComp):
+                return run.budget.made(found)
+            if isinstance(node, ast.SetComp):
+                return run.budget.made(set(run.budget.unique(found)))
+            run.budget.unique([key for key, _ in found])
+            return run.budget.made(dict(found))
+
+        return collect
 
     def _loop(self, generators: list[ast.comprehension], each: ast.expr) -> Callable[[Run], Iterator[Any]]:
         """A generator of the elements of a comprehension."""

@@ -17,6 +17,9 @@ from .budget import BITS, STEPS, Budget, NotAllowed, check_bits, cut, weight
 WIDEST = 2000
 """A longer number no format makes: its width and its precision have three digits, its value has `BITS`."""
 
+MOST_DIGITS = 400
+"""The largest number of digits that ``round`` takes: floating-point numbers have fewer."""
+
 _OPERATORS = (
     "Add add, Sub sub, Mult mul, Div truediv, FloorDiv floordiv, Mod mod, Pow pow, LShift lshift, RShift rshift, "
     "BitAnd and_, BitOr or_, BitXor xor, UAdd pos, USub neg, Invert invert, Not not_, "
@@ -44,6 +47,8 @@ def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: B
     elif isinstance(left, float) or isinstance(right, float):
         return operate(left, right)
     elif isinstance(left, int) and isinstance(right, int):
+        budget.read(left)
+        budget.read(right)
         if operate in _BITS_OF:
             check_bits(_BITS_OF[operate](left, right))
     elif operate is operator.mul:
@@ -52,16 +57,27 @@ def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: B
                 budget.room(len(one) * operator.index(other))
     elif operate is operator.add and isinstance(left, str | bytes | list | tuple):
         budget.room(len(left) + len(right))
-    return budget.made(operate(left, right))
+    found = operate(left, right)
+    if isinstance(found, set | dict):
+        budget.unique(found)
+    return budget.made(found)
+
+
+_CONVERSION = re.compile(r"%(?:\([^()]*\))?[-+ #0]*([0-9]*|\*)(?:\.([0-9]*|\*))?[hlL]?(.?)", re.DOTALL)
+"""A conversion of a format string, with its width, its precision and its type, as Python reads it. Of a key with
+brackets inside the type is ``(``."""
 
 
 def _pay_for_format(text: str | bytes, values: Any, budget: Budget) -> None:
     """``'%1000000000d' % 1`` is a billion characters, and so is ``'%(a)s' * 10**5 % {'a': 'a' * 10**4}``."""
     found = text if isinstance(text, str) else text.decode("latin-1")
     budget.room(len(found) + found.count("%") * (WIDEST + weight(budget.made(values))))
-    for width in re.findall(r"%(?:\([^)]*\))?([^a-zA-Z%]*)", found):
-        if "*" in width or re.search(r"\d{4}", width):
-            raise NotAllowed(f"the width of %{cut(width)}")
+    for conversion in _CONVERSION.finditer(found):
+        width, precision, kind = conversion.groups("")
+        if "*" in (width, precision) or len(width) > 3 or len(precision) > 3:
+            raise NotAllowed(f"the width of {cut(conversion[0])}")
+        if kind == "(":
+            raise NotAllowed("a format string with brackets in a name")
 
 
 class Function:
@@ -113,7 +129,7 @@ def _sum(values: Iterable[Any], start: Any = 0) -> Any:
 
 
 def _round(value: Any, digits: int | None = None) -> Any:
-    if digits is not None and abs(digits) > BITS:
+    if digits is not None and abs(digits) > MOST_DIGITS:
         raise NotAllowed(f"round() to {digits} digits")
     return round(value, digits)
 
@@ -148,13 +164,26 @@ def _filter(budget: Budget, function: Any, values: Iterable[Any]) -> list[Any]:
 def _dict(budget: Budget, pairs: Any = (), **named: Any) -> dict[Any, Any]:
     if isinstance(pairs, Mapping):
         pairs = pairs.items()
-    return {**dict(budget.collect(pairs)), **named}
+    found = [tuple(budget.collect(pair)) for pair in budget.collect(pairs)]
+    budget.unique([pair[0] for pair in found if pair])
+    return {**dict(found), **named}
 
 
 def _join(budget: Budget, text: str, parts: Iterable[str]) -> str:
     found = budget.collect(parts)
     budget.room(sum(len(part) for part in found) + len(text) * len(found))
     return text.join(found)
+
+
+def _searching(name: str) -> Callable[..., Any]:
+    search = getattr(str, name)
+
+    def call(budget: Budget, text: str, *arguments: Any, **named: Any) -> Any:
+        for each in (*arguments, *named.values()):
+            budget.search(text, each)
+        return search(text, *arguments, **named)
+
+    return call
 
 
 def _replace(budget: Budget, text: str, old: str, new: str, count: int = -1) -> str:
@@ -181,13 +210,14 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
             {each.__name__: each for each in (abs, all, any, bool, divmod, float, int, len, max, min, ord)}
         ),
         **_named({"range": _range, "round": _round, "sum": _sum}),
-        **_named({each.__name__: _collector(each) for each in (list, set, sorted, tuple)}, counts=True),
+        **_named({each.__name__: _collector(each) for each in (list, sorted, tuple)}, counts=True),
         **_named({"dict": _dict, "filter": _filter, "map": _map}, counts=True),
         **_named(
             {
                 "enumerate": lambda budget, values, start=0: list(enumerate(budget.collect(values), start)),
                 "repr": lambda budget, value: repr(budget.made(value)),
                 "reversed": lambda budget, values: budget.collect(values)[::-1],
+                "set": lambda budget, values=(): set(budget.unique(budget.collect(values))),
                 "str": lambda budget, value="": str(budget.made(value)),
                 "zip": lambda budget, *values: list(zip(*map(budget.collect, values), strict=False)),
             },
@@ -216,7 +246,17 @@ _OF_TEXTS = (
     "lstrip partition removeprefix removesuffix rfind rindex rpartition rsplit rstrip split splitlines startswith "
     "strip swapcase title upper"
 )
-_COUNTING = _named({"join": _join, "replace": _replace, "zfill": _zfill}, counts=True)
+_SEARCHING = "lstrip rfind rindex rpartition rsplit rstrip strip"
+"""Methods that may compare each character of a text with each of their argument."""
+_COUNTING = _named(
+    {
+        "join": _join,
+        "replace": _replace,
+        "zfill": _zfill,
+        **{name: _searching(name) for name in _SEARCHING.split()},
+    },
+    counts=True,
+)
 METHODS: Mapping[type, Collection[str]] = MappingProxyType(
     {
         str: frozenset(_OF_TEXTS.split()) | _COUNTING.keys(),

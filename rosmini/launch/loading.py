@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ParameterError, nearest
 from rosmini.names import canonicalize, namespace
 
-from .errors import Missing, Place
+from .errors import Missing, Place, not_there
 from .plan import LaunchFile, Plan, Setting
 from .substitution import Substitution
 from .values import TRUTHS, checked, flag
@@ -25,6 +26,21 @@ CONDITIONS = ("if", "unless")
 MOST_SETTINGS = 100_000
 """How many parameters may be set."""
 
+MOST_OVERRODE = 20
+"""How many settings that it overrode a parameter remembers: the last ones."""
+
+MOST_WARNINGS = 100
+"""How many warnings are listed; of the others there is a count."""
+
+MOST_MISSING = 200
+"""How many things may be missing before reading ends."""
+
+MOST_COPIES = 200_000
+"""How many remappings and environment variables all nodes may have together."""
+
+LONGEST_NAME = 4096
+"""How many characters the name of a parameter may have."""
+
 
 class Loading:
     """One plan that is being read. ``at`` is the file that is read just now."""
@@ -38,6 +54,8 @@ class Loading:
         self.default_machine = ""
         self.wanted_machines: list[tuple[str, Element]] = []
         self._settings = 0
+        self._more_warnings = 0
+        self._copies = 0
         self._told: set[tuple[str, str]] = set()
         self._substitution = Substitution(packages, environ, anonymous, self.lacks)
         self.is_incomplete = self._substitution.is_incomplete
@@ -68,8 +86,7 @@ class Loading:
         """Warn of attributes that mean nothing here; reading goes on without them, as in ROS."""
         for name in element.attributes:
             if name not in known and name not in CONDITIONS:
-                hint = nearest(name, known)
-                self.warn(element, f"unknown <{element.tag}> attribute '{name}'{f'; {hint}' if hint else ''}")
+                self.warn(element, f"unknown <{element.tag}> attribute '{name}'", name, known)
 
     def applies(self, element: Element, scope: Scope) -> bool:
         """Return whether ``if`` and ``unless`` let an element count. Raises ``LaunchError``."""
@@ -116,19 +133,36 @@ class Loading:
 
     # -- what is found -------------------------------------------------------------------------------------------
 
-    def warn(self, element: Element, message: str) -> None:
-        """Note what is odd."""
-        self.plan.warnings.append(f"{element.path}:{element.line}: {message}")
+    def warn(self, element: Element, message: str, name: str = "", known: Iterable[str] = ()) -> None:
+        """Note what is odd. ``name`` may be one of the ``known`` names, mistyped."""
+        if self._may_warn():
+            hint = nearest(name, known)
+            self.plan.warnings.append(
+                f"{element.path}:{element.line}: {message}{f'; {hint}' if hint else ''}"
+            )
+
+    def _may_warn(self) -> bool:
+        """Return whether one more warning is listed, and count it if it is not."""
+        listed = len(self.plan.warnings) < MOST_WARNINGS
+        self._more_warnings += not listed
+        return listed
+
+    def count_warnings(self) -> None:
+        """Note how many warnings were not listed."""
+        if self._more_warnings:
+            self.plan.warnings.append(f"... and {self._more_warnings} more warnings")
 
     def lacks(self, missing: Missing) -> None:
         """Note what is not there, once for each."""
         if (missing.kind, missing.name) not in self._told:
             self._told.add((missing.kind, missing.name))
             self.plan.missing.append(missing)
+            if len(self.plan.missing) > MOST_MISSING:
+                raise not_there(self.plan.missing)
 
     def lacks_file(self, element: Element, kind: str, path: str, reason: str) -> None:
         """Note a file that cannot be read, unless something in its name is missing already."""
-        if not self.is_incomplete(path):
+        if not self.is_incomplete(path) and ("file", path) not in self._told:
             folder, name = os.path.split(path)
             hint = nearest(name, _names_in(folder))
             message = f"the {kind} [{path}] cannot be read: {reason}{f'; {hint}' if hint else ''}"
@@ -141,17 +175,27 @@ class Loading:
             raise ParameterError(f"more than {MOST_SETTINGS} parameters are set")
         settings = self.plan.settings
         before = settings.get(name)
-        overrode = () if before is None else (*before.overrode, before)
+        overrode = () if before is None else (*before.overrode, replace(before, overrode=()))[-MOST_OVERRODE:]
+        if len(name) > LONGEST_NAME:
+            raise ParameterError(f"a parameter's name of {len(name)} characters; {LONGEST_NAME} are allowed")
         setting = Setting(name, checked(name, value), place, origin, overrode)
         above = namespace(name).rstrip("/")
         while above:
-            if above in settings:
+            if above in settings and self._may_warn():
                 self.plan.warnings.append(
                     f"{place}: parameter [{name}] conflicts with parent parameter [{above}]"
                 )
             above = namespace(above).rstrip("/")
         settings[name] = setting
         self.at.settings.append(setting)
+
+    def count_copies(self, element: Element, count: int) -> None:
+        """Count what a node gets from the scope around it. Raises ``LaunchError`` if all nodes get too much."""
+        self._copies += count
+        if self._copies > MOST_COPIES:
+            raise element.error(
+                f"more than {MOST_COPIES} remappings and environment variables, those of all nodes together"
+            )
 
     def machine_needed(self, element: Element, name: str) -> None:
         """Note that a machine of this name must be declared somewhere."""

@@ -60,6 +60,7 @@ def read_node(loading: Loading, element: Element, scope: Scope) -> NodePlan | Te
         )
     inside = loading.scope_inside(element, scope, name)
     _children(loading, element, scope, inside, name)
+    loading.count_copies(element, len(inside.remappings) + len(inside.environment))
     package, kind = (loading.required(element, scope, each) for each in ("pkg", "type"))
     for what, said in (("pkg", package), ("type", kind)):
         if not said.strip():

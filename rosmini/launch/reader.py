@@ -119,6 +119,7 @@ class Reader(Loading):
 
     def finish(self, args: Mapping[str, str]) -> Plan:
         """Return the plan, once all files are read. Raises ``LaunchError``."""
+        self.count_warnings()
         for name in args:
             if name not in self._declared:
                 hint = nearest(name, self._declared)
@@ -161,8 +162,7 @@ class Reader(Loading):
         for element in parent.children:
             read_tag = TAGS.get(element.tag)
             if read_tag is None:
-                hint = nearest(element.tag, TAGS)
-                self.warn(element, f"unrecognized tag <{element.tag}>{f'; {hint}' if hint else ''}")
+                self.warn(element, f"unrecognized tag <{element.tag}>", element.tag, TAGS)
             elif self.applies(element, scope):
                 read_tag(self, element, scope)
 

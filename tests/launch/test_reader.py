@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -225,7 +226,7 @@ def test_a_file_that_doubles_is_refused(tmp_path: Path) -> None:
 )
 def test_an_argument_that_is_put_in_many_times_does_not_fill_the_memory(inside: str) -> None:
     long = f'<arg name="a" value="{"x" * 900_000}"/>'
-    assert "characters" in str(refused(long + inside.format(many="$(arg a)" * 1000)))
+    assert re.search("characters|steps", str(refused(long + inside.format(many="$(arg a)" * 1000))))
 
 
 def test_a_number_of_retries_of_any_length_is_read() -> None:
