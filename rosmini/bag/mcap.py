@@ -6,6 +6,7 @@ metadata of a channel are the fields of the connection header (https://mcap.dev/
 
 from __future__ import annotations
 
+import io
 import os
 import struct
 from contextlib import suppress
@@ -19,7 +20,7 @@ from rosmini.time import Time
 
 from .bag import Bag
 from .errors import ROSBagException, ROSBagFormatException
-from .records import LONGEST_CHUNK, PIECE, Compression, decompress
+from .records import PIECE, Compression, check_unpacked, decompress
 from .tools import Copied, two_files
 
 if TYPE_CHECKING:
@@ -144,23 +145,63 @@ def _messages(file: IO[bytes], name: str) -> Iterator[tuple[Any, Any, Any]]:
                     )
                 channel = channels[record.channel_id]
                 yield schemas.get(channel.schema_id), channel, record
-    except (McapError, ValueError, struct.error, ROSBagFormatException) as error:
-        raise ROSBagException(f"{name} is no MCAP file, or is damaged: {error}") from error
+    except (McapError, ValueError, OverflowError, struct.error, ROSBagFormatException) as error:
+        raise ROSBagException(
+            f"{name} is no MCAP file, or is damaged before byte {file.tell()}: {error}"
+        ) from error
 
 
 def _records(file: IO[bytes]) -> Iterator[Any]:
     """All records of the file; what is in its chunks is unpacked here, since the library does so without bounds."""
     from mcap.records import Chunk
-    from mcap.stream_reader import StreamReader, breakup_chunk
+    from mcap.stream_reader import StreamReader
 
-    size = os.fstat(file.fileno()).st_size
-    for record in StreamReader(file, emit_chunks=True, validate_crcs=True, record_size_limit=size).records:
+    bounded: Any = _Bounded(file)
+    for record in StreamReader(bounded, emit_chunks=True, validate_crcs=True).records:
         if isinstance(record, Chunk):
             position = file.tell() - len(record.data)
             data = _unpacked(record.data, record.compression, record.uncompressed_size, position)
-            yield from breakup_chunk(replace(record, compression="", data=data), validate_crc=True)
+            yield from _in_chunk(replace(record, compression="", data=data))
         else:
             yield record
+
+
+class _Bounded:
+    """A file that refuses to read beyond its end: the library reads as much as the file says."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self._file = file
+        self._left = os.fstat(file.fileno()).st_size
+
+    def read(self, length: int) -> bytes:
+        if not 0 <= length <= self._left:
+            raise ROSBagFormatException(
+                f"a length of {length:,} bytes where {self._left:,} bytes are left"
+            )
+        data = self._file.read(length)
+        self._left -= len(data)
+        return data
+
+
+def _in_chunk(chunk: Any) -> Iterator[Any]:
+    """Yield the records of an unpacked chunk, one by one: there may be millions of them."""
+    from mcap.opcode import Opcode
+    from mcap.records import Channel, Message, Schema
+    from mcap.stream_reader import get_chunk_data_stream
+
+    stream, size = get_chunk_data_stream(chunk, validate_crc=True)
+    while stream.count < size:
+        opcode, length = stream.read1(), stream.read8()
+        if length > size - stream.count:
+            raise ROSBagFormatException(f"a record of {length:,} bytes is longer than its chunk")
+        if opcode == Opcode.CHANNEL:
+            yield Channel.read(stream)
+        elif opcode == Opcode.MESSAGE:
+            yield Message.read(stream, length)
+        elif opcode == Opcode.SCHEMA:
+            yield Schema.read(stream)
+        else:
+            stream.read(length)
 
 
 def _unpacked(data: bytes, compression: str, size: int, position: int) -> bytes:
@@ -169,21 +210,22 @@ def _unpacked(data: bytes, compression: str, size: int, position: int) -> bytes:
         return decompress(data, compression or Compression.NONE, size, position)
     from zstandard import ZstdDecompressor, ZstdError
 
-    saved = bytearray()
+    check_unpacked(size, len(data), compression, position)
+    saved = io.BytesIO()
     try:
         with ZstdDecompressor().stream_reader(data, read_across_frames=True) as reader:
-            while len(saved) <= min(size, LONGEST_CHUNK) and (piece := reader.read(PIECE)):
-                saved += piece
+            while saved.tell() <= size and (piece := reader.read(PIECE)):
+                saved.write(piece)
     except ZstdError as error:
         raise ROSBagFormatException(
             f"the zstd chunk at byte {position} does not decompress: {error}"
         ) from error
-    if len(saved) != size:
+    if saved.tell() != size:
         raise ROSBagFormatException(
             f"the zstd chunk at byte {position} claims to hold {size:,} bytes and holds "
-            f"{'more' if len(saved) > size else f'{len(saved):,}'}; at most {LONGEST_CHUNK:,} are unpacked"
+            f"{'more' if saved.tell() > size else f'{saved.tell():,}'}"
         )
-    return bytes(saved)
+    return saved.getvalue()
 
 
 def _connection(schema: Any, channel: Any, name: str) -> tuple[Any, dict[str, str]]:

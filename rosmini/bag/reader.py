@@ -48,6 +48,10 @@ LARGE = 64 * 1024
 """From this mean length on, the messages of an uncompressed chunk are read one by one [bytes]."""
 
 
+MOST_SKIPPED = 100
+"""How many connections may precede the message that an index entry names."""
+
+
 class Input(BufferedReader):
     """A file that is read, and closed without a word by whoever forgets to: nothing is lost by it."""
 
@@ -115,7 +119,19 @@ def _index(file: BinaryIO, name: str) -> Index:
         record = _expected(file, position, OP_CHUNK_INFO)
         index.chunks.append(_chunk_of(file, record))
         position = record.end
+    _check_apart(index.chunks)
     return index
+
+
+def _check_apart(chunks: list[Chunk]) -> None:
+    """Raise ``ROSBagFormatException`` if two chunks have bytes in common: each would be read as often as it is named."""
+    end = 0
+    for chunk in sorted(chunks, key=lambda each: each.position):
+        if chunk.position < end:
+            raise ROSBagFormatException(
+                f"two chunk infos name the same bytes at {chunk.position}: the file is damaged"
+            )
+        end = chunk.data_position + chunk.compressed
 
 
 def index_position(file: BinaryIO) -> int:
@@ -195,12 +211,13 @@ class Reader:
         if wanted is None:
             wanted = self.index.connections.keys()
         pending: list[tuple[int, int, int, int]] = []
+        read: dict[int, int] = {}
         numbered = sorted(enumerate(self.index.chunks), key=lambda pair: pair[1].start)
         for number, chunk in numbered:
             if (end is not None and chunk.start > end) or (start is not None and chunk.end < start):
                 continue
             ready = bisect_left(pending, (chunk.start,))
-            yield from self._read(pending[:ready])
+            yield from self._read(pending[:ready], read)
             pending = pending[ready:]
             pending += self._entries(number, chunk, wanted, start, end)
             pending.sort()
@@ -209,7 +226,7 @@ class Reader:
                     f"{self._name}: a message in the chunk at byte {chunk.position} has no time that ROS can write: "
                     "the file is damaged"
                 )
-        yield from self._read(pending)
+        yield from self._read(pending, read)
 
     def times(self, number: int) -> list[int]:
         """Return the times of a connection's messages [ns], in order, without reading a message."""
@@ -249,18 +266,21 @@ class Reader:
         """Return a chunk's data, decompressed."""
         data = self._chunks.get(chunk.position)
         if data is None:
+            while self._chunks and chunk.size + sum(map(len, self._chunks.values())) > KEPT:
+                self._chunks.popitem(last=False)
             self._file.seek(chunk.data_position)
             with in_file(self._name):
                 packed = read_exactly(self._file, chunk.compressed, f"the chunk at byte {chunk.position}")
                 data = decompress(packed, chunk.compression, chunk.size, chunk.position)
-            while self._chunks and len(data) + sum(map(len, self._chunks.values())) > KEPT:
-                self._chunks.popitem(last=False)
             self._chunks[chunk.position] = data
         else:
             self._chunks.move_to_end(chunk.position)
         return data
 
-    def _read(self, entries: list[tuple[int, int, int, int]]) -> Iterator[RawMessage]:
+    def _read(
+        self, entries: list[tuple[int, int, int, int]], read: dict[int, int]
+    ) -> Iterator[RawMessage]:
+        """Yield the messages of index entries; ``read`` counts the bytes of each chunk."""
         connections, chunks = self.index.connections, self.index.chunks
         last, data, large = -1, b"", False
         with in_file(self._name):
@@ -271,12 +291,18 @@ class Reader:
                     large = chunk.compression == Compression.NONE and chunk.size > LARGE * sum(
                         chunk.counts.values()
                     )
-                    data = b"" if large else self.data(chunk)
+                    data = b""  # so that not two chunks are in memory
+                    data = data if large else self.data(chunk)
                 # Without a name for the message, so that its memory is free again for the next one.
                 yield RawMessage(
                     connections[conn],
                     time,
-                    self._large_message(chunk, offset) if large else message_at(data, offset, chunk),
+                    _counted(
+                        self._large_message(chunk, offset) if large else message_at(data, offset, chunk),
+                        chunk,
+                        number,
+                        read,
+                    ),
                     number,
                     offset,
                 )
@@ -293,16 +319,28 @@ class Reader:
         )
 
 
+def _counted(message: bytes, chunk: Chunk, number: int, read: dict[int, int]) -> bytes:
+    """Return a message, and count its bytes. Raises ``ROSBagFormatException`` if a chunk's messages overlap."""
+    read[number] = read.get(number, 0) + len(message)
+    if read[number] > chunk.size:
+        raise ROSBagFormatException(
+            f"the messages of the chunk at byte {chunk.position} overlap: the file is damaged"
+        )
+    return message
+
+
 def message_at(data: bytes, offset: int, chunk: Chunk) -> bytes:
     """Return the message whose record is at ``offset`` of a chunk's data; connections before it are skipped."""
     try:
-        while True:
+        for _ in range(MOST_SKIPPED):
             begin = offset + 4
             end = begin + u32.unpack_from(data, offset)[0]
             length = u32.unpack_from(data, end)[0]
             if data.find(MESSAGE_MARK, begin, end) >= 0:
                 break
             offset = end + 4 + length
+        else:
+            raise struct.error
     except struct.error as error:
         raise ROSBagFormatException(
             f"the chunk at byte {chunk.position} has no message at its byte {offset}: the file is damaged"

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import bz2
 import contextlib
+import io
 import os
 import re
 import struct
@@ -38,8 +39,11 @@ MESSAGE_MARK = b"\x04\x00\x00\x00op=\x02"
 
 LONGEST_HEADER = 16 * 1024 * 1024
 """The longest header of a record: a length beyond it is damage [bytes]."""
-LONGEST_CHUNK = 2**30
+LONGEST_CHUNK = 2**27
 """The longest that a compressed chunk may be when unpacked [bytes]: a file of a few kilobytes may claim anything."""
+TRUSTED_CHUNK = 2**24
+"""From this length on a chunk may be no longer than `RATIO` times its compressed form [bytes]."""
+RATIO = 2000
 FAR = 2**32
 """From this position on the end of the file is checked first: systems refuse to seek too far beyond it."""
 PIECE = 1024 * 1024
@@ -224,7 +228,12 @@ def _decompressor(compression: str) -> Any:
     return lz4.frame.LZ4FrameDecompressor()
 
 
-def _unpack(data: bytes, compression: str, most: int, saved: bytearray) -> None:
+def most_unpacked(packed: int) -> int:
+    """Return how many bytes may become of a compressed chunk of ``packed`` bytes."""
+    return min(LONGEST_CHUNK, max(TRUSTED_CHUNK, RATIO * packed))
+
+
+def _unpack(data: bytes, compression: str, most: int, saved: io.BytesIO) -> None:
     """Unpack data into ``saved`` and stop when it holds ``most`` bytes.
 
     Raises what the decompressor raises at damage.
@@ -232,11 +241,20 @@ def _unpack(data: bytes, compression: str, most: int, saved: bytearray) -> None:
     decompressor = _decompressor(compression)
     for start in range(0, len(data), PIECE):
         piece = data[start : start + PIECE]
-        while not decompressor.eof and len(saved) < most:
-            saved += decompressor.decompress(piece, max_length=min(most - len(saved), PIECE))
+        while not decompressor.eof and saved.tell() < most:
+            saved.write(decompressor.decompress(piece, max_length=min(most - saved.tell(), PIECE)))
             piece = b""
             if decompressor.needs_input:
                 break
+
+
+def check_unpacked(size: int, packed: int, compression: str, position: int) -> None:
+    """Raise ``ROSBagFormatException`` if a chunk of ``packed`` bytes claims to hold too many."""
+    if size > most_unpacked(packed):
+        raise ROSBagFormatException(
+            f"the {compression} chunk at byte {position} has {packed:,} bytes and claims to hold {size:,}; at most "
+            f"{most_unpacked(packed):,} are unpacked: the file is damaged, or made to harm"
+        )
 
 
 def decompress(data: bytes, compression: str, size: int, position: int) -> bytes:
@@ -252,19 +270,15 @@ def decompress(data: bytes, compression: str, size: int, position: int) -> bytes
         )
     plain = data
     if compression != Compression.NONE:
-        if size > LONGEST_CHUNK:
-            raise ROSBagFormatException(
-                f"the {compression} chunk at byte {position} claims to hold {size:,} bytes, at most {LONGEST_CHUNK:,} "
-                f"are unpacked: the file is damaged, or made to harm"
-            )
-        saved = bytearray()
+        check_unpacked(size, len(data), compression, position)
+        saved = io.BytesIO()
         try:
             _unpack(data, compression, size + 1, saved)
         except (OSError, ValueError, EOFError, RuntimeError) as error:
             raise ROSBagFormatException(
                 f"the {compression} chunk at byte {position} does not decompress: the file is damaged ({error})"
             ) from error
-        plain = bytes(saved)
+        plain = saved.getvalue()
     if len(plain) != size:
         there = f"more than {size:,}" if len(plain) > size and plain is not data else f"{len(plain):,}"
         raise ROSBagFormatException(
@@ -279,12 +293,12 @@ def rescue(data: bytes, compression: str, most: int) -> bytes:
         return data[:most]
     if compression not in COMPRESSIONS:
         return b""
-    saved = bytearray()
+    saved = io.BytesIO()
     with contextlib.suppress(
         OSError, ValueError, EOFError, RuntimeError
     ):  # what came before the damage counts
-        _unpack(data, compression, most, saved)
-    return bytes(saved)
+        _unpack(data, compression, min(most, most_unpacked(len(data))), saved)
+    return saved.getvalue()
 
 
 def check_compression(compression: str) -> str:

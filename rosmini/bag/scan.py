@@ -42,7 +42,7 @@ _CHUNK_MARK = b"\x04\x00\x00\x00op=" + bytes([OP_CHUNK])
 _BEFORE_MARK = (4, *{8 + len(f"compression={name}") for name in COMPRESSIONS})
 """How many bytes of a chunk's header precede the mark: its length, or the compression too."""
 
-MOST_RESCUED = 256 * 1024 * 1024
+MOST_RESCUED = 64 * 1024 * 1024
 """How much of truncated chunks is kept in memory [bytes]: an aborted recording has one, of about a megabyte."""
 
 

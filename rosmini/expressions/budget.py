@@ -33,7 +33,7 @@ BITS_SQUARED = 1 << 18
 
 _SHOWN = 60
 _ATOMS = frozenset({bool, float, int, type(None)})
-_VIEWS = (type({}.keys()), type({}.values()), type({}.items()))
+_VIEWS: tuple[type, ...] = (type({}.keys()), type({}.values()), type({}.items()))
 _HOLDERS = (list, tuple, dict, set, *_VIEWS)
 _NUMBERS = frozenset({bool, float, int})
 _SMALL = 1 << 256
@@ -138,7 +138,8 @@ def weight(value: Any) -> int:
             total += len(part)
         elif isinstance(part, _HOLDERS):
             total += len(part)
-            for items in (part, part.values()) if isinstance(part, dict) else (part,):
+            parts: tuple[Any, ...] = (part, part.values()) if isinstance(part, dict) else (part,)
+            for items in parts:
                 kinds = set(map(type, items))
                 if not kinds <= _ATOMS:
                     waiting += items
