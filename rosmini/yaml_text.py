@@ -7,10 +7,15 @@ such documents are refused before they are constructed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from typing import Any
 
 import yaml
+from yaml.composer import Composer
+from yaml.constructor import SafeConstructor
+from yaml.resolver import Resolver
+
+from rosmini.collisions import collide
 
 __all__ = ["Loader", "children", "documents", "line_of"]
 
@@ -24,18 +29,53 @@ Failure = Callable[[str, str, int | None], Exception]
 """Makes an error of a message, the name of the source, and a line."""
 
 
-class Loader(yaml.SafeLoader):
-    """PyYAML's loader, which counts what it makes."""
+SHORT, SHORT_WITH_TABS = 10_000, 100_000
+"""How many characters a text may have that PyYAML's own parser reads: it is ten times as slow as libyaml, but its
+errors say more, and it refuses tabs as ROS does."""
+
+
+class _Parser(yaml.reader.Reader, yaml.scanner.Scanner, yaml.parser.Parser):
+    """PyYAML's own parser."""
 
     def __init__(self, text: str) -> None:
-        super().__init__(text)
+        yaml.reader.Reader.__init__(self, text)
+        yaml.scanner.Scanner.__init__(self)
+        yaml.parser.Parser.__init__(self)
+
+
+def _parser(text: str) -> Any:
+    """The parser of a text: libyaml's for a long one, where it is available."""
+    is_short = len(text) <= (SHORT_WITH_TABS if "\t" in text else SHORT)
+    if is_short or not yaml.__with_libyaml__:
+        return _Parser(text)
+    from yaml.cyaml import CParser
+
+    try:
+        return CParser(text)
+    except UnicodeEncodeError:  # of half a character, which PyYAML's parser refuses as one of ours
+        return _Parser(text)
+
+
+class Loader(Composer, SafeConstructor, Resolver):
+    """PyYAML's safe loader, which counts what it makes."""
+
+    name = ""
+
+    def __init__(self, text: str) -> None:
+        parser = _parser(text)
+        self.check_event, self.peek_event = parser.check_event, parser.peek_event
+        self.get_event, self.dispose = parser.get_event, parser.dispose
+        Composer.__init__(self)
+        SafeConstructor.__init__(self)
+        Resolver.__init__(self)
         self.made = 0
 
     def compose_node(self, parent: Any, index: Any) -> Any:
         """Compose one node, which is one more."""
         self.made += 1
         if self.made > MOST:
-            raise yaml.MarkedYAMLError(problem=f"more than {MOST} values", problem_mark=self.get_mark())
+            mark = self.peek_event().start_mark
+            raise yaml.MarkedYAMLError(problem=f"more than {MOST} values", problem_mark=mark)
         return super().compose_node(parent, index)
 
     def construct_object(self, node: Any, deep: bool = False) -> Any:
@@ -47,6 +87,22 @@ class Loader(yaml.SafeLoader):
             text = repr(node.value[:60]) if isinstance(node.value, str) else "what is here"
             what = f"{text} is no {node.tag.rpartition(':')[2]}"
             raise yaml.MarkedYAMLError(problem=f"{what}: {error}", problem_mark=node.start_mark) from error
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> Any:
+        """Make a mapping of a node. Many different keys with the same hash are refused: they take quadratic time."""
+        if isinstance(node, yaml.MappingNode):
+            self.flatten_mapping(node)
+            keys = [key for key, _ in node.value if key.tag != "tag:yaml.org,2002:str"]
+            if len(keys) > 1 and collide(self._hashable(key, deep) for key in keys):
+                raise yaml.MarkedYAMLError(
+                    problem="too many keys with the same hash", problem_mark=node.start_mark
+                )
+        return super().construct_mapping(node, deep)
+
+    def _hashable(self, node: Any, deep: bool) -> Hashable:
+        """The value of a key, once it is made; that it has no hash is told later."""
+        value = self.construct_object(node, deep)
+        return value if isinstance(value, Hashable) else None
 
     def construct_yaml_int(self, node: Any) -> Any:
         """Make a whole number of a text."""

@@ -175,9 +175,7 @@ class _Bounded:
 
     def read(self, length: int) -> bytes:
         if not 0 <= length <= self._left:
-            raise ROSBagFormatException(
-                f"a length of {length:,} bytes where {self._left:,} bytes are left"
-            )
+            raise ROSBagFormatException(f"a length of {length:,} bytes where {self._left:,} bytes are left")
         data = self._file.read(length)
         self._left -= len(data)
         return data

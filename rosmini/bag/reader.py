@@ -124,7 +124,7 @@ def _index(file: BinaryIO, name: str) -> Index:
 
 
 def _check_apart(chunks: list[Chunk]) -> None:
-    """Raise ``ROSBagFormatException`` if two chunks have bytes in common: each would be read as often as it is named."""
+    """Raise ``ROSBagFormatException`` if two chunks have bytes in common, which would be read twice."""
     end = 0
     for chunk in sorted(chunks, key=lambda each: each.position):
         if chunk.position < end:
@@ -277,9 +277,7 @@ class Reader:
             self._chunks.move_to_end(chunk.position)
         return data
 
-    def _read(
-        self, entries: list[tuple[int, int, int, int]], read: dict[int, int]
-    ) -> Iterator[RawMessage]:
+    def _read(self, entries: list[tuple[int, int, int, int]], read: dict[int, int]) -> Iterator[RawMessage]:
         """Yield the messages of index entries; ``read`` counts the bytes of each chunk."""
         connections, chunks = self.index.connections, self.index.chunks
         last, data, large = -1, b"", False

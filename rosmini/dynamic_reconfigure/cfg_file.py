@@ -17,6 +17,7 @@ from rosmini.errors import DefinitionError, RosminiError
 from rosmini.expressions import (
     FUNCTIONS,
     MATH,
+    STEPS_OF_A_FILE,
     Budget,
     Expression,
     ExpressionError,
@@ -99,7 +100,7 @@ class _Reader:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._budget = Budget()
+        self._budget = Budget(STEPS_OF_A_FILE)
         self._generator = Generator(path.name, self._budget)
         self._made = False
         self.ended = False
@@ -175,7 +176,9 @@ class _Reader:
         (self._names if isinstance(value, Function) else self._functions).pop(name, None)
 
     def _value(self, node: ast.expr) -> Any:
-        expression = Expression(ast.unparse(node), names=self._names, functions=self._functions)
+        text = ast.unparse(node)
+        self._budget.earn(len(text))
+        expression = Expression(text, names=self._names, functions=self._functions)
         return expression.evaluate(self._names, self._budget)
 
     def _make_generator(self) -> Namespace:

@@ -59,9 +59,9 @@ class Budget:
     def __init__(self, steps: int = STEPS) -> None:
         self.left = steps
 
-    def earn(self, text: str) -> None:
-        """Allow more for an expression by its length: a long file may cost more than a short one."""
-        self.left += STEPS_OF_A_CHARACTER * len(text)
+    def earn(self, length: int) -> None:
+        """Allow more for so many characters of a file: a long file may cost more than a short one."""
+        self.left += STEPS_OF_A_CHARACTER * length
 
     def spend(self, steps: int) -> None:
         """Raises `NotAllowed` when nothing is left."""

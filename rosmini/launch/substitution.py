@@ -264,7 +264,7 @@ class Substitution:
             "dirname": Function("dirname", lambda: self._dirname(scope, element)),
         }
         values = _Arguments(scope.args, functions)
-        self._budget.earn(text)
+        self._budget.earn(len(text))
         try:
             return str(Expression(text, functions=functions).evaluate(values, self._budget))
         except ParameterError as error:

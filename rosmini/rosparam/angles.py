@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from rosmini.errors import shown
-from rosmini.expressions import MATH, Expression, ExpressionError, Namespace
+from rosmini.expressions import MATH, Budget, Expression, ExpressionError, Namespace
 
 from .errors import RosParamException
 
@@ -28,17 +28,17 @@ def degrees(text: str) -> float:
         ) from error
 
 
-def radians(text: str) -> float:
+def radians(text: str, budget: Budget | None = None) -> float:
     """Return ``rad(<expression>)``, or the expression alone, in radians.
 
     An expression has numbers, ``pi``, ``+ - * / // % **``, brackets, and functions of ``math``, such as
-    ``math.sqrt(2)``. Raises ``RosParamException``.
+    ``math.sqrt(2)``. Evaluating it is paid from ``budget``. Raises ``RosParamException``.
     """
     inner = text.strip()
     if inner.startswith("rad(") and inner.endswith(")"):
         inner = inner[4:-1]
     try:
-        value = Expression(inner, names=(), functions=_NAMES).evaluate({})
+        value = Expression(inner, names=(), functions=_NAMES).evaluate({}, budget)
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise ExpressionError(f"{shown(value)} is no real number")
         return float(value)

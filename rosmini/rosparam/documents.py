@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from rosmini.errors import ParameterError
+from rosmini.expressions import STEPS_OF_A_FILE, Budget
 from rosmini.files import read
 from rosmini.names import join
 from rosmini.yaml_text import Loader, children, documents, line_of
@@ -121,9 +122,15 @@ def _checked(name: str, value: Any, place: str) -> Any:
 class _Loader(Loader):
     """YAML with angles; a class of its own, so that nobody else's YAML gets them."""
 
-    def angle(self, node: Any, read: Callable[[str], float]) -> float:
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.budget = Budget(STEPS_OF_A_FILE)
+
+    def angle(self, node: Any, read: Callable[[str, Budget], float]) -> float:
+        text = str(self.construct_scalar(node))
+        self.budget.earn(len(text))
         try:
-            return read(str(self.construct_scalar(node)))
+            return read(text, self.budget)
         except RosParamException as error:
             raise RosParamException(error.message, self.name, line_of(node)) from error
 
@@ -132,7 +139,7 @@ class _Dumper(yaml.SafeDumper):
     """Writes a text that looks like an angle in quotes."""
 
 
-for _tag, _word, _read in (("!degrees", "deg", degrees), ("!radians", "rad", radians)):
+for _tag, _word, _read in (("!degrees", "deg", lambda text, _: degrees(text)), ("!radians", "rad", radians)):
     _Loader.add_constructor(_tag, partial(_Loader.angle, read=_read))
     for _kind in (_Loader, _Dumper):
         _kind.add_implicit_resolver(_tag, re.compile(rf"^{_word}\([^)]*\)$"), [_word[0]])

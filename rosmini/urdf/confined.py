@@ -17,6 +17,7 @@ from rosmini.errors import RosminiError, nearest
 from rosmini.expressions import (
     FUNCTIONS,
     MATH,
+    STEPS_OF_A_FILE,
     Budget,
     Expression,
     Function,
@@ -29,11 +30,17 @@ from rosmini.yaml_text import Loader, documents
 
 from .errors import UrdfError
 
-STEPS = 5_000_000
-"""What the expressions and the expanding of a file may cost; see `Budget`."""
+STEPS = 1_000_000
+"""What the expressions and the expanding of a file may cost, and more by its length; see `Budget`."""
+
+OF_A_TEXT = 5
+"""So many steps a text costs in which something may be replaced, such as the default of a parameter."""
+
+MOST_PARAMETERS, LONGEST_PARAMETERS = 1000, 100_000
+"""How many parameters a macro may have, and how many characters."""
 
 OF_AN_ELEMENT = 100
-"""So many steps an element costs that is expanded: there may be 50,000."""
+"""So many steps an element costs that is expanded: a small file may have 10,000."""
 
 OF_A_FILE = 5_000
 """So many steps a file costs that is included, and may be empty: there may be 1,000."""
@@ -85,7 +92,7 @@ class Confined:
         self._folder = file.resolve().parent
         self._budget = Budget(STEPS)
         self._eval_all, self._eval_text = xacro.eval_all, xacro.eval_text
-        self._eval_extension = xacro.eval_extension
+        self._eval_extension, self._grab_macro = xacro.eval_extension, xacro.grab_macro
 
     def for_xacro(self) -> dict[str, Any]:
         """What stands for names in the module `xacro`."""
@@ -94,6 +101,7 @@ class Confined:
             "eval_all": self._count_element,
             "eval_extension": lambda text: self._budget.made(self._eval_extension(text)),
             "eval_text": self._count_text,
+            "grab_macro": self._check_macro,
             "glob": SimpleNamespace(glob=_glob),
             "re_macro_arg": MACRO_ARGUMENT,
             "safe_eval": self._evaluate,
@@ -106,6 +114,7 @@ class Confined:
     def opened(self, filename: str) -> None:
         """Count an included file. Raises `NotAllowed` for too many, or for files that include one another endlessly."""
         self._budget.spend(OF_A_FILE)
+        self._budget.earn(Path(filename).stat().st_size)
         above = [Path(name).name for name in self._xacro.filestack]
         if len(above) > DEEPEST:
             way = above[above.index(above[-1]) :]
@@ -203,10 +212,15 @@ class Confined:
         self._budget.spend(OF_AN_ELEMENT)
         self._eval_all(node, macros, symbols)
 
+    def _check_macro(self, element: Any, macros: Any) -> None:
+        parameters = element.getAttribute("params")
+        if len(parameters) > LONGEST_PARAMETERS or len(parameters.split()) > MOST_PARAMETERS:
+            raise NotAllowed(f"a macro with more than {MOST_PARAMETERS} parameters")
+        self._grab_macro(element, macros)
+
     def _count_text(self, text: str, symbols: Any) -> Any:
-        self._budget.spend(
-            len(text) * text.count("$") // 10_000
-        )  # xacro copies the rest of a text at each part
+        # xacro searches and copies the rest of a text at each part
+        self._budget.spend(OF_A_TEXT + len(text) * text.count("$") // 500)
         found = self._eval_text(text, symbols)
         return self._budget.made(found) if isinstance(found, str) else found
 
@@ -214,13 +228,16 @@ class Confined:
 class _Yaml(Loader):
     """YAML with units."""
 
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.budget = Budget(STEPS_OF_A_FILE)
+
     def measure(self, node: Any) -> float:
         """A number, or an expression, in the unit of its tag."""
         symbols = {**MATH, "math": Namespace("math", MATH)}
-        return (
-            float(Expression(str(self.construct_scalar(node)), functions=symbols).evaluate({}))
-            * UNITS[node.tag]
-        )
+        text = str(self.construct_scalar(node))
+        self.budget.earn(len(text))
+        return float(Expression(text, functions=symbols).evaluate({}, self.budget)) * UNITS[node.tag]
 
 
 for _tag in UNITS:

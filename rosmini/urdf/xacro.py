@@ -36,6 +36,9 @@ UNCONFINED = (
 MOST_MACROS = 5
 """So many macros, one in another, an error names."""
 
+SHOWN = 1000
+"""How many characters of the beginning and of the end of xacro's message an error has."""
+
 _one_at_a_time = threading.Lock()
 """xacro keeps what it works on in its module."""
 
@@ -188,7 +191,7 @@ def _is_refused(error: BaseException | None) -> bool:
 
 def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]) -> str:
     """What xacro says, with what helps."""
-    said = " ".join(str(error).split()) or repr(error)
+    said = " ".join(_ends(str(error)).split()) or repr(error)
     unknown = re.search(r"unknown macro name: xacro:(\S+)", said)
     if unknown:
         there = re.findall(r"<xacro:macro[^>]*\bname=[\"']([^\"']+)", _text(files))
@@ -211,13 +214,18 @@ def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]
     return re.sub(r"<class '[\w.]+'>: ", "", said)
 
 
+def _ends(text: str) -> str:
+    """The beginning and the end of a text: expressions may be long, and patterns take the square of their length."""
+    return text if len(text) <= 2 * SHOWN else f"{text[:SHOWN]} ... {text[-SHOWN:]}"
+
+
 def _text(files: Sequence[str]) -> str:
     return "\n".join(Path(name).read_text(encoding="utf-8", errors="replace") for name in files)
 
 
 def _line(error: Exception, files: Sequence[str]) -> tuple[str, int] | None:
     """File and line of what xacro complains about: it does not say, but what it quotes is found in one of the files."""
-    said = str(error)
+    said = _ends(str(error))
     patterns = (
         (r"when evaluating expression '(.+)'", "{}"),
         (r"unknown macro name: (\S+)", "<{}"),

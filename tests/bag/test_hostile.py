@@ -128,7 +128,11 @@ def pack(compression: str, data: bytes) -> bytes:
     ("claimed", "real", "said"),
     [
         (1000, 50 * MEGABYTE, "should have 1,000 bytes and has more than 1,000"),
-        (2**32 - 1, 100, f"has .* bytes and claims to hold 4,294,967,295; at most {TRUSTED_CHUNK:,} are unpacked"),
+        (
+            2**32 - 1,
+            100,
+            f"has .* bytes and claims to hold 4,294,967,295; at most {TRUSTED_CHUNK:,} are unpacked",
+        ),
         (TRUSTED_CHUNK, 100, f"should have {TRUSTED_CHUNK:,} bytes and has 100"),
     ],
 )
