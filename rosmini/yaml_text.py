@@ -48,7 +48,7 @@ def _parser(text: str) -> Any:
     is_short = len(text) <= (SHORT_WITH_TABS if "\t" in text else SHORT)
     if is_short or not yaml.__with_libyaml__:
         return _Parser(text)
-    from yaml.cyaml import CParser
+    from yaml._yaml import CParser  # type: ignore[import-untyped,import-not-found,unused-ignore]
 
     try:
         return CParser(text)
@@ -111,7 +111,8 @@ class Loader(Composer, SafeConstructor, Resolver):
         return super().construct_yaml_int(node)
 
 
-Loader.add_constructor("tag:yaml.org,2002:int", Loader.construct_yaml_int)
+# PyYAML's types know its own loaders only.
+Loader.add_constructor("tag:yaml.org,2002:int", Loader.construct_yaml_int)  # type: ignore[type-var]
 
 
 def documents(

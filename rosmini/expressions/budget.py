@@ -33,8 +33,8 @@ BITS_SQUARED = 1 << 18
 
 _SHOWN = 60
 _ATOMS = frozenset({bool, float, int, type(None)})
-_VIEWS: tuple[type, ...] = (type({}.keys()), type({}.values()), type({}.items()))
-_HOLDERS = (list, tuple, dict, set, *_VIEWS)
+_VIEWS: tuple[Any, ...] = (type({}.keys()), type({}.values()), type({}.items()))
+_HOLDERS: tuple[Any, ...] = (list, tuple, dict, set, *_VIEWS)
 _NUMBERS = frozenset({bool, float, int})
 _SMALL = 1 << 256
 """Whole numbers up to this one cost no more than others."""
@@ -131,7 +131,8 @@ def weight(value: Any) -> int:
 
     The digits of large whole numbers count as characters.
     """
-    total, waiting = 0, [value]
+    total = 0
+    waiting: list[Any] = [value]
     while waiting and total <= LARGEST:
         part = waiting.pop()
         if isinstance(part, (str, bytes)):

@@ -140,9 +140,10 @@ def _load(
         raise element.error(f"<rosparam>: {len(documents)} YAML documents, and one is needed")
     for document in documents:
         if not isinstance(document.values, dict) and not named:
+            what = shown(document.values) if file is None else f"a {type(document.values).__name__}"
             raise element.error(
-                "'param' attribute must be set for non-dictionary values: what is loaded is "
-                f"{shown(document.values)}, no lines of the form `name: value`"
+                f"'param' attribute must be set for non-dictionary values: what is loaded is {what}, "
+                "no lines of the form `name: value`"
             )
         try:
             for name, value in assignments(document.namespace, document.values):

@@ -241,7 +241,7 @@ class _Yaml(Loader):
 
 
 for _tag in UNITS:
-    _Yaml.add_constructor(_tag, _Yaml.measure)
+    _Yaml.add_constructor(_tag, _Yaml.measure)  # type: ignore[type-var]  # PyYAML's types know its own only
 
 
 def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]:

@@ -32,6 +32,9 @@ DEEPEST = 100
 
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
+WORLD_FILES = (".inc", ".world")
+"""How the names of files end whose words are quoted in errors; another file may be anything that has been included."""
+
 MOST = 100_000
 """The largest number of entities of a world."""
 
@@ -78,7 +81,13 @@ class Parsed:
 
 def parse_file(path: Path) -> Parsed:
     """The entities of a world file and all that it includes. Raises `StageError`."""
-    return parse(read(path), path)
+    try:
+        return parse(read(path), path)
+    except StageError as error:
+        where = error.place.path
+        if where == path or where.suffix in WORLD_FILES:
+            raise
+        raise StageError(error.place, "this is no world file") from None
 
 
 def parse(words: Iterable[Token], path: Path) -> Parsed:

@@ -47,13 +47,18 @@ class Token(NamedTuple):
     place: Place
 
 
-def tokens(text: str, path: Path) -> Iterator[Token]:
-    """The words of the text of the file `path`; includes are left as they are. Raises `StageError`."""
+def tokens(text: str, path: Path, *, quoted: bool = True) -> Iterator[Token]:
+    """The words of the text of the file `path`; includes are left as they are.
+
+    Raises `StageError`, which quotes the text unless `quoted` is False.
+    """
     at, line = 0, 1
     while at < len(text):
         found = _TOKEN.match(text, at)
         if found is None:
-            raise StageError(Place(path, line), _complaint(text, at))
+            column = at - text.rfind("\n", 0, at)
+            what = _complaint(text, at) if quoted else f"this is no world file from column {column} on"
+            raise StageError(Place(path, line), what)
         at = found.end()
         match found.lastgroup:
             case "line":
@@ -91,7 +96,8 @@ def _included(path: Path, root: Path, above: tuple[Path, ...], count: Iterator[i
     except OSError as error:
         where = Place(path, 1)
         raise StageError(where, f"the file cannot be read: {error.strerror or error}") from error
-    words = tokens(text, path)
+    # A file may include any other: what is in that is not for everybody who sees an error.
+    words = tokens(text, path, quoted=not above)
     for word in words:
         if word.kind != "word" or word.text != "include":
             yield word
