@@ -1,8 +1,8 @@
 """The searches of global_planner: Dijkstra by navfn's wave, and A* (http://wiki.ros.org/global_planner).
 
-Points may lie between the middles of cells (`precise`): then Dijkstra begins in the four cells around the start, each
-with the cost of the way to its middle. (The original weighs them so that two neighbours of a start in the middle of a
-cell cost nothing, and begins in obstacles too.) A cell of cost 252 is passable here, though the original takes it as
+Points may lie between the middles of cells (`precise`): then Dijkstra begins in the free cells around the start, each
+with the cost of the way to its middle. The original begins in obstacles too, and gives two neighbours of a start in the
+middle of a cell the potential 0. A cell of cost 252 is passable here, though the original's Dijkstra treats it as
 lethal: `lethal_cost` is the first cost that is.
 """
 
