@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import importlib
 import logging
 import os
 import re
@@ -193,10 +194,17 @@ def required(what: str) -> bool:
     return os.environ.get(f"ROSMINI_REQUIRE_{what}") == "1"
 
 
+def tool(name: str) -> Any:
+    """A module of the group make; skips without it, or fails if ROSMINI_REQUIRE_TOOLS=1."""
+    if required("TOOLS"):
+        return importlib.import_module(name)
+    return pytest.importorskip(name, reason="it is in the group make: uv sync --group make")
+
+
 @pytest.fixture
 def mypy(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[list[str]], tuple[str, str, int]]]:
     """`mypy.api.run`; what it changes of the process is taken back: recursion went on for 16,384 calls after it."""
-    api = pytest.importorskip("mypy.api", reason="mypy is part of the dev extra only")
+    api = tool("mypy.api")
     limit, threshold = sys.getrecursionlimit(), gc.get_threshold()
     monkeypatch.setenv("MYPY_CONFIG_FILE_DIR", "")
     yield api.run

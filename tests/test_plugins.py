@@ -10,6 +10,7 @@ import pytest
 from rosmini import plugins
 from rosmini.plugins import Plugin, PluginError
 
+from .conftest import tool
 from .processes import run
 
 
@@ -152,6 +153,7 @@ def test_the_type_of_what_is_created_is_the_interface(tmp_path):
         "reveal_type(Planner.named('a/B'))\n",
         encoding="utf-8",
     )
+    tool("mypy")
     done = run([sys.executable, "-m", "mypy", "--strict", str(script)])
     revealed = [
         line.rpartition('"')[0].rpartition('"')[2] for line in done.stdout.splitlines() if "note" in line

@@ -6,6 +6,7 @@ import argparse
 import os
 import shutil
 import subprocess
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,9 @@ from rosmini.errors import RosminiError
 
 from . import notebooks as stored
 from .build import has_display
+
+INSTALLING = "ROSMINI_INSTALLS_LAB"
+"""Set for the second run of the command, which installs nothing more."""
 
 FIRST = "01_first_steps.ipynb"
 """What opens first."""
@@ -103,6 +107,22 @@ def trust(folder: Path) -> int:
     return len(own)
 
 
+def with_jupyterlab(checkout: Path) -> int:
+    """Have uv install JupyterLab, and run the same command again; return its exit status.
+
+    Raises `RosminiError` without uv, and if JupyterLab is still missing afterwards.
+    """
+    uv = os.environ.get("UV") or shutil.which("uv")
+    if uv is None or os.environ.get(INSTALLING):
+        raise RosminiError(
+            "JupyterLab is not installed in this environment; run `uv run --extra lab rosmini lab` in the checkout, "
+            "or `pip install -e '.[book,lab]'` first"
+        )
+    print("Installing JupyterLab (once) ...", flush=True)
+    command = [uv, "run", "--project", str(checkout), "--extra", "lab", "rosmini", *sys.argv[1:]]
+    return subprocess.run(command, env=os.environ | {INSTALLING: "1"}, check=False).returncode
+
+
 def copy_notebooks(source: Path, target: Path) -> Path:
     """Copy the notebooks of `source` that `target` does not have yet; return `target`.
 
@@ -128,13 +148,10 @@ def prefer_own_settings() -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Serve until Ctrl-C. Raises `RosminiError` if JupyterLab is not installed."""
+    """Serve until Ctrl-C. Raises `RosminiError` if JupyterLab is not installed and uv cannot install it."""
     notebooks = find_checkout() / "notebooks"
     if find_spec("jupyterlab") is None:
-        raise RosminiError(
-            "JupyterLab is not installed in this environment; run `uv run rosmini lab` in the checkout, "
-            "or `pip install -e '.[book]'` first"
-        )
+        return with_jupyterlab(notebooks.parent)
     from jupyterlab.labapp import LabApp
 
     prefer_own_settings()

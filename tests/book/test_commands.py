@@ -21,7 +21,8 @@ from book.tools.build import BookError, build_book, has_display
 from rosmini.cli import checkout, main
 from rosmini.cli.checkout import NoCheckout, find_checkout
 
-from ..processes import PATIENCE, free_port, listens, start, wait_until
+from ..conftest import tool
+from ..processes import PATIENCE, free_port, listens, run, start, wait_until
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -166,6 +167,7 @@ def listening_addresses(port: int) -> set[str]:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc to see who listens")
 def test_lab_serves_the_notebooks_on_this_machine_only(tmp_path):
+    tool("jupyterlab")
     port = free_port()
     environment = os.environ | {"HOME": str(tmp_path), "JUPYTER_TOKEN": "t0ken", "PYTHONUNBUFFERED": "1"}
     command = [sys.executable, "-m", "rosmini", "lab", "--no-open", "--port", port]
@@ -217,7 +219,7 @@ def copy(tmp_path, monkeypatch):
         ["add", "."],
         ["-c", "user.name=a", "-c", "user.email=a@b", "commit", "-qm", "All"],
     ):
-        subprocess.run(["git", "-C", str(folder.parent), *command], check=True)
+        run(["git", "-C", str(folder.parent), *command], check=True)
     return folder
 
 

@@ -18,6 +18,7 @@ from rosmini.sim.recorder import Recorder
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import World
 
+from ..conftest import tool
 from ..processes import PATIENCE, free_port, listens, start, wait_until
 
 TOKEN = "rosmini-test"
@@ -66,14 +67,13 @@ def launched(kind, flags):
 @pytest.fixture(scope="session")
 def chromium():
     """The browser; skips without one, and fails if ROSMINI_REQUIRE_BROWSER=1."""
-    from playwright.sync_api import sync_playwright
-
+    playwright = tool("playwright.sync_api")
     if chromium_path() is None:
         message = "no Chromium: install it, or name it in ROSMINI_CHROMIUM"
         if os.environ.get("ROSMINI_REQUIRE_BROWSER") == "1":
             pytest.fail(f"{message} (ROSMINI_REQUIRE_BROWSER=1)")
         pytest.skip(message)
-    return launched(sync_playwright().start().chromium, FLAGS)
+    return launched(playwright.sync_playwright().start().chromium, FLAGS)
 
 
 class Watcher:
@@ -186,6 +186,7 @@ def jupyterlab(tmp_path, cells):
             "IPYTHONDIR",
         )
     }
+    tool("jupyterlab")
     arguments = [
         f"--ServerApp.root_dir={tmp_path / 'work'}",
         "--ServerApp.ip=127.0.0.1",

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-import grimp
+from typing import Any
+
+from ..conftest import tool
+
+grimp = tool("grimp")
 
 
-def circles(graph: grimp.ImportGraph) -> set[frozenset[str]]:
+def circles(graph: Any) -> set[frozenset[str]]:
     """The largest sets of modules in which each imports each, directly or through the others."""
     found = set()
     for module in graph.modules:

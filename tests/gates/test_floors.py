@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from ..conftest import tool
 from ..processes import run
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -17,6 +18,7 @@ COMMAND = "from importlinter.cli import lint_imports_command; lint_imports_comma
 
 def lint(checkout: Path) -> tuple[int, str]:
     """The status and the words of lint-imports on the `rosmini` in `checkout`."""
+    tool("importlinter")
     done = run(
         [sys.executable, "-c", COMMAND, "--no-cache"],
         cwd=checkout,

@@ -13,6 +13,7 @@ from book.tools import notebooks
 from book.tools.scripts import scripts
 from rosmini.cli.stubs import stub_files, write
 
+from ..conftest import tool
 from ..processes import run
 
 Mypy = Callable[[list[str]], tuple[str, str, int]]
@@ -32,6 +33,7 @@ ignore_missing_imports = True
 
 def ruffs(folder: Path) -> str:
     """What ruff says of the scripts in a folder, with the rules for notebooks."""
+    tool("ruff")
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     ignored = settings["tool"]["ruff"]["lint"]["per-file-ignores"]["notebooks/**"]
     words = [
