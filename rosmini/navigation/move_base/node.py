@@ -4,9 +4,10 @@ It offers the action `move_base`, takes goals on `move_base_simple/goal` too, an
 services `~make_plan` and `~clear_costmaps`, all topics, parameters and texts are ROS's. Planning has a lane of its own;
 the cycle of control runs at `controller_frequency` of the graph's time.
 
-From the original differ: a goal in another frame is transformed by the newest transform, whatever its stamp; a robot
-that oscillates is stopped in that cycle, and not commanded once more; and whatever a plugin raises counts as failure of
-what it was asked for, with a line in the log that says where.
+It differs from the original in four ways. A goal in another frame is transformed by the newest transform, whatever its
+stamp. A robot that oscillates is stopped in that cycle, and not commanded once more. A goal on `move_base_simple/goal`
+that arrives before the action server has started is kept for it; the original loses it. Whatever a plugin raises counts
+as a failure of the call, and the log says where it was raised.
 """
 
 from __future__ import annotations
@@ -108,7 +109,12 @@ class MoveBase:
         )
         self._commands = node.publisher("cmd_vel", self._twist, queue_size=1)
         self._current_goal = node.publisher("~current_goal", stamped, queue_size=10)
-        self._goals = node.publisher("move_base/goal", self._action_goal, queue_size=1)
+        self._early_goal: Any = None
+        """The newest pose of `move_base_simple/goal` that arrived before the action server could hear of it."""
+        self._has_server = False
+        self._goals = node.publisher(
+            "move_base/goal", self._action_goal, queue_size=1, on_connect=self._goals_connected
+        )
         self._recoveries = node.publisher("move_base/recovery_status", self._recovery, queue_size=1)
         for publisher in (self._commands, self._current_goal, self._recoveries):
             publisher.expect_nobody()
@@ -155,11 +161,23 @@ class MoveBase:
     # -- goals ---------------------------------------------------------------------------------------------------
 
     def _simple_goal(self, pose: Any) -> None:
-        """Send a goal of `move_base_simple/goal` to the action server."""
+        """Send a goal of `move_base_simple/goal` to the action server, as soon as that hears of it."""
+        if not self._has_server:
+            self._early_goal = pose
+            return
         goal = self._action_goal()
         goal.header.stamp = self.node.now()
         goal.goal.target_pose = pose
         self._goals.publish(goal)
+
+    def _goals_connected(self, subscriber: str) -> None:
+        """Send the goal that waits once this node's own action server is connected."""
+        if subscriber != self.node.name or self._has_server:
+            return
+        self._has_server = True
+        pose, self._early_goal = self._early_goal, None
+        if pose is not None:
+            self._simple_goal(pose)
 
     def _accept(self, message: Any) -> bool:
         """Take a goal, or abort it if it is no pose in the plane."""

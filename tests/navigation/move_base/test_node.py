@@ -220,6 +220,17 @@ def test_a_simple_goal_another_one_and_a_cancellation(graph):
     assert rig.move_base.goal is None
 
 
+def test_of_the_goals_that_arrive_before_the_action_server_the_newest_is_reached(graph):
+    desk = graph.node("desk").publisher("move_base_simple/goal", PoseStamped, latch=True)
+    for x in (1.9, 0.8):
+        desk.publish(goal(x, 0.0).target_pose)
+    rig = start(graph)
+    assert rig.move_base.goal.pose.position.x == 0.8
+    graph.run(20.0)
+    assert math.dist(rig.sim.truth()[:2], (0.8, 0.0)) < 0.12
+    assert rig.move_base.goal is None
+
+
 def test_a_goal_in_another_frame(graph):
     rig = start(graph)
     assert go(rig, goal(0.8, 0.0, frame="base_footprint"))[0] is Status.SUCCEEDED
