@@ -64,3 +64,11 @@ def test_no_point_is_farther_from_the_line_that_is_kept_than_the_tolerance(point
     for point in line:
         along = np.clip(((point - starts) * sides).sum(axis=1) / lengths, 0, 1)
         assert np.hypot(*(starts + along[:, None] * sides - point).T).min() <= tolerance + 1e-9
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_last_bit_never_changes_which_points_of_an_arc_are_kept(seed):
+    angles = np.linspace(0.0, 2.0, 40)
+    arc = np.column_stack([np.cos(angles), np.sin(angles)])
+    noise = np.random.default_rng(seed).uniform(-1e-13, 1e-13, arc.shape)
+    assert kept(arc + noise, 0.01) == kept(arc, 0.01)
