@@ -303,17 +303,21 @@ def _run(name: str | None, argv: list[str]) -> int:
         print(f"rosmini {name}: {error}", file=sys.stderr)
         return 1
     except OSError as error:
-        return _cannot_write(error, name)
+        return _system_refused(error, name)
     except KeyboardInterrupt:
         print(file=sys.stderr)
         return 130
 
 
-def _cannot_write(error: OSError, name: str | None) -> int:
-    """Return the exit status where the output goes nowhere: to what has had enough, such as `head`, or a full disk.
+def _system_refused(error: OSError, name: str | None) -> int:
+    """Return the exit status after an error of the operating system that has a simple cause, and report it.
 
+    Such causes are a file that cannot be opened, a reader of the output that has ended (`head`), and a full disk.
     Raises any other error again.
     """
+    if error.filename is not None:
+        print(f"rosmini {name}: cannot open {error.filename}: {error.strerror}", file=sys.stderr)
+        return 1
     if not isinstance(error, BrokenPipeError) and error.errno != errno.ENOSPC:
         raise error
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left of the output is not wanted

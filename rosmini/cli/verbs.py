@@ -152,6 +152,15 @@ class Verb:
     takes: str = ""
     """What its arguments name, for completion: kinds of :mod:`rosmini.cli.completion`; the last one may repeat."""
 
+    def do(self, given: Any, call: Call) -> Result:
+        """Return what the verb did. Raises ``VerbError`` for a file that cannot be opened, and what the verb raises."""
+        try:
+            return self.act(given, call)
+        except OSError as error:
+            if error.filename is None:
+                raise
+            raise VerbError(f"ERROR: cannot open {error.filename}: {error.strerror}") from error
+
 
 @dataclass(frozen=True)
 class Overview:
@@ -274,11 +283,11 @@ class Tool:
         verb = self.find(text[0])
         given = verb.parser().parse(text[1:])
         if not self.needs_graph:
-            return verb.act(given, Call(cast("Peers", None), say, warn))
+            return verb.do(given, Call(cast("Peers", None), say, warn))
         from rosmini.graph import running_graph
 
         used = running_graph() if graph is None else graph
-        return verb.act(given, Call(used, say, warn, tells_time=tells_time, console=console or {}))
+        return verb.do(given, Call(used, say, warn, tells_time=tells_time, console=console or {}))
 
     def alone(self, verb: str) -> Tool:
         """Return the tool that does one of the verbs only: ``rqt_graph`` for ``graph`` of ``rqt``."""
@@ -380,7 +389,7 @@ class Tool:
     def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
         given = verb.parser().parse(own)
         if not self.needs_graph or (self.reads_files and not nodes):
-            return verb.act(given, Call(cast("Peers", None), read_line=sys.stdin.readline))
+            return verb.do(given, Call(cast("Peers", None), read_line=sys.stdin.readline))
         if self.purpose and not nodes:
             return self._on_wire(verb, given)
         if verb.needs_graph and not nodes:
@@ -395,7 +404,7 @@ class Tool:
         ) as graph:  # what goes wrong in a node is told by that node, and the tool goes on
             if nodes:
                 _start(nodes, graph)
-            return verb.act(given, Call(graph))
+            return verb.do(given, Call(graph))
 
     def _on_wire(self, verb: Verb, given: Any) -> Result:
         """Act on the graph of the Master that the environment names."""
@@ -406,13 +415,13 @@ class Tool:
             from rosmini.net.addresses import addresses
 
             with DirectWire(addresses().master_uri) as wire:
-                return verb.act(given, Call(wire, say, read_line=sys.stdin.readline))
+                return verb.do(given, Call(wire, say, read_line=sys.stdin.readline))
         from rosmini.net.connecting import connect
 
         end_as_ctrl_c()
         with connect(announce=False) as graph:
             try:
-                return verb.act(given, Call(graph, say, read_line=sys.stdin.readline))
+                return verb.do(given, Call(graph, say, read_line=sys.stdin.readline))
             except KeyboardInterrupt:  # it came between two waits: no failure, as in ROS's tools
                 return Lines()
 

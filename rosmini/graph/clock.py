@@ -258,6 +258,11 @@ class Timer:
             self._cycle.restart(now)
         else:  # the clock has moved backwards
             self.shutdown()
+            name = getattr(self._callback, "__name__", "callback")
+            node.logwarn(
+                f"/clock went back from {self._slept_from / 1e9:.3f} s to {now / 1e9:.3f} s: the timer of {name} "
+                "has ended, as in rospy. rospy.Timer(..., reset=True) makes a timer that goes on."
+            )
             return
         real, expected = Time.from_nsec(now), self._expected
         last_expected, last_real, last_duration = self._before

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from rosmini.graph import Node
 
 
+UNSTAMPED = 10
+"""How many messages of an input may have the stamp 0, if none has another, before that is reported."""
+
+
 class StampedQueue(MutableMapping[Time, Any]):
     """The messages of one input that wait for partners, by stamp: the policy's queue under the keys of ROS's client."""
 
@@ -73,6 +77,8 @@ class TimeSynchronizer(StampingFilter):
         """What waits, an item for each input: messages by stamp."""
         self._ready: deque[tuple[Any, ...]] = deque()
         self._giving = False
+        self._unstamped: list[int | None] = [0] * len(filters)
+        """How many messages of each input had the stamp 0; None once one had another, or this was reported."""
         self.connectInput(filters)
 
     def connectInput(self, fs: Iterable[SimpleFilter]) -> None:
@@ -95,9 +101,23 @@ class TimeSynchronizer(StampingFilter):
         stamp = self._stamp(msg)
         if stamp is None:
             return
+        self._look_at_stamp(index, stamp)
         now = self._now().to_nsec() if self._knows_time() or self.policy.reset else 0
         self._ready.extend(self.policy.add(index, stamp.to_nsec(), msg, now))
         self._give_out()
+
+    def _look_at_stamp(self, index: int, stamp: Time) -> None:
+        """Warn once if no message of an input has a stamp: they find no partners."""
+        count = self._unstamped[index]
+        if count is None or not self._knows_time():
+            return
+        self._unstamped[index] = None if stamp else count + 1
+        if self._unstamped[index] == UNSTAMPED:
+            self._unstamped[index] = None
+            self._warn(
+                f"{type(self).__name__}: all {UNSTAMPED} messages of input {index} have the stamp 0, which other "
+                "messages do not match. Their publisher has to set header.stamp, for example to rospy.Time.now()."
+            )
 
     def _give_out(self) -> None:
         """Call the callbacks, unless that is being done: a callback that blocks lets others come in here."""

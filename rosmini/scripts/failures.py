@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import linecache
+import re
 import sysconfig
 import traceback
 from pathlib import Path
@@ -89,11 +91,28 @@ def _pythons(filename: str) -> bool:
     return filename.startswith(_PYTHON) and "site-packages" not in filename
 
 
+_BARE_INPUT = re.compile(r"=\s*input\s*\(")
+"""An input that is kept as it is, and not converted to a number."""
+
+
+def _reads_numbers_as_text(error: BaseException) -> bool:
+    """Return whether a file in which the error arose keeps what ``input()`` returns, as Python 2 scripts do."""
+    files = {frame.f_code.co_filename for frame, _ in traceback.walk_tb(error.__traceback__)}
+    return any(
+        _BARE_INPUT.search(line)
+        for file in files
+        if not _ours(file) and not _pythons(file)
+        for line in linecache.getlines(file)
+    )
+
+
 def _hint(error: BaseException) -> str:
     if isinstance(error, NameError) and error.name in _PYTHON_2_NAMES:
         return f"({error.name} is Python 2; in Python 3 it is {_PYTHON_2_NAMES[error.name]})\n"
     if isinstance(error, ModuleNotFoundError) and error.name in _PYTHON_2_MODULES:
         return f"({error.name} is Python 2; in Python 3 it is {_PYTHON_2_MODULES[error.name]})\n"
+    if isinstance(error, TypeError) and "str" in str(error) and _reads_numbers_as_text(error):
+        return "(in Python 3 input() returns text, where Python 2 evaluated it: for a number write float(input(...)))\n"
     if isinstance(error, RuntimeError) and str(error) in _SECOND_LOOP:
         return (
             "(a notebook's kernel runs an event loop of its own in this thread, in which no second one can run, and "

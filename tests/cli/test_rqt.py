@@ -205,3 +205,11 @@ def test_a_file_that_is_named_is_written_and_nothing_is_opened(
     assert cli.main(["rqt_bag", str(tmp_path / "run.bag"), "-o", str(page)]) == 0
     assert page.read_text(encoding="utf-8").startswith("<svg")
     assert str(page) in capsys.readouterr().out
+
+
+def test_a_bag_that_cannot_be_opened(tmp_path, capsys):
+    for file in (tmp_path, tmp_path / "missing.bag"):
+        assert cli.main(["rqt_bag", str(file)]) == 1
+        said = capsys.readouterr().err
+        assert str(file) in said
+        assert "Traceback" not in said

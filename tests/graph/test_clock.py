@@ -183,7 +183,7 @@ def test_between_two_calls_nothing_of_a_timer_is_parked(simulated: Graph) -> Non
     assert [waiting.lane for waiting in simulated.run(0.5).waiting] == ["/node timer <lambda>"]
 
 
-def test_a_jump_back_ends_a_timer_or_restarts_it(graph: Graph) -> None:
+def test_a_jump_back_ends_a_timer_or_restarts_it(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
     node, clock = on_topic_clock(graph)
     tell(graph, clock, 100.0, node)
     fired: list[Any] = []
@@ -196,6 +196,7 @@ def test_a_jump_back_ends_a_timer_or_restarts_it(graph: Graph) -> None:
     assert fired == [50.0, 60.0]
     assert not ended.is_alive()
     assert kept.is_alive()
+    assert capsys.readouterr().err.count("reset=True") == 1
 
 
 @pytest.mark.parametrize("period", [0, -1.0])

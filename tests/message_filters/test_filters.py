@@ -229,3 +229,17 @@ def test_queues_are_there_to_look_into_and_to_empty():
     both.add(at(3), both.queues[0])
     assert len(seen) == 1
     assert [len(queue) for queue in both.queues] == [0, 0]
+
+
+def test_an_input_without_stamps_is_reported_once(sim, capsys):
+    node = sim.node("fusion")
+    inputs = [Subscriber(node, topic, PointStamped) for topic in ("camera", "laser")]
+    TimeSynchronizer(inputs, 10)
+    camera, laser = publishers(sim.node("robot"), "camera", "laser")
+    for count in range(1, 30):
+        camera.publish(at(count))
+        laser.publish(at(0))
+    sim.run(1)
+    said = capsys.readouterr().err
+    assert said.count("stamp 0") == 1
+    assert "input 1" in said

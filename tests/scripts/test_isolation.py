@@ -355,3 +355,11 @@ def test_time_in_wall_time_is_real():
         prefix=False,
     )
     assert all(before - 0.1 <= float(word) <= time.time() + 0.1 for word in out.getvalue().split())
+
+
+@pytest.mark.parametrize(("line", "hinted"), [("x = input()", True), ("x = str(input())", False)])
+def test_numbers_that_python_2_read_from_input(tmp_path, capsys, line, hinted):
+    script = tmp_path / "goal.py"
+    script.write_text(f"{line}\nabs(x)\n", encoding="utf-8")
+    assert run_scripts([ScriptSpec(str(script))], stdin="5\n", prefix=False).status == 1
+    assert ("float(input(" in capsys.readouterr().err) is hinted
