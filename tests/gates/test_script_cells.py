@@ -16,7 +16,7 @@ from rosmini.cli.stubs import stub_files, write
 from ..conftest import tool
 from ..processes import run
 
-Mypy = Callable[[list[str]], tuple[str, str, int]]
+Mypy = Callable[..., tuple[str, str, int]]
 
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
@@ -52,12 +52,12 @@ def mypys(folder: Path, monkeypatch: pytest.MonkeyPatch, mypy: Mypy) -> str:
     monkeypatch.chdir(folder)
     write(folder / "typings", stub_files()[0])
     (folder / "mypy.ini").write_text(MYPY, encoding="utf-8")
-    found = [
-        mypy(["--config-file", "mypy.ini", "--cache-dir", "cache", *map(str, each.glob("*.py"))])[0]
+    runs = [
+        ["--config-file", "mypy.ini", "--cache-dir", "cache", *map(str, each.glob("*.py"))]
         for each in sorted(folder.iterdir())
         if each.name not in ("typings", "cache") and each.is_dir()
     ]
-    return "".join(line + "\n" for line in "".join(found).splitlines() if ": error: " in line)
+    return "".join(line + "\n" for line in mypy(*runs)[0].splitlines() if ": error: " in line)
 
 
 def put(folder: Path, chapter: str, name: str, text: str) -> None:
