@@ -1,9 +1,9 @@
 """A widget's page without Jupyter: served on loopback, for a terminal session.
 
-What Jupyter does for a widget is done here by a few requests: the page's scripts and data, what the kernel's side
-sends as server-sent events, and what the page says by POST. Only this machine is listened to, at a port of the
-system's choice, under a path that nobody can guess; a request has to name this very host, so that no other page in
-the reader's browser can speak to it.
+A few requests do what Jupyter does for a widget: the page's scripts and data, what the kernel's side sends as
+server-sent events, and what the page says by POST. The server listens on loopback only, at a port of the system's
+choice, under a path that nobody can guess; a request must name this host and port, so that no other page in the
+browser can speak to it, and the page cannot be shown inside another one.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import json
 import os
 import queue
 import secrets
+import socket
 import sys
 import threading
 import webbrowser
@@ -27,12 +28,25 @@ from rosmini.viz.svg import escape
 
 LOOPBACK = "127.0.0.1"
 MOST_BYTES = 64_000
-"""What a page says at once is not longer."""
+"""Longest message of a page."""
+MOST_DIGITS = 12
+"""Longest `Content-Length` that is read, in digits."""
 MOST_WAITING = 200
-"""So many messages wait for a page; one that is slower than that is dropped, and begins again."""
+"""How many messages wait for a page; a slower one is dropped, and begins again."""
+MOST_CONNECTIONS = 32
+"""How many connections, each with a thread, a server has at most. A browser opens six."""
 SILENCE_S = 10.0
-"""After so long without a message a page is sent an empty line, by which it is noticed that it has gone."""
+"""After this time without a message a page is sent an empty line, which fails if the page has gone."""
 END_S = 2.0
+
+HEADERS = {
+    "X-Frame-Options": "DENY",
+    "Content-Security-Policy": "frame-ancestors 'none'; base-uri 'none'; form-action 'none'; object-src 'none'",
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cache-Control": "no-store",
+}
+"""What each answer has: no other page may frame the page, and none learns its address."""
 
 PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -212,13 +226,58 @@ def _packed(value: Any) -> dict[str, str]:
 
 
 class _Server(ThreadingHTTPServer):
+    """Has a bounded number of connections: for a new one, it closes the oldest that has not shown the token."""
+
     daemon_threads = True
     block_on_close = False
+    request_queue_size = 128
+
+    def __init__(self, *words: Any) -> None:
+        self._free = threading.BoundedSemaphore(MOST_CONNECTIONS)
+        self._lock = threading.Lock()
+        self._strangers: dict[Any, None] = {}
+        """The connections that have not shown the token, the oldest first."""
+        super().__init__(*words)
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """Answer a connection in a thread, or close it if all others have shown the token."""
+        if not self._free.acquire(blocking=False):
+            with self._lock:
+                oldest = next(iter(self._strangers), None)
+            if oldest is not None:
+                self.known(oldest)
+                with suppress(OSError):  # it may have ended in this moment
+                    oldest.shutdown(socket.SHUT_RDWR)
+            if oldest is None or not self._free.acquire(timeout=END_S):
+                self.shutdown_request(request)
+                return
+        with self._lock:
+            self._strangers[request] = None
+        super().process_request(request, client_address)
+
+    def process_request_thread(self, request: Any, client_address: Any) -> None:
+        """Answer a connection until it ends."""
+        try:
+            super().process_request_thread(request, client_address)
+        finally:
+            self.known(request)
+            self._free.release()
+
+    def known(self, connection: Any) -> None:
+        """Take a connection off those that have not shown the token."""
+        with self._lock:
+            self._strangers.pop(connection, None)
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Say nothing of a connection that broke; a terminal belongs to the tool."""
+        if not isinstance(sys.exception(), OSError):
+            super().handle_error(request, client_address)
 
 
 class _Handler(BaseHTTPRequestHandler):
     """Answers a page."""
 
+    server: _Server
     protocol_version = "HTTP/1.1"
     timeout = 60.0
 
@@ -240,6 +299,7 @@ class _Handler(BaseHTTPRequestHandler):
         if not is_ours or not secrets.compare_digest(root.encode(), self.pages.token.encode()):
             self._answer(HTTPStatus.NOT_FOUND, "text/plain", b"there is nothing here\n")
             return None
+        self.server.known(self.request)
         return rest
 
     def do_GET(self) -> None:
@@ -266,13 +326,13 @@ class _Handler(BaseHTTPRequestHandler):
         rest = self._asked()
         if rest is None:
             return
-        length = self.headers.get("Content-Length", "")
+        length = self._length()
         is_json = self.headers.get("Content-Type", "").partition(";")[0] == "application/json"
-        if rest != "say" or not is_json or not length.isdecimal() or int(length[:12]) > MOST_BYTES:
+        if rest != "say" or not is_json or length is None or length > MOST_BYTES:
             self._answer(HTTPStatus.BAD_REQUEST, "text/plain", b"a page says a short message, as JSON\n")
             return
         try:
-            content = json.loads(self.rfile.read(int(length)))
+            content = json.loads(self.rfile.read(length))
         except (ValueError, RecursionError):
             content = None
         if not isinstance(content, dict):
@@ -281,13 +341,24 @@ class _Handler(BaseHTTPRequestHandler):
         self.pages.widget.hear(content)
         self._answer(HTTPStatus.NO_CONTENT, "text/plain", b"")
 
+    def _length(self) -> int | None:
+        """Return the length of the request's body; None if it is not given as a number."""
+        text = self.headers.get("Content-Length", "")
+        is_number = text.isascii() and text.isdecimal() and len(text) <= MOST_DIGITS
+        return int(text) if is_number else None
+
+    def end_headers(self) -> None:
+        """Send the headers, and with each answer those that keep other pages out."""
+        for name, value in HEADERS.items():
+            self.send_header(name, value)
+        super().end_headers()
+
     def _events(self) -> None:
         """Send what there is to say until the page or the server has gone."""
         page = self.pages.opened()
         self.close_connection = True
         self.send_response(HTTPStatus.OK)
         self.send_header("Content-Type", "text/event-stream")
-        self.send_header("Cache-Control", "no-store")
         self.end_headers()
         try:
             while True:
@@ -309,7 +380,6 @@ class _Handler(BaseHTTPRequestHandler):
         self.send_response(status)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(body)))
-        self.send_header("Cache-Control", "no-store")
         if self.close_connection:
             self.send_header("Connection", "close")
         self.end_headers()

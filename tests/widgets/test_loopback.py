@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import http.client
 import json
+import socket
 import threading
 from collections.abc import Iterator
+from contextlib import ExitStack
 from urllib.parse import urlsplit
 
 import pytest
 
-from rosmini.widgets.loopback import MOST_BYTES, MOST_WAITING, PageServer
+from rosmini.widgets.loopback import MOST_BYTES, MOST_CONNECTIONS, MOST_WAITING, PageServer
 
 from ..processes import PATIENCE
 
@@ -111,6 +113,7 @@ def test_others_get_nothing(served):
         ("[" * 30_000, None),
         ('"' + "x" * 70_000, None),
         ("{}", "9" * 30),
+        ("{}", "0" * 12 + "9" * 11),
         ("{}", "-1"),
     ],
 )
@@ -134,6 +137,31 @@ def test_a_page_that_does_not_read_costs_no_more_than_its_queue(served):
     assert len(server._pages) == 0
     answer.close()
     assert ask(server)[0] == 200
+
+
+def test_no_other_page_may_frame_it(served):
+    _, server = served
+    for path in ("", "data.json", "no-such-thing"):
+        connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=PATIENCE)
+        connection.request("GET", f"/{server.token}/{path}")
+        headers = connection.getresponse().headers
+        connection.close()
+        assert headers["X-Frame-Options"] == "DENY"
+        assert "frame-ancestors 'none'" in headers["Content-Security-Policy"]
+
+
+def test_silent_connections_cost_a_bounded_number_of_threads_and_keep_nobody_out(served):
+    _, server = served
+    listener = listen(server)
+    before = threading.active_count()
+    with ExitStack() as stack:
+        for _ in range(MOST_CONNECTIONS * 3):
+            raw = stack.enter_context(socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE))
+            raw.sendall(b"GET / HT")
+        assert ask(server)[0] == 200
+        assert threading.active_count() <= before + MOST_CONNECTIONS
+        server.widget.elsewhere({"type": "frame"}, None)
+        assert any(b"frame" in line for line in listener)
 
 
 def test_closing_ends_all_and_may_be_repeated():
