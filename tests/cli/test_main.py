@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+import rosmini.__main__ as entry
 import rosmini.cli.main as cli
 from rosmini.errors import RosminiError
 
@@ -103,3 +104,18 @@ def test_letters_that_the_locale_lacks_end_no_command(tmp_path):
     words = [sys.executable, "-m", "rosmini", "run", script]
     done = run(words, env=os.environ | {"PYTHONIOENCODING": "cp1252", "PYTHONUTF8": "0"}, encoding="cp1252")
     assert (done.returncode, done.stdout, done.stderr) == (0, "[talker] é \\u2192 ü\n", "")
+
+
+def test_ctrl_c_ends_the_command_quietly_while_its_modules_are_imported(monkeypatch, capsys):
+    class Interrupted:
+        """Finds no module: the user presses Ctrl-C first."""
+
+        @staticmethod
+        def find_spec(*_):
+            raise KeyboardInterrupt
+
+    monkeypatch.delitem(sys.modules, "rosmini.cli.main")
+    monkeypatch.setattr(sys, "meta_path", [Interrupted])
+    status = entry.main()
+    assert status == 130
+    assert capsys.readouterr().err == "\n"
