@@ -11,7 +11,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import nearest
-from rosmini.expressions import Expression
+from rosmini.expressions import FUNCTIONS, MATH, Expression, Function, Namespace
 from rosmini.msgs import Message
 from rosmini.time import TVal
 
@@ -23,7 +23,23 @@ _METHODS: dict[type, tuple[str, ...]] = {TVal: ("to_sec", "to_nsec", "is_zero")}
 
 def message_expression(text: str, names: Collection[str]) -> Expression:
     """Return an expression of messages and times under some names. Raises ``ExpressionError``."""
-    return Expression(text, names=names, fields=_field, methods=_METHODS)
+    return Expression(text, names=names, functions=_FUNCTIONS, fields=_field, methods=_METHODS)
+
+
+def _has_field(value: Any, name: str) -> bool:
+    try:
+        _field(value, name)
+    except AttributeError:
+        return False
+    return True
+
+
+_FUNCTIONS: dict[str, Any] = {
+    **MATH,
+    **FUNCTIONS,
+    "math": Namespace("math", MATH),
+    "hasattr": Function("hasattr", _has_field),
+}
 
 
 def _field(value: Any, name: str) -> Any:

@@ -32,6 +32,7 @@ def value(text: str, m: Any = SCAN, topic: str = "/scan") -> Any:
     [
         # http://wiki.ros.org/rosbag/Commandline#rosbag_filter and http://wiki.ros.org/rosbag/Cookbook
         ("topic == '/velodyne_point_cloud' or topic == '/scan'", SCAN),
+        ("hasattr(m, 'ranges') and not hasattr(m, '__class__') and not hasattr(topic, 'upper')", SCAN),
         (("(topic == '/tf' or topic == '/scan') and (m.transforms[0].header.frame_id != '/map' or "
          "m.transforms[0].child_frame_id == 'x')"), TF),
         ("topic != '/tf' or m.transforms[0].header.frame_id != '/map'", TF),

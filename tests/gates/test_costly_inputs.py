@@ -6,6 +6,8 @@ twice as many calls. Where the cost would be inside one call, n is so large that
 
 from __future__ import annotations
 
+import bz2
+import struct
 import sys
 import warnings
 from collections.abc import Callable
@@ -14,7 +16,10 @@ from typing import NamedTuple
 
 import pytest
 
-from rosmini import launch
+from rosmini import launch, rosparam, urdf
+from rosmini.bag.mcap import from_mcap
+from rosmini.bag.reader import Reader, read_index
+from rosmini.bag.records import MAGIC, OP_CHUNK, OP_CHUNK_INFO, bag_header, pack_record, u32, u64
 from rosmini.errors import RosminiError
 from rosmini.expressions import Expression
 from rosmini.packages import PackageIndex
@@ -43,8 +48,40 @@ def _value(text: str) -> str:
     return _launch(f'<param name="a" value="{text}"/>')
 
 
-def _each(pattern: str, n: int) -> str:
-    return "".join(pattern.replace("#", str(i)) for i in range(n))
+def _each(pattern: str, n: int, step: int = 1, end: str = "") -> str:
+    return "".join(pattern.replace("#", str(i * step)) + end for i in range(n))
+
+
+def _xacro(text: str) -> str:
+    return f'<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">{text}<link name="a"/></robot>'
+
+
+_SIZE = 987_654
+"""What the chunk of `_one_chunk` says of its length."""
+
+
+def _one_chunk(infos: int) -> bytes:
+    """A bag whose index names its one chunk, of zeros, so many times."""
+    chunk = pack_record(
+        {"compression": b"bz2", "op": bytes([OP_CHUNK]), "size": u32.pack(_SIZE)}, bz2.compress(bytes(_SIZE))
+    )
+    start = len(MAGIC) + len(bag_header(0, 0, 0))
+    fields = {
+        "chunk_pos": u64.pack(start),
+        "count": u32.pack(0),
+        "op": bytes([OP_CHUNK_INFO]),
+        "ver": u32.pack(1),
+    }
+    info = pack_record({**fields, "start_time": bytes(8), "end_time": bytes(8)})
+    return MAGIC + bag_header(start + len(chunk), 0, infos) + chunk + info * infos
+
+
+def _read_bag(path: Path) -> None:
+    with path.open("rb") as file:
+        index = read_index(file, str(path))
+        reader = Reader(file, index, str(path))
+        for each in index.chunks:
+            reader.data(each)
 
 
 TALKER = '<node name="n#" pkg="rospy_tutorials" type="talker.py"/>'
@@ -69,6 +106,36 @@ FAMILIES = {
         "a.txt", lambda n: f"('a' * {n}).rfind('a' * {n // 4} + 'b' + 'a' * {n // 4})", 400_000, refused=True
     ),
     "large numbers as text": Family("a.txt", lambda n: f"str([1 << 4000] * {n})", 100_000, refused=True),
+    # parameter files
+    "colliding keys": Family("a.yaml", lambda n: f"a: {{{_each('#: 1, ', n, PRIME)}}}", 5000, refused=True),
+    "aliases of aliases": Family(
+        "a.yaml",
+        lambda n: "a0: &a0 [1]\n" + "".join(f"a{i}: &a{i} [{f'*a{i - 1}, ' * 9}]\n" for i in range(1, n)),
+        40,
+        refused=True,
+    ),
+    "values on many lines": Family("a.yaml", lambda n: f"a:\n{_each('- #', n, 1, chr(10))}", 2000),
+    "loops in angles": Family(
+        "a.yaml", lambda n: _each("k#: rad([i for i in [1] * 999][0])", n, 1, "\n"), 500, refused=True
+    ),
+    # robot descriptions
+    "parameters of a macro": Family(
+        "a.xacro",
+        lambda n: _xacro(f'<xacro:macro name="m" params="{_each("p#:=1 ", n)}"><a/></xacro:macro>'),
+        60_000,
+        refused=True,
+    ),
+    "dollar signs in xacro": Family(
+        "a.xacro", lambda n: _xacro(f'<link name="{"$" * n}"/>'), 200_000, refused=True
+    ),
+    # bags
+    "chunk infos that name one chunk": Family("a.bag", _one_chunk, 200, refused=True),
+    "a chunk that claims a gigabyte": Family(
+        "a.bag", lambda n: _one_chunk(1).replace(u32.pack(_SIZE), u32.pack(n)), 2**30, refused=True
+    ),
+    "a length beyond the end of an MCAP file": Family(
+        "a.mcap", lambda n: b"\x89MCAP0\r\n\x01" + struct.pack("<QI", 8, n) + bytes(4), 2**31, refused=True
+    ),
     # launch files
     "dollar signs": Family("a.launch", lambda n: _value("$" * n), 500_000),
     "brackets that stay open": Family("a.launch", lambda n: _value("$(" * n), 250_000),
@@ -101,6 +168,14 @@ def _read(path: Path) -> object:
     match path.suffix:
         case ".txt":
             return Expression(path.read_text("utf-8")).evaluate({})
+        case ".yaml":
+            return rosparam.load_file(path)
+        case ".xacro":
+            return urdf.load(path)
+        case ".bag":
+            return _read_bag(path)
+        case ".mcap":
+            return from_mcap(path, path.with_suffix(".bag"))
         case ".launch":
             return launch.read(path, environ={}, packages=PACKAGES, lenient=True)
     raise AssertionError(path)

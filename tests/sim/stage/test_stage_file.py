@@ -160,6 +160,16 @@ def test_broken_files_name_their_line(text: str, line: int, words: str):
     assert words in str(caught.value)
 
 
+@pytest.mark.parametrize("text", ["secret", "secret:x:0", "a secret:x"])
+def test_errors_do_not_quote_a_file_that_is_included(text: str, tmp_path: Path):
+    (tmp_path / "passwd").write_text(f"\n{text}\n", encoding="utf-8")
+    world = tmp_path / "a.world"
+    world.write_text('include "passwd"\n', encoding="utf-8")
+    with pytest.raises(StageError, match=r"passwd:2: ") as caught:
+        load(world)
+    assert "secret" not in str(caught.value)
+
+
 def test_definitions_that_explode_are_refused():
     levels = [f"define m{i} model ( {f'm{i - 1}( ) ' * 10} )" for i in range(1, 12)]
     with pytest.raises(StageError, match="more than 100000 entities"):
