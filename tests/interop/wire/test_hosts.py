@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from contextlib import contextmanager
 from pathlib import Path
@@ -250,3 +251,45 @@ def test_behind_a_firewall_a_turtle_obeys_and_nobody_hears_it(site: Site, hosts:
         turtle.wait_for("Oh no! I hit the wall!")
     for child in (teleop, turtle):
         child.interrupt()
+
+
+NAMED = 'mount --bind "$0" /etc/hosts && hostname "$1" && shift && exec "$@"'
+
+
+def named(host: Host, name: str, hosts_file: Path) -> Host:
+    """The same computer with a host name and a table of hosts."""
+    words = ["unshare", "--uts", "--mount", "sh", "-c", NAMED, str(hosts_file), name]
+    return host._replace(within=[*host.within, *words])
+
+
+def test_two_hosts_that_know_each_other_by_name_answer_each_other(hosts: Hosts, tmp_path: Path) -> None:
+    """Each answers calls for its own host name, from real nodes and ours; roscore refuses those for another name."""
+    if not hosts.are_apart or os.geteuid() != 0:
+        pytest.skip("names of hosts need namespaces and root")
+    table = tmp_path / "hosts"
+    lines = ["127.0.0.1 localhost", f"{hosts.a.address} robot robot.local alias", f"{hosts.b.address} laptop"]
+    table.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    robot, laptop = named(hosts.a, "robot", table), named(hosts.b, "laptop", table)
+    (tmp_path / "stage").mkdir()
+    with Site(tmp_path / "stage", host="robot") as site:
+        env = {"ROS_IP": hosts.a.address}  # so that it is the host name by which it is known as robot
+        words = [*ROSMINI, "roscore", "-p", str(site.port)]
+        core: Child = site.start("roscore", words, env, within=robot.within)
+        core.wait_for(r"started core service \[/rosout\]")
+        for number, kind in enumerate(("ours", "real")):
+            speaker = site.peer(kind, f"speaker_{kind}", within=robot.within, ROS_HOSTNAME="robot", ROS_IP="")
+            hearer = site.peer(kind, f"hearer_{kind}", within=laptop.within, ROS_HOSTNAME="laptop", ROS_IP="")
+            speaker.ready().ask("advertise", f"/said_{number}", "std_msgs/String")
+            hearer.ready().ask("subscribe", f"/said_{number}", "std_msgs/String")
+            assert speaker.uri.startswith("http://robot:")
+            assert hearer.uri.startswith("http://laptop:")
+            env = site.environment(ROS_HOSTNAME="laptop", ROS_IP="")
+            for name in (f"/speaker_{kind}", f"/hearer_{kind}"):
+                for tool in (["rosnode"], [*ROSMINI, "rosnode"]):
+                    said = run([*laptop.within, *tool, "ping", "-c", "1", name], env=env, cwd=site.home)
+                    assert "xmlrpc reply from" in said.stdout, said
+        for host, is_known in (("robot.local", True), ("alias", False)):
+            env |= {"ROS_MASTER_URI": f"http://{host}:{site.port}"}
+            said = run([*laptop.within, "rosparam", "list"], env=env, cwd=site.home)
+            assert ("/rosversion" in said.stdout) == is_known
+        core.wait_for("refused a request from .*'alias'")
