@@ -53,6 +53,13 @@ def main(args: argparse.Namespace) -> int:
         return _complete(args.complete)
     shell = args.shell or _shell()
     print(lines(shell, _program()), end="")
+    kept = [name for name in names() if shutil.which(name)]
+    if kept:
+        print(
+            f"rosmini: these commands are of the ROS that is installed here, and stay so: {', '.join(kept)}. "
+            f"For rosmini's, write `rosmini {kept[0]}`.",
+            file=sys.stderr,
+        )
     return 0
 
 

@@ -155,17 +155,12 @@ ROBOTS_OWN = "a program of the robot itself, or of ROS packages that rosmini doe
 READERS_OWN = "a package or script that the reader wrote in the chapter"
 BY_HAND = "a page or a prompt that waits for the reader; tested in tests/widgets and tests/browser"
 PROCESSES = "needs nodes in processes of their own; tested in tests/cli"
-MISSING = "wrong: README shows scripts that are not in the repository"
-"""These are run, too, and have to fail: who makes one true takes it out of the list."""
 
 SKIPPED = {
     "pip install uv && uv run rosmini book": INSTALLS,
     "pip install uv && uv run pytest": INSTALLS,
     "python -m pip install uv": INSTALLS,
     "python -m uv run rosmini book": INSTALLS,
-    "uv run rosmini run talker.py + listener.py --duration 10": MISSING,
-    "uv run rosmini run rosmini_sim/simulator _world:=house + square.py": MISSING,
-    'uv run rosmini run stage_ros/stageros "package://stage_ros/world/willow-erratic.world" + square.py': MISSING,
     "ssh ubuntu@ROBOT roslaunch turtlebot3_bringup turtlebot3_robot.launch": ROBOTS_OWN,
     "python3 circle.py": READERS_OWN,
     "rosmini rosrun first circle.py": READERS_OWN,
@@ -210,9 +205,9 @@ def test_the_commands_run(block, notebook, monkeypatch):  # noqa: F811 - the fix
         notebook.ok(cell)
     for line in block.lines:
         reason = SKIPPED.get(line.command)
-        if reason in {None, MISSING}:
+        if reason is None:
             status, written = typed(line.command, notebook)
-            fails = reason == MISSING or "error" in line.shown.lower()
+            fails = "error" in line.shown.lower()
             assert bool(status) == fails, f"{line.command}\n{written}"
 
 

@@ -137,6 +137,20 @@ def test_each_shell_has_its_lines(
         cli.main(["aliases", "tcsh"])
 
 
+def test_the_commands_of_an_installed_ros_are_named(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(aliases.shutil, "which", {"roslaunch": "/usr/bin/roslaunch"}.get)
+    assert cli.main(["aliases", "bash"]) == 0
+    said = capsys.readouterr()
+    assert "roslaunch" in said.err and "rostopic" not in said.err
+    assert "`rosmini roslaunch`" in said.err
+    assert "installed" not in said.out
+    monkeypatch.setattr(aliases.shutil, "which", lambda name: None)
+    assert cli.main(["aliases", "bash"]) == 0
+    assert capsys.readouterr().err == ""
+
+
 def test_only_names_of_ros_are_given() -> None:
     assert {"rostopic", "roscd", "roslaunch", "rosbag"} <= set(aliases.names())
     assert not {"test", "run", "world", "lab", "bench", "aliases", "gz", "mcap"} & set(aliases.names())
