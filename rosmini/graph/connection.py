@@ -86,6 +86,7 @@ class Connection(DirectReceiver):
         self._gate: Gate | Chain | None = node.graph.gates.gate(subscription.topic, node.name)
         self._draining = False
         self._has_told = False
+        self._parks = 0
         self._last: Any = None
         self._keep = False
         self._drain_ref = self._drain
@@ -249,8 +250,6 @@ class Connection(DirectReceiver):
         """Call the callbacks for what is queued. In the connection's lane."""
         incoming, take, header = self.incoming, self.incoming.popleft, self.header
         self.pending, self._draining = False, True
-        lane, is_bounded = self._lane, bool(self.subscription.queue_size)
-        parks = lane.parks
         try:
             while incoming:
                 way = self.way or self._find_way()
@@ -271,11 +270,6 @@ class Connection(DirectReceiver):
                             call(message)
                         except Exception as error:
                             self._failed(error, callback, message)
-                    if (
-                        is_bounded and lane.parks != parks
-                    ):  # a callback has blocked: what came meanwhile had to wait
-                        parks = lane.parks
-                        self._trim()
         finally:
             self._draining = False
             if incoming and not self._gone:
@@ -286,8 +280,19 @@ class Connection(DirectReceiver):
 
     def _find_way(self) -> Way:
         way = self.subscription.way(self.message_class)
+        if self.subscription.queue_size and way.callbacks:
+            self._parks = self._lane.parks
+            own_step = self._trim_after_block, Callback(self._trim_after_block, ())
+            way = Way(way.own, way.thaw, way.label, (*way.callbacks, own_step))
         self.way = way if self.subscription.node.scheduler.history is None else self._recorded(way)
         return self.way
+
+    def _trim_after_block(self, _: Any) -> None:
+        """Drop what came while a callback was blocked, beyond the queue size. Called after the callbacks."""
+        parks = self._lane.parks
+        if parks != self._parks:
+            self._parks = parks
+            self._trim()
 
     def _recorded(self, way: Way) -> Way:
         """Return a way on which it is recorded what is delivered, and that callbacks act on it."""

@@ -44,7 +44,9 @@ def test_every_figure_is_numbered_in_order(code):
 
 
 def test_the_answers_of_rosmsg_are_true(prose):
-    box = re.search(r"\$ rosmsg show (\S+)\n(.*?)\n> \$ rosmsg md5 (\S+)\n> (\w+)", prose, re.DOTALL)
+    box = re.search(
+        r"\$ rosmsg show (\S+)\n(.*?)\n(?:> )?\$ rosmsg md5 (\S+)\n(?:> )?(\w+)", prose, re.DOTALL
+    )
     shown, lines, fingerprinted, md5 = box.groups()
     assert [line.removeprefix("> ") for line in lines.splitlines()] == list(tree(message_class(shown)))
     assert message_class(fingerprinted)._md5sum == md5
