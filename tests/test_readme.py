@@ -42,7 +42,7 @@ def test_ci_runs_the_commands_of_the_readme_as_they_stand_there():
     assert shown == [*one_line, "python -m pip install uv", "python -m uv run rosmini book"]
     jobs = yaml.safe_load((ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8"))["jobs"]
     run = {name: [step["run"] for step in job["steps"] if "run" in step] for name, job in jobs.items()}
-    assert run["readme"] == one_line
+    assert [line for line in run["readme"] if line in one_line] == one_line
     assert set(shown[2:]) < set(run["powershell"])
     script = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
     assert "uv run pytest\n" in script

@@ -80,7 +80,11 @@ def test_the_wheel_carries_the_assets_and_no_tests(wheel):
     }
     assert "rosmini/_assets/ros/std_msgs/msg/String.msg" in assets
     assert {*assets, "rosmini/_assets/core/rospy/package.xml"} <= names
-    assert {name.partition("/")[0].partition("-")[0] for name in names} == {"rosmini", "ament_index_python"}
+    assert {name.partition("/")[0].partition("-")[0] for name in names} == {
+        "rosmini",
+        "rosmini_ros",
+        "ament_index_python",
+    }
     assert not [name for name in names if name.endswith((".pyc", ".ipynb")) or "generate" in name]
     assert {name for name in names if name.count("/") == 2 and name.startswith("rosmini/book/")} == {
         "rosmini/book/__init__.py",
