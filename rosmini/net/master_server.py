@@ -135,7 +135,7 @@ class MasterServer:
         if method not in METHODS:
             raise XmlRpcFault(1, f"<class 'Exception'>:method \"{method}\" is not supported")
         answer = getattr(self._master, method)(*arguments)
-        if self._advertised is not None and method.startswith("register"):
+        if self._advertised is not None and method.startswith("register") and arguments:
             self._advertised.look(caller, str(arguments[0]), str(arguments[-1]))
         if self._on_call is not None:
             self._on_call(method, arguments, answer)
