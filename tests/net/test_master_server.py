@@ -77,6 +77,17 @@ def test_texts_bytes_and_dates_are_kept_as_they_are(io: IoThread) -> None:
         server.close()
 
 
+def test_a_registration_without_arguments_gets_a_fault_that_says_so(io: IoThread) -> None:
+    with Graph() as graph:
+        server = MasterServer(io, master_of(graph), addresses({}), 0)
+        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
+            for method in ("registerPublisher", "registerSubscriber", "registerService"):
+                code, text, _ = getattr(proxy, method)()
+                assert code == -1
+                assert "caller_id" in text
+        server.close()
+
+
 def test_somebody_shuts_it_down(io: IoThread) -> None:
     reasons: list[str] = []
     with Graph() as graph:
