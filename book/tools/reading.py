@@ -16,18 +16,24 @@ MINUTES_AN_EXERCISE = 10
 DIRECTIONS_ID = "how-to-run-this"
 
 
-def minutes(notebook: nbformat.NotebookNode) -> int:
-    """Estimate how long a chapter takes, exercises included [min], rounded up to five (DESIGN section 7)."""
+def length(notebook: nbformat.NotebookNode) -> tuple[int, int]:
+    """The numbers of words and of code cells of a chapter before its exercises; fenced code and tags do not count."""
     words = cells = 0
     for cell in notebook.cells:
         text, exercises, _ = cell.source.partition("\n## Exercises\n")
         if cell.cell_type == "markdown":
-            prose = re.sub(r"^(~~~|```).*?^\1", "", text, flags=re.DOTALL | re.MULTILINE)
+            prose = re.sub(r"^```.*?^```|</?\w+>", "", text, flags=re.DOTALL | re.MULTILINE)
             words += len(re.findall(r"\S*\w\S*", prose))
         else:
             cells += 1
         if exercises:
             break
+    return words, cells
+
+
+def minutes(notebook: nbformat.NotebookNode) -> int:
+    """Estimate how long a chapter takes, exercises included [min], rounded up to five (DESIGN section 7)."""
+    words, cells = length(notebook)
     total = (
         words / WORDS_A_MINUTE + cells * MINUTES_A_CELL + len(solutions.stubs(notebook)) * MINUTES_AN_EXERCISE
     )

@@ -63,7 +63,7 @@ def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: B
     return budget.made(found)
 
 
-_CONVERSION = re.compile(r"%(?:\([^()]*\))?[-+ #0]*([0-9]*|\*)(?:\.([0-9]*|\*))?[hlL]?(.?)", re.DOTALL)
+_CONVERSION = re.compile(r"%(?:\([^()]*\))?[-+ #0]*(\*|[0-9]*)(?:\.(\*|[0-9]*))?[hlL]?(.?)", re.DOTALL)
 """A conversion of a format string, with its width, its precision and its type, as Python reads it. Of a key with
 brackets inside the type is ``(``."""
 

@@ -6,9 +6,10 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
-from book.tools import notebooks
+from book.tools import notebooks, reading
 
 from ...processes import run
 
@@ -27,17 +28,11 @@ def printed(cells: Any, start: str) -> str:
     return "".join(output.get("text", "") for output in cell.outputs)
 
 
-def assert_short(cells: Any, words: int = 2000) -> None:
-    """A chapter has so many words and 25 code cells before its exercises, at most (DESIGN, section 7)."""
-    before = []
-    for cell in cells:
-        text, exercises, _ = cell.source.partition("\n## Exercises\n")
-        before.append((cell.cell_type, text))
-        if exercises:
-            break
-    prose = "\n".join(text for kind, text in before if kind == "markdown")
-    assert len(re.findall(r"\S*\w\S*", prose)) <= words
-    assert sum(kind == "code" for kind, _ in before) <= 25
+def assert_short(cells: Any) -> None:
+    """A chapter has at most 2,300 words and 25 code cells before its exercises (DESIGN, section 7)."""
+    found, code_cells = reading.length(SimpleNamespace(cells=cells))
+    assert found <= 2300
+    assert code_cells <= 25
 
 
 def figure_numbers(chapter: str) -> list[int]:
