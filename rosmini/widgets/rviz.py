@@ -21,7 +21,7 @@ from rosmini.viz.rviz.picture import alt_text, look_at, words
 from rosmini.viz.rviz.primitives import Lines
 from rosmini.viz.rviz.projection import Perspective, Projection
 from rosmini.viz.rviz.selection import Picked, hit, picked
-from rosmini.viz.rviz.suggestions import suggested
+from rosmini.viz.rviz.suggestions import Suggestions, suggested
 from rosmini.viz.rviz.tools import Select, Tools
 from rosmini.viz.rviz.views import (
     PIXELS,
@@ -64,7 +64,8 @@ class RVizWindow(Panel):
 
     Args:
         graph: the graph.
-        config: a `.rviz` file, or its path; without one, displays are chosen by what is published.
+        config: a `.rviz` file, or its path; without one, each topic that can be shown has a display, also if it
+            appears later.
         fixed_frame: overrides that of the file.
         name: of the window's node, without which another window takes this one's place; `rviz` by default.
         node: what listens and publishes, in place of a node of the window's own.
@@ -88,6 +89,9 @@ class RVizWindow(Panel):
         found = chosen if isinstance(chosen, Config) else Config.read(chosen)
         super().__init__(graph, name=name, node=node)
         self.scene = Scene(graph, found, fixed_frame=fixed_frame, node=self.node)
+        self._suggestions = Suggestions(graph, self.scene, fixed_frame) if config is None else None
+        self._numbered: list[Display] = []
+        """The displays, each at the number that its control has: a click must not reach a display that is new there."""
         self.tools = Tools(self.scene)
         self.time = TimePanel(self.scene)
         self.selected: list[Picked] = []
@@ -113,7 +117,10 @@ class RVizWindow(Panel):
 
     def parts(self) -> Sequence[Part]:
         """Tools, the scene, what the tool says, view and frame, the displays, time, and what is selected."""
-        if self._look is None or self.scene.context.now_ns < self._fits_until_ns:
+        now_ns = self.scene.context.now_ns
+        if self._suggestions is not None and self._suggestions.look() and self._fits_until_ns:
+            self._fits_until_ns = now_ns + SETTLES_NS
+        if self._look is None or now_ns < self._fits_until_ns:
             self.fit()
         self._layers = self.scene.update()
         if self._look is None or not self._held or isinstance(self._look, Projection) == self.is_solid:
@@ -219,7 +226,11 @@ class RVizWindow(Panel):
         return rows
 
     def _number(self, wanted: Display) -> int:
-        return next(number for number, each in enumerate(self.scene) if each is wanted)
+        for number, each in enumerate(self._numbered):
+            if each is wanted:
+                return number
+        self._numbered.append(wanted)
+        return len(self._numbered) - 1
 
     # -- what a hand does ----------------------------------------------------------------------------------------
 
@@ -241,8 +252,7 @@ class RVizWindow(Panel):
                 self.time.reset()
                 self.selected = []
             case _:
-                display = list(self.scene)[int(key[1])]
-                display.enabled = value
+                self._numbered[int(key[1])].enabled = value
 
     def fit(self) -> None:
         """Look from above, at all there is, as long as nothing of the file says otherwise."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Iterator
 
@@ -10,6 +11,7 @@ import pytest
 
 from rosmini import Graph
 from rosmini.interactive_markers import InteractiveMarkerServer
+from rosmini.launch import roslaunch
 from rosmini.msgs.geometry_msgs.msg import PointStamped, PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl
@@ -224,3 +226,33 @@ def test_the_view_of_a_file_is_kept(graph):
     window.set("closer")
     assert window.scene.view["Distance"] == pytest.approx(5.6)
     window.close()
+
+
+def test_the_plans_and_costmaps_of_a_move_base_that_starts_later_are_shown():
+    said = io.StringIO()
+    with Graph() as graph:
+        window = RVizWindow(graph)
+        graph.run(0.5)
+        (table,) = (part for part in window.parts() if isinstance(part, Rows))
+        grid_row = table.rows[0]
+        console = {"stdout": said, "stderr": said}
+        roslaunch("rosmini_sim", "navigation.launch", graph=graph, console=console, world="room", noise="0")
+        graph.run(1.5)
+        (table,) = (part for part in window.parts() if isinstance(part, Rows))
+        names = [row.cells[0] for row in table.rows]
+        assert names.count("/scan") == 1
+        assert {f"/move_base/{each}_costmap/costmap" for each in ("global", "local")} < set(names)
+        plans = {"/move_base/NavfnROS/plan", "/move_base/DWAPlannerROS/local_plan"}
+        assert plans < set(names)
+        goal = PoseStamped()
+        goal.header.frame_id, goal.pose.orientation.w = "map", 1.0
+        goal.pose.position.x, goal.pose.position.y = 1.0, 0.5
+        publisher = graph.node("goals").publisher("/move_base_simple/goal", PoseStamped)
+        graph.run(0.5)
+        publisher.publish(goal)
+        graph.run(2.0)
+        window.parts()
+        assert all(window.scene[each].received for each in plans)
+        window.set(grid_row.cells[1].key, False)  # the maps that came between have not moved the controls
+        assert not window.scene["Grid"].enabled
+        window.close()

@@ -9,10 +9,13 @@ from rosmini.viz.map_colours import scheme_of
 
 from .config import Config
 from .display import Display
+from .displays.group import display_from
 from .topic_display import TopicDisplay
 
 if TYPE_CHECKING:
     from rosmini.graph import Graph
+
+    from .scene import Scene
 
 MOST = 40
 """Displays at most."""
@@ -26,12 +29,62 @@ TF_SCALE = 0.35
 """Of the axes of frames: at RViz's own they are as long as a TurtleBot3, and hide it."""
 SMALL = {"Shaft Length": 0.25, "Shaft Radius": 0.02, "Head Length": 0.1, "Head Radius": 0.05}
 """An arrow for robots of the size of a TurtleBot3: RViz's own is longer than a metre [m]."""
+GROUND = ("rviz/Grid", "rviz/Map")
+"""Displays that are drawn first, below everything else."""
+LOOK_NS = 1_000_000_000
+"""How often a window asks the Master for new topics [ns of graph time]."""
 
 
-def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
+class Suggestions:
+    """Adds displays to a scene for topics that appear after the window was opened.
+
+    It suggests each display once: the user may have removed it. While the user chooses no other fixed frame, it also
+    changes the frame to `map` when the first map appears.
+    """
+
+    def __init__(self, graph: Graph, scene: Scene, fixed_frame: str | None = None) -> None:
+        self._graph, self._scene, self._chosen = graph, scene, fixed_frame
+        self._frame = scene.fixed_frame
+        self._seen = {(each.plugin_name, each.name) for each in scene}
+        self._next_ns = graph.scheduler.now_ns() + LOOK_NS
+
+    def look(self) -> bool:
+        """Ask the Master if it is time to, and return whether the scene has new displays."""
+        scene, now = self._scene, self._graph.scheduler.now_ns()
+        if now < self._next_ns:
+            return False
+        self._next_ns = now + LOOK_NS
+        if scene.fixed_frame != self._frame:
+            self._chosen = scene.fixed_frame
+        try:
+            config = suggested(self._graph, self._chosen, apart_from=scene.node.name)
+        except RosminiError:
+            return False  # the Master is gone, or has not answered yet
+        frame = str(config.options()["Fixed Frame"])
+        if self._chosen is None and frame != self._frame:
+            scene.fixed_frame = self._frame = frame
+        there = {self._shows(each) for each in scene}
+        trees = {(each["Class"], each["Name"]): each for each in config.mappings("Displays")}
+        new = [display_from(tree) for name, tree in trees.items() if name not in self._seen]
+        self._seen |= trees.keys()
+        added = [each for each in new if self._shows(each) not in there and len(scene.displays) < MOST]
+        for each in added:
+            scene.add(each)
+        scene.displays.sort(key=lambda each: each.plugin_name not in GROUND)
+        return bool(added)
+
+    def _shows(self, display: Display) -> tuple[str, str]:
+        """The class of a display and its topic, if it has one."""
+        key = display.topic_property if isinstance(display, TopicDisplay) else "Update Topic"
+        topic = str(display[key]) if key in display else ""
+        return display.plugin_name, topic and self._scene.node.resolve(topic)
+
+
+def suggested(graph: Graph, fixed_frame: str | None = None, *, apart_from: str = "") -> Config:
     """A configuration with a grid and a display for each topic that one can show.
 
-    The fixed frame is `map` where there is a map, and otherwise `odom`. Raises as the Master's questions do.
+    The fixed frame is `map` where there is a map, and otherwise `odom`. Topics that only the node `apart_from`
+    publishes are left out. Raises as the Master's questions do.
     """
     kinds: dict[str, type[TopicDisplay]] = {}
     for name in Display.names():
@@ -40,7 +93,7 @@ def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
             kinds.setdefault(found.message, found)
     master = graph.ask_as("/rviz")
     types = {str(topic): str(kind) for topic, kind in master.ask("getTopicTypes")}
-    published = {str(topic) for topic, _ in master.ask("getSystemState")[0]}
+    published = {str(topic) for topic, nodes in master.ask("getSystemState")[0] if {*nodes} - {apart_from}}
     displays: list[dict[str, Any]] = [{"Class": "rviz/Grid", "Name": "Grid"}]
     for topic, kind in sorted(types.items()):
         if topic not in published or len(displays) >= MOST:
@@ -60,7 +113,7 @@ def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
             displays.append({"Class": SPECIAL[kind], "Name": "TF", "Marker Scale": TF_SCALE})
     if "rviz/RobotModel" in Display.names() and _has_robot(graph):
         displays.insert(1, {"Class": "rviz/RobotModel", "Name": "RobotModel"})
-    displays.sort(key=lambda each: each["Class"] not in ("rviz/Grid", "rviz/Map"))
+    displays.sort(key=lambda each: each["Class"] not in GROUND)
     config = Config(source="what is published")
     options = config.options()
     has_map = any(each["Class"] == "rviz/Map" for each in displays)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from rosmini.msgs.nav_msgs.msg import OccupancyGrid, Odometry
-from rosmini.viz.rviz.suggestions import suggested
+from rosmini.msgs.geometry_msgs.msg import PoseStamped
+from rosmini.msgs.nav_msgs.msg import OccupancyGrid, Odometry, Path
+from rosmini.msgs.sensor_msgs.msg import LaserScan
+from rosmini.viz.rviz.suggestions import Suggestions, suggested
 
 
 def names(config):
@@ -23,3 +25,63 @@ def test_frames_do_not_hide_a_small_robot(stage):
     stage.place("odom", "base_footprint")
     (frames,) = [each for each in suggested(stage.graph).mappings("Displays") if each["Class"] == "rviz/TF"]
     assert 0.2 * frames["Marker Scale"] < 0.08  # the axes' length against a Burger's 0.14 m
+
+
+def scene_and_suggestions(stage):
+    scene = stage.scene(suggested(stage.graph), None)
+    return scene, Suggestions(stage.graph, scene)
+
+
+def test_a_topic_that_appears_later_gets_one_display(stage):
+    scene, suggestions = scene_and_suggestions(stage)
+    stage.publish("/plan", Path())
+    assert not suggestions.look()  # the Master is asked once a second
+    stage.graph.run(1.0)
+    assert suggestions.look()
+    assert scene["/plan"].plugin_name == "rviz/Path"
+    stage.graph.run(1.0)
+    assert not suggestions.look()
+    assert [each.name for each in scene].count("/plan") == 1
+
+
+def test_a_display_that_the_user_removed_is_not_added_again(stage):
+    stage.publish("/scan", LaserScan(), "odom")
+    scene, suggestions = scene_and_suggestions(stage)
+    stage.publish("/plan", Path())
+    stage.graph.run(1.0)
+    suggestions.look()
+    for name in ("/scan", "/plan"):
+        scene.remove(scene[name])
+    stage.graph.run(1.0)
+    assert not suggestions.look()
+    assert {"/scan", "/plan"}.isdisjoint(each.name for each in scene)
+
+
+def test_what_the_user_or_the_window_itself_added_is_not_suggested(stage):
+    scene, suggestions = scene_and_suggestions(stage)
+    scene.add("LaserScan", {"Topic": "scan"}, name="mine")
+    scene.node.publisher("/move_base_simple/goal", PoseStamped)
+    stage.publish("/scan", LaserScan(), "odom")
+    stage.graph.run(1.0)
+    assert not suggestions.look()
+
+
+def test_a_map_that_appears_later_is_drawn_below_the_robot_and_gives_the_fixed_frame(stage):
+    stage.publish("/odom", Odometry(), "odom")
+    scene, suggestions = scene_and_suggestions(stage)
+    assert scene.fixed_frame == "odom"
+    stage.publish("/map", OccupancyGrid(), "map")
+    stage.graph.run(1.0)
+    assert suggestions.look()
+    assert scene.fixed_frame == "map"
+    order = [each.name for each in scene]
+    assert order.index("/map") < order.index("/odom")
+
+
+def test_a_fixed_frame_that_the_user_chose_stays(stage):
+    scene, suggestions = scene_and_suggestions(stage)
+    scene.fixed_frame = "base_link"
+    stage.publish("/map", OccupancyGrid(), "map")
+    stage.graph.run(1.0)
+    assert suggestions.look()
+    assert scene.fixed_frame == "base_link"
