@@ -22,8 +22,9 @@ def block(language: str, place: int = 0) -> str:
 
 
 def test_the_example_prints_what_is_shown(tmp_path):
-    (tmp_path / "example.py").write_text(block("python"), encoding="utf-8")
-    done = run([sys.executable, "example.py"], cwd=tmp_path)
+    (tmp_path / "circle.py").write_text(block("python"), encoding="utf-8")
+    [words] = re.findall(r"^\$ uv run rosmini (.* circle\.py .*)$", README, re.MULTILINE)
+    done = run([sys.executable, "-m", "rosmini", *words.split()], cwd=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (0, block("text"), "")
 
 

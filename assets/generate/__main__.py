@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from . import pictures, rviz_files, stubs, worlds
+from . import rviz_files, stubs, worlds
 from .drawings import DRAWINGS
 from .meshes import turtlebot3
 
@@ -17,7 +17,6 @@ def texts() -> dict[str, str]:
     made |= {f"assets/ros/{path}": text for path, text in rviz_files.texts().items()}
     for name, text in turtlebot3.files().items():
         made[f"assets/ros/turtlebot3_description/meshes/{name}"] = text
-    made["book/static/talker_listener.svg"] = pictures.talker_and_listener() + "\n"
     for name, drawing in DRAWINGS.items():
         made[f"book/static/drawings/{name}.svg"] = drawing + "\n"
     return made

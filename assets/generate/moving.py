@@ -1,4 +1,4 @@
-"""Pictures that move by themselves, without a script: the four on the cover, of which one is in the README, too.
+"""Pictures that move by themselves, without a script: the four on the cover, of which one is also in the README.
 
 Each is an SVG with CSS animations. It follows the theme of the page, and stands still, at its last moment, for readers
 who prefer reduced motion and in print. `python -m assets.generate.moving` makes them again, which drives for a minute.

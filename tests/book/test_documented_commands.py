@@ -161,6 +161,7 @@ SKIPPED = {
     "pip install uv && uv run pytest": INSTALLS,
     "python -m pip install uv": INSTALLS,
     "python -m uv run rosmini book": INSTALLS,
+    "uv run rosmini run rosmini_sim/simulator _world:=room + circle.py --duration 13": "run in tests/test_readme.py",
     "ssh ubuntu@ROBOT roslaunch turtlebot3_bringup turtlebot3_robot.launch": ROBOTS_OWN,
     "python3 circle.py": READERS_OWN,
     "rosmini rosrun first circle.py": READERS_OWN,
