@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -61,15 +61,40 @@ def _is_finite(value: Any) -> bool:
 
 
 def footprint_from_text(text: str, name: str) -> Footprint:
-    """The text of such a list, `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`. Raises `ParameterError`."""
-    try:
-        found = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise ParameterError(
-            f"Error parsing footprint parameter {name}: {error}. The footprint string was {text!r:.200}, and it has to "
-            f"be {EXAMPLE}"
-        ) from error
-    return footprint_from_list(found, name)
+    """The text of such a list, `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`, as costmap_2d reads it.
+
+    Commas and spaces both separate, and `.5`, `1.` and `+1` are numbers. Raises `ParameterError`.
+    """
+    points: list[list[float]] = []
+    point: list[float] = []
+    depth = 0
+    for match in _TOKEN.finditer(text):
+        token = match[0]
+        if token == "[":
+            depth, point = depth + 1, []
+        elif token == "]":
+            depth -= 1
+            if depth == 1:
+                points.append(point)
+        elif match["number"] and depth == 2:
+            point.append(float(token))
+        else:
+            raise _no_footprint(text, name, f"{token!r} is not a number inside two brackets")
+        if not 0 <= depth <= 2:
+            raise _no_footprint(text, name, "more ']' than '['" if depth < 0 else "more than two brackets are open")
+    if depth:
+        raise _no_footprint(text, name, "a ']' is missing")
+    return footprint_from_list(points, name)
+
+
+_TOKEN = re.compile(r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|[^\s,]")
+
+
+def _no_footprint(text: str, name: str, problem: str) -> ParameterError:
+    return ParameterError(
+        f"Error parsing footprint parameter {name}: {problem}. The footprint string was {text!r:.200}; it must be "
+        f"{EXAMPLE}"
+    )
 
 
 def footprint_text(footprint: Footprint) -> str:

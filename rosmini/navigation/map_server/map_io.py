@@ -2,8 +2,8 @@
 
 What the fields and the colours mean stands on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is
 silent, this does what map_server's image loader does: alpha is averaged with the colours in the mode `trinary` and
-means "unknown" where it is 0 in the mode `scale`; values are cut, not rounded. It is stricter in one thing: numbers
-that make no map are errors here.
+means "unknown" where it is 0 in the mode `scale`; values are cut, not rounded. It is stricter in one thing: a cell without
+size, numbers that are not finite and thresholds that are no probabilities are errors here.
 """
 
 from __future__ import annotations
@@ -144,8 +144,8 @@ def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
     """The map that a YAML file describes. Its image is looked for beside the YAML file, unless its path is absolute.
 
     Raises `MapError`, as `MapMissing` if there is no such file; as `MapMetadataError` if it is no YAML, a field is
-    missing or has a value of another type, the resolution is not positive, a number not finite, a threshold not
-    between 0 and 1, or `free_thresh` above `occupied_thresh`; as `MapDataError` if the image is not there, is none, has
+    missing or has a value of another type, the resolution is not positive, a number not finite, or a threshold not
+    between 0 and 1; as `MapDataError` if the image is not there, is none, has
     no pixels or leaves every cell unknown.
     """
     return map_file(yaml_path).load()
@@ -172,15 +172,7 @@ def _fields(document: _Document) -> Fields:
     for name, value in (("occupied_thresh", occupied), ("free_thresh", free)):
         if not 0 <= value <= 1:
             raise _wrong(document, name, value, "a probability, from 0 to 1")
-    if free > occupied:
-        raise MapMetadataError(
-            f"{document.place('free_thresh')}: free_thresh ({free:g}) is above occupied_thresh ({occupied:g}), so "
-            "cells would be both; usual are 0.196 and 0.65",
-            "free_thresh",
-        )
-    negate = found["negate"]
-    if isinstance(negate, bool) or negate not in (0, 1):
-        raise _wrong(document, "negate", negate, "0 or 1 (map_server does not read true and false)")
+    negate = _whole(document, "negate", found["negate"], "0 or 1 (map_server does not read true and false)")
     mode = found.get("mode", "trinary")
     if mode not in MODES:
         hint = nearest(str(mode), MODES)
@@ -195,13 +187,11 @@ def _document(path: Path) -> _Document:
     from rosmini.yaml_text import documents
 
     try:
-        text = files.read(path, LARGEST_TEXT).decode("utf-8")
+        text = files.read(path, LARGEST_TEXT).decode("utf-8-sig", errors="replace")
     except FileNotFoundError as error:
         raise MapMissing(f"there is no map {path}: {_nearest_file(path)}".rstrip(": ")) from error
     except OSError as error:
         raise MapMissing(f"the map {path} cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise _no_yaml(f"this is not YAML: {error}", str(path), None) from error
     found, root = next(documents(text, str(path), _no_yaml), (None, None))
     if not isinstance(found, dict) or not isinstance(root, yaml.MappingNode):
         raise MapMetadataError(f"{path} is not a map: it has no fields; it needs {', '.join(REQUIRED)}")
@@ -215,10 +205,20 @@ def _no_yaml(message: str, path: str, line: int | None) -> MapMetadataError:
 
 
 def _origin(document: _Document, value: object) -> tuple[float, float, float]:
-    if not isinstance(value, list) or len(value) != 3:
+    if not isinstance(value, list) or len(value) < 3:
         raise _wrong(document, "origin", value, "a list of x, y and yaw")
-    x, y, yaw = (_number(document, "origin", each) for each in value)
+    x, y, yaw = (_number(document, "origin", each) for each in value[:3])
     return x, y, yaw
+
+
+def _whole(document: _Document, name: str, value: object, wanted: str) -> int:
+    """A whole number, in quotation marks or not."""
+    try:
+        if isinstance(value, str) or type(value) is int:
+            return int(value)
+    except ValueError:
+        pass
+    raise _wrong(document, name, value, wanted)
 
 
 def _number(document: _Document, name: str, value: object) -> float:

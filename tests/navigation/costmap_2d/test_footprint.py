@@ -46,6 +46,19 @@ def test_a_text_goes_there_and_back():
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        "[[.5, 1.], [+.5, -1e0], [-.5, 0]]",
+        "[[0.5 1] [0.5 -1] [-0.5 0]]",
+        "[[0.5, 1,], [0.5, -1,], [-0.5, 0,],]",
+        "\t[[0.50,1.0],[0.5,-01.0],[-0.5,0]]",
+    ],
+)
+def test_a_text_is_read_as_costmap_2d_reads_it(text):
+    assert footprint_from_text(text, "footprint").tolist() == [[0.5, 1.0], [0.5, -1.0], [-0.5, 0.0]]
+
+
+@pytest.mark.parametrize(
     ("text", "said"),
     [
         ("[[0.1, 0.1], [0.1, -0.1]]", "a list of 2 points: You must specify at least three points"),
@@ -53,11 +66,13 @@ def test_a_text_goes_there_and_back():
             "[[0.1, 0.1], [0.1], [0, 0]]",
             r"\[1\] is \[0.1\]: Points in the footprint specification must be pairs",
         ),
-        ('[[0.1, 0.1], [0.1, "a"], [0, 0]]', "must be numbers, found 'a'"),
-        ("[[0.1, 0.1], [0.1, NaN], [0, 0]]", "must be numbers, found nan"),
+        ('[[0.1, 0.1], [0.1, "a"], [0, 0]]', "is not a number"),
+        ("[[0.1, 0.1], [0.1, NaN], [0, 0]]", "'N' is not a number"),
+        ("[[0.1, 0.1], [0.1, 0], [0, 0]]]", "more ']' than '\\['"),
+        ("[[[0.1, 0.1], [0.1, 0], [0, 0]]]", "more than two brackets"),
         (f"[[0.1, 0.1], [0.1, 1{'0' * 400}], [0, 0]]", "must be numbers, found"),
         ("[[0.1, 0.1", "Error parsing footprint parameter /x/footprint"),
-        ("0.3", "is 0.3: You must specify at least three points"),
+        ("0.3", "'0.3' is not a number inside two brackets"),
     ],
 )
 def test_what_is_no_footprint_is_refused(text, said):
