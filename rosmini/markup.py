@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 import xml.sax
 import xml.sax.handler
 from collections.abc import Iterator
@@ -179,9 +180,15 @@ class Element:
 
 
 def parse(
-    text: str | bytes, path: str | PathLike[str] = NO_PATH, failure: type[MarkupError] = MarkupError
+    text: str | bytes,
+    path: str | PathLike[str] = NO_PATH,
+    failure: type[MarkupError] = MarkupError,
+    *,
+    late_declaration: bool = False,
 ) -> Element:
     """The root of an XML text, which errors say is in `path`.
+
+    With `late_declaration`, comments and blank lines may precede `<?xml ...?>`, as in TinyXML, which Gazebo uses.
 
     Raises `MarkupError`, or the kind of it that `failure` names, for what is not XML, defines entities, or is nested
     deeper than `DEEPEST`; `Element.error` of every element makes errors of that kind too.
@@ -198,6 +205,8 @@ def parse(
         # A text has no encoding any more, whatever its first line says.
         text = text.encode("utf-8", "surrogatepass")
         source.setEncoding("utf-8")
+    if late_declaration:
+        text = _LATE_DECLARATION.sub(lambda found: found[1] + b" " * len(found[2]), text, count=1)
     source.setByteStream(io.BytesIO(text))
     try:
         parser.parse(source)
@@ -212,13 +221,18 @@ def parse(
     return builder.root
 
 
-def parse_file(path: str | PathLike[str], failure: type[MarkupError] = MarkupError) -> Element:
+_LATE_DECLARATION = re.compile(rb"\A((?:\xef\xbb\xbf)?\s*(?:<!--(?:(?!-->)[\s\S])*-->\s*)*)(<\?xml\s[^<>]*\?>)")
+
+
+def parse_file(
+    path: str | PathLike[str], failure: type[MarkupError] = MarkupError, *, late_declaration: bool = False
+) -> Element:
     """The root of an XML file. Raises as `parse` does, and if the file cannot be read."""
     try:
         text = read(path)
     except OSError as error:
         raise failure(f"cannot be read: {error.strerror}", fspath(path)) from error
-    return parse(text, path, failure)
+    return parse(text, path, failure, late_declaration=late_declaration)
 
 
 class _Builder(xml.sax.handler.ContentHandler):

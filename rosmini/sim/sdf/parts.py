@@ -181,7 +181,13 @@ def _collision(element: Element, scope: Scope, here: Pose6, reading: Reading) ->
     bounce = element.find("surface/bounce/restitution_coefficient")
     restitution = bounce.floats(bounce.text, 1)[0] if bounce is not None and bounce.text else 0.0
     if bounce is not None and not 0 <= restitution <= 1:
-        raise bounce.error(f"a restitution coefficient is between 0 and 1, not {restitution:g}")
+        nearest_valid = min(max(restitution, 0.0), 1.0)
+        reading.note(
+            bounce,
+            f"a restitution coefficient is from 0 to 1, not {restitution:g}: {nearest_valid:g} is taken",
+            warning=True,
+        )
+        restitution = nearest_valid
     return SdfCollision(
         name_of(element),
         scope.seen_from(here, given(element)),
@@ -236,12 +242,11 @@ def geometry(element: Element, reading: Reading) -> SdfGeometry:
     if not shapes:
         others = [child for child in element if ":" not in child.tag]
         for other in others:
-            if other.tag not in OTHER:
-                hint = nearest(other.tag, KINDS) or f"shapes are {', '.join(KINDS)}"
-                raise other.error(f"there is no shape <{other.tag}>; {hint}")
+            hint = nearest(other.tag, KINDS) or f"rosmini has {', '.join(KINDS)}"
             reading.note(
                 other,
-                f"the shape <{other.tag}> is left out; rosmini has {', '.join(KINDS)}",
+                f"the shape <{other.tag}> is left out; {hint}",
+                warning=other.tag not in OTHER,
                 left_out=f"<{other.tag}>",
             )
         return SdfGeometry("other" if others else "empty", line=element.line)

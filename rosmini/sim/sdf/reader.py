@@ -7,14 +7,14 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from rosmini.errors import shown
-from rosmini.markup import Element, parse, parse_file
+from rosmini.markup import Element, parse
 
 from .document import Pose6, Sdf, SdfActor, SdfModel, SdfPhysics, SdfWorld
 from .errors import MissingError, SdfError
 from .frames import Given, Scope, given
 from .parts import Reading, flag, joint, link, name_of, number, plugins, unique
 from .poses import compose, inverse
-from .resources import Resources
+from .resources import Resources, read_file
 
 DEEPEST = 20
 """The deepest nesting of models."""
@@ -38,13 +38,13 @@ def load(source: str | os.PathLike[str], *, models: Iterable[str | os.PathLike[s
     """
     reading = Reading(Resources(models))
     if isinstance(source, str) and source.lstrip().startswith("<"):
-        root = parse(source, failure=SdfError)
+        root = parse(source, failure=SdfError, late_declaration=True)
     elif isinstance(source, str) and source.startswith("package://"):
         from rosmini.packages import PackageIndex
 
-        root = parse_file(PackageIndex().resolve(source), SdfError)
+        root = read_file(PackageIndex().resolve(source))
     else:
-        root = parse_file(source, SdfError)
+        root = read_file(source)
     return _document(root, reading)
 
 

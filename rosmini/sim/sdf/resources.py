@@ -23,6 +23,11 @@ MODEL_PATH = "GAZEBO_MODEL_PATH"
 RESOURCE_PATH = "GAZEBO_RESOURCE_PATH"
 
 
+def read_file(path: str | os.PathLike[str]) -> Element:
+    """The root of an XML file, which TinyXML would read. Raises `SdfError`."""
+    return parse_file(path, SdfError, late_declaration=True)
+
+
 class Resources:
     """Finds what addresses in SDF files mean; `folders` are looked through first."""
 
@@ -49,7 +54,7 @@ class Resources:
     def parsed(self, path: Path) -> Element:
         """The root of an SDF file, which is read once. Raises `SdfError`."""
         if path not in self._parsed:
-            self._parsed[path] = parse_file(path, SdfError)
+            self._parsed[path] = read_file(path)
         return self._parsed[path]
 
     def find(self, uri: str, asked: Element) -> Path:
@@ -154,7 +159,7 @@ def _described(folder: Path, asked: Element) -> Path:
         if (folder / "model.sdf").is_file():
             return folder / "model.sdf"
         raise _missing(asked, f"{folder} is no model: it has no model.config")
-    named = [(_version(tag), tag) for tag in parse_file(config, SdfError).all("sdf") if tag.text]
+    named = [(_version(tag), tag) for tag in read_file(config).all("sdf") if tag.text]
     if not named:
         raise SdfError("no <sdf> says which file describes the model", str(config), 1)
     tag = max(named, key=lambda pair: pair[0])[1]

@@ -325,6 +325,10 @@ MISSING = "<geometry><mesh><uri>{}</uri></mesh></geometry>"
          "a mass is more than 0 kg, not 0: taken for 1 kg"),
         (model("<link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial></link>"),
          "ixx is more than 0 kg m2, not -1: all are taken for 1 kg m2"),
+        (model("<link name='l'><collision name='c'><geometry><boxx/></geometry></collision></link>"),
+         "<boxx> is left out; did you mean box"),
+        (model(f"<link name='l'><collision name='c'>{BOX}<surface><bounce><restitution_coefficient>2"
+            "</restitution_coefficient></bounce></surface></collision></link>"), "not 2: 1 is taken"),
     ],
 )  # fmt: skip
 def test_what_is_not_there_or_cannot_be_is_left_out_or_replaced_with_a_warning(text, said):
@@ -429,6 +433,16 @@ def test_an_address_of_a_file_is_a_path_as_this_system_has_them(tmp_path, monkey
     assert [each.name for each in made.models] == ["m"]
 
 
+@pytest.mark.parametrize("before", ["\n\n", "<!-- by hand -->\n", "\ufeff <!-- a -->\n<!-- b -->\n"])
+def test_comments_and_blank_lines_may_precede_the_declaration(tmp_path, before):
+    path = tmp_path / "late.world"
+    text = f"{before}<?xml version='1.0' encoding='UTF-8' ?>\n{world('<modle/>')}"
+    path.write_text(text, encoding="utf-8")
+    for source in (path, text.lstrip("\ufeff")):
+        (note,) = load(source).notes
+        assert f":{before.count(chr(10)) + 4}: " in str(note)
+
+
 # ---- what is wrong ----
 
 
@@ -458,8 +472,6 @@ def test_an_address_of_a_file_is_a_path_as_this_system_has_them(tmp_path, monkey
          4, "circle: a -> b -> a"),
         (model("<link name='l'/><link name='l'/>"), 3, "another link 'l'"),
         (model("<link name='l'><collision name='c'/></link>"), 3, "no <geometry>"),
-        (model("<link name='l'><collision name='c'><geometry><boxx/></geometry></collision></link>"),
-         3, "did you mean box"),
         (model("<link name='l'><collision name='c'><geometry><box><size>1 0 1</size></box></geometry>"
             "</collision></link>"), 3, "more than 0"),
         (model("<link name='l'><collision name='c'><geometry><sphere/></geometry></collision></link>"),
@@ -470,9 +482,6 @@ def test_an_address_of_a_file_is_a_path_as_this_system_has_them(tmp_path, monkey
             "</polyline></geometry></visual></link>"), 3, "3 points"),
         (model(f"<link name='l'><visual name='c'>{BOX}<material><diffuse>2 0 0 1</diffuse></material></visual></link>"),
          3, "between 0 and 1"),
-        (model(f"<link name='l'><collision name='c'>{BOX}<surface><bounce>"
-            "<restitution_coefficient>2</restitution_coefficient></bounce></surface></collision>"
-                "</link>"), 3, "between 0 and 1"),
         (model("<link name='l'><sensor name='s'/></link>"), 3, "type"),
         (model("<link name='l'><sensor name='s' type='ray'><update_rate>-1</update_rate></sensor></link>"),
          3, "0 .always. or more"),
