@@ -221,7 +221,9 @@ def parse(
     return builder.root
 
 
-_LATE_DECLARATION = re.compile(rb"\A((?:\xef\xbb\xbf)?\s*(?:<!--(?:(?!-->)[\s\S])*-->\s*)*)(<\?xml\s[^<>]*\?>)")
+_LATE_DECLARATION = re.compile(
+    rb"\A((?:\xef\xbb\xbf)?\s*(?:<!--(?:(?!-->)[\s\S])*-->\s*)*)(<\?xml\s[^<>]*\?>)"
+)
 
 
 def parse_file(

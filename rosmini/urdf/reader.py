@@ -72,7 +72,7 @@ def load(
     """
     index = packages if packages is not None else PackageIndex()
     if isinstance(source, bytes) or (isinstance(source, str) and source.lstrip().startswith("<")):
-        root = parse(source, path or NO_PATH, UrdfError)
+        root = parse(source, path or NO_PATH, UrdfError, late_declaration=True)
     else:
         file = _file(fspath(source), index)
         if file.suffix == ".xacro":
@@ -81,7 +81,7 @@ def load(
             text = expand(file, mappings, packages=index, confined=confined)
             root = parse(text, f"{file} (expanded)", UrdfError)
         else:
-            root = parse_file(file, UrdfError)
+            root = parse_file(file, UrdfError, late_declaration=True)
     return _Reader(root, index if meshes else None).robot()
 
 

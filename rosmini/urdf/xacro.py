@@ -25,6 +25,7 @@ from rosmini.packages import SCHEME, PackageIndex
 
 from .confined import Confined
 from .errors import UrdfError
+from .old_xacro import OldStyle
 
 USAGE = "usage: xacro [-o FILE] [--unconfined] INPUT [name:=value ...]"
 
@@ -125,6 +126,7 @@ def _lent(
         return str(index.path(name))
 
     limits = None if confined is None else Confined(xacro, substitution, confined, find)
+    old_style = OldStyle(xacro)
 
     def read(text: Any, filename: str | None = None) -> xml.dom.minidom.Document:
         if text is not None or filename is None:
@@ -139,7 +141,9 @@ def _lent(
         if limits is not None:
             limits.opened(filename)
         parse_file(filename, UrdfError)
-        return xml.dom.minidom.parse(filename)  # noqa: S318 (found harmless in the line above)
+        document = xml.dom.minidom.parse(filename)  # noqa: S318 (found harmless in the line above)
+        old_style.add_prefixes(document, filename)
+        return document
 
     arguments = xacro.substitution_args_context
     symbols = substitution._eval_dict  # noqa: SLF001 (there is no other way in)
@@ -148,7 +152,15 @@ def _lent(
     for_substitution = {} if limits is None else limits.for_substitution()
     with (
         _set(substitution, _eval_find=find, **for_substitution),
-        _set(xacro, parse=read, filestack=None, macrostack=None, all_includes=[], **for_xacro),
+        _set(
+            xacro,
+            parse=read,
+            filestack=None,
+            macrostack=None,
+            all_includes=[],
+            handle_macro_call=old_style.handle_macro_call,
+            **for_xacro,
+        ),
     ):
         try:
             symbols["find"] = find
@@ -194,7 +206,7 @@ def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]
     said = " ".join(_ends(str(error)).split()) or repr(error)
     unknown = re.search(r"unknown macro name: xacro:(\S+)", said)
     if unknown:
-        there = re.findall(r"<xacro:macro[^>]*\bname=[\"']([^\"']+)", _text(files))
+        there = re.findall(r"<(?:xacro:)?macro[^>]*\bname=[\"']([^\"']+)", _text(files))
         hint = nearest(unknown[1], there)
         return f"there is no macro xacro:{unknown[1]}{f'; {hint}' if hint else ''}"
     argument = re.search(r"Undefined substitution argument (\S+)", said)

@@ -298,3 +298,29 @@ def test_pypis_xacro_finds_packages_by_itself(index, monkeypatch):
     assert 'name="w_link"' in xacro.process_file(str(path)).toxml()
     with pytest.raises(PackageNotFoundError, match=r"there is no package 'my_robt'; did you mean my_robot\?"):
         get_package_share_directory("my_robt")
+
+
+def test_tags_without_the_prefix_are_read_as_until_melodic(index, capsys):
+    write(index, '<macro name="leg" params="side"><link name="${side}_leg"/></macro>', "legs.xacro")
+    file = write(
+        index,
+        """<include filename="$(find my_robot)/urdf/legs.xacro"/>
+        <arg name="arms" default="1"/>
+        <property name="body" value="torso"/>
+        <macro name="arm" params="*mount"><link name="arm"><insert_block name="mount"/></link></macro>
+        <link name="${body}"/>
+        <leg side="left"/>
+        <xacro:leg side="right"/>
+        <if value="$(arg arms)"><arm><inertial/></arm></if>
+        <unless value="$(arg arms)"><link name="no_arm"/></unless>
+        <gazebo><plugin><property name="x" value="1"/></plugin></gazebo>""",
+    )
+    text = expand(file, packages=index)
+    for name in ("torso", "left_leg", "right_leg", "arm"):
+        assert f'<link name="{name}"' in text
+    assert "<inertial/>" in text
+    assert "no_arm" not in text
+    assert '<property name="x"' in text
+    said = capsys.readouterr().err
+    assert said.count("r.urdf.xacro: ") == 1
+    assert "<macro>" in said

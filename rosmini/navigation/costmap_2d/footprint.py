@@ -68,26 +68,28 @@ def footprint_from_text(text: str, name: str) -> Footprint:
     points: list[list[float]] = []
     point: list[float] = []
     depth = 0
-    for match in _TOKEN.finditer(text):
-        token = match[0]
-        if token == "[":
+    for match in _PART.finditer(text):
+        part = match[0]
+        if part == "[":
             depth, point = depth + 1, []
-        elif token == "]":
+        elif part == "]":
             depth -= 1
             if depth == 1:
                 points.append(point)
         elif match["number"] and depth == 2:
-            point.append(float(token))
+            point.append(float(part))
         else:
-            raise _no_footprint(text, name, f"{token!r} is not a number inside two brackets")
+            raise _no_footprint(text, name, f"{part!r} is not a number inside two brackets")
         if not 0 <= depth <= 2:
-            raise _no_footprint(text, name, "more ']' than '['" if depth < 0 else "more than two brackets are open")
+            raise _no_footprint(
+                text, name, "more ']' than '['" if depth < 0 else "more than two brackets are open"
+            )
     if depth:
         raise _no_footprint(text, name, "a ']' is missing")
     return footprint_from_list(points, name)
 
 
-_TOKEN = re.compile(r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|[^\s,]")
+_PART = re.compile(r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|[^\s,]")
 
 
 def _no_footprint(text: str, name: str, problem: str) -> ParameterError:

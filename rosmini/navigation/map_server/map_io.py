@@ -2,8 +2,8 @@
 
 What the fields and the colours mean stands on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is
 silent, this does what map_server's image loader does: alpha is averaged with the colours in the mode `trinary` and
-means "unknown" where it is 0 in the mode `scale`; values are cut, not rounded. It is stricter in one thing: a cell without
-size, numbers that are not finite and thresholds that are no probabilities are errors here.
+means "unknown" where it is 0 in the mode `scale`; values are cut, not rounded. It is stricter in one thing: a
+cell without size, numbers that are not finite and thresholds that are not probabilities are errors here.
 """
 
 from __future__ import annotations
