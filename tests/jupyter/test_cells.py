@@ -73,7 +73,7 @@ def test_an_error_inside_the_library_that_is_not_rosminis_keeps_its_place(shared
     cell = shared_kernel.run(
         "from rosmini.errors import nearest, short_traceback\n"
         "try:\n    nearest(1, ['a'])\n"
-        "except AttributeError as error:\n    print(*short_traceback(error))"
+        "except TypeError as error:\n    print(*short_traceback(error))"
     )
     assert "errors.py" in cell.stdout
 
