@@ -284,8 +284,10 @@ class Connection(DirectReceiver):
             self._parks = self._lane.parks
             own_step = self._trim_after_block, Callback(self._trim_after_block, ())
             way = Way(way.own, way.thaw, way.label, (*way.callbacks, own_step))
-        self.way = way if self.subscription.node.scheduler.history is None else self._recorded(way)
-        return self.way
+        way = way if self.subscription.node.scheduler.history is None else self._recorded(way)
+        statistics = self.subscription.statistics
+        self.way = way = way if statistics is None else statistics.observed(way, self.peer)
+        return way
 
     def _trim_after_block(self, _: Any) -> None:
         """Drop what came while a callback was blocked, beyond the queue size. Called after the callbacks."""

@@ -38,6 +38,7 @@ from .service_api import ServiceApi
 from .slave import SlaveApi
 from .subscriber import Subscriber
 from .subscription import Subscription
+from .topic_statistics import TopicStatistics, are_wanted
 from .transport import extra_fields
 
 if TYPE_CHECKING:
@@ -236,11 +237,15 @@ class Node(ServiceApi):
 
         def make() -> Subscriber:
             name = self.resolve(topic)
+            statistics = (
+                TopicStatistics(self, name) if are_wanted(self, name) else None
+            )  # the Master may take its time
             self._require_running(f"subscribe to {name}")
             subscription = self.subscriptions.get(name)
             fresh = subscription is None
             if subscription is None:
                 subscription = self.subscriptions[name] = Subscription(self, name, message_class)
+                subscription.statistics = statistics
             elif subscription.disagrees_with(message_class):
                 mine = subscription.message_class._type
                 msg = f"{self.name} already subscribes to {name} as {mine}, not {message_class._type}."

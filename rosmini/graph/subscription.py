@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from .node_port import NodePort
     from .subscriber import Subscriber
+    from .topic_statistics import TopicStatistics
     from .transport import Header
 
 RETRY_S = 0.5
@@ -39,6 +40,8 @@ class Subscription:
         """Whether publishers elsewhere are asked to send each message at once."""
         self.skips_own_mismatch = False
         """Whether nothing is said if the node itself publishes the topic with another type."""
+        self.statistics: TopicStatistics | None = None
+        """What publishes statistics of the connections, if that is enabled."""
         self.updates = 0
         """How many times the Master has told who publishes the topic."""
         self._first: Subscriber | None = None
@@ -163,6 +166,8 @@ class Subscription:
         self.handles.remove(handle)
         self._changed()
         if not self.handles:
+            if self.statistics is not None:
+                self.statistics.close()
             self.node.drop_subscription(self)
 
     def num_open(self) -> int:

@@ -18,6 +18,7 @@ class SubscriptionPort(Protocol):
     handles: list[Any]
     queue_size: int | None
     tcp_nodelay: bool
+    statistics: Any
 
     def add(self, handle: Any) -> None: ...
     def remove(self, handle: Any) -> None: ...
