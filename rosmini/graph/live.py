@@ -32,8 +32,8 @@ SLICE_S = 0.01
 BUDGET_S = 0.02
 """How long one turn may take; a single callback that takes longer is not cut."""
 
-LAG_S = 0.1
-"""How far a live graph runs after wall time to make up for a delay.
+LAG_S = 0.5
+"""How far a live graph runs after wall time to make up for a delay: that of a large scene being drawn, for instance.
 
 After a longer one it goes on from where it stood.
 """
@@ -158,11 +158,13 @@ class LiveDrive(LoopDrive):
             )
 
     def _slice(self) -> float:
-        if self.graph.simulated:
-            self._drive(self._target())
-        else:
+        if not self.graph.simulated:
             self._drive()
-        return SLICE_S
+            return SLICE_S
+        target = self._target()
+        self._drive(target)
+        is_late = self.running and self.graph.scheduler.now_ns() < target
+        return 0.0 if is_late else SLICE_S
 
     def _target(self) -> int:
         now, wall = self.graph.scheduler.now_ns(), time.perf_counter()

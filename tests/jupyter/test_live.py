@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import pytest
+
+from rosmini import Graph
+from rosmini.graph import live as live_module
+from rosmini.graph.live import LiveDrive
 
 
 def live(kernel, code="drive = graph.live()"):
@@ -200,3 +206,43 @@ def test_a_cell_that_sleeps_by_itself_says_why_the_live_graph_stands_still(kerne
     assert kernel.ok("graph.run(0.01).reason").stderr == ""
     kernel.ok("drive.stop()\nawait asyncio.sleep(0.05)")
     assert kernel.ok("time.sleep(0.01)").stderr == ""
+
+
+class SlowLoop:
+    """An event loop with a wall clock of its own, which only the callbacks of a graph make go on."""
+
+    def __init__(self) -> None:
+        self.wall = 100.0
+        self._calls: list[tuple[float, Callable[[], object]]] = []
+
+    def call_soon_threadsafe(self, callback) -> None:
+        self.call_later(0.0, callback)
+
+    def call_later(self, delay, callback) -> None:
+        self._calls.append((self.wall + delay, callback))
+
+    def run(self, seconds) -> None:
+        end = self.wall + seconds
+        while self.wall < end:
+            when, callback = self._calls.pop(0)
+            self.wall = max(self.wall, when)
+            callback()
+
+
+@pytest.mark.parametrize(("period", "cost"), [(0.4, 0.3), (0.01, 0.008)], ids=["drawings", "many callbacks"])
+def test_a_live_graph_keeps_up_with_wall_time_while_callbacks_leave_it_enough(monkeypatch, period, cost):
+    loop, stamps = SlowLoop(), []
+    monkeypatch.setattr(live_module, "time", SimpleNamespace(perf_counter=lambda: loop.wall))
+    with Graph() as graph:
+
+        def draw(_event):
+            stamps.append(graph.now().to_sec())
+            loop.wall += cost
+
+        graph.node("window").timer(period, draw)
+        start = graph.now().to_sec()
+        drive = LiveDrive(graph, loop)
+        loop.run(10.0)
+        drive.stop()
+        assert graph.now().to_sec() - start == pytest.approx(10.0, abs=0.5)
+        assert len(stamps) == pytest.approx(10.0 / period, rel=0.06)
