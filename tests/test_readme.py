@@ -62,6 +62,12 @@ def test_the_versions_of_python_agree():
     assert matrix["python"] == [named[0], named[-1]]
 
 
+def test_the_citation_has_the_address_of_the_repository_once_it_is_known():
+    url = yaml.safe_load((ROOT / "book" / "_config.yml").read_text(encoding="utf-8"))["repository"]["url"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation.get("repository-code", "") == url
+
+
 def test_the_versions_agree():
     import rosmini
 

@@ -205,8 +205,9 @@ def copy_viewer(app: Sphinx, error: Exception | None) -> None:
 
 
 def substitute(app: Sphinx, config: Config) -> None:
-    """Define the substitutions that are computed."""
+    """Define the substitutions that are computed, and show the button to the repository if its address is known."""
     url = config.html_theme_options.get("repository_url", "")
+    config.html_theme_options["use_repository_button"] = bool(url)
     chapters = sorted(Path(app.srcdir, "notebooks").glob("*.ipynb"))
     minutes = sum(reading.minutes(notebooks.read(path)) for path in chapters)
     config.myst_substitutions |= {

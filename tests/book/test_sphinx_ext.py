@@ -13,7 +13,7 @@ pytest.importorskip("sphinx")
 from nbformat.v4 import new_code_cell, new_notebook, new_output
 
 from book.tools import notebooks
-from book.tools.sphinx_ext import copy_viewer
+from book.tools.sphinx_ext import copy_viewer, substitute
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
 PAGE = r"""# A page
@@ -163,6 +163,16 @@ def test_a_drawing_is_inline_with_its_caption(page):
 
 def test_a_stored_figure_is_shown_with_another_caption(page):
     assert STORED.replace("Figure 17.2: Its own caption", "What the notebook stored") in page
+
+
+@pytest.mark.parametrize(
+    ("url", "text"), [("", "a copy of this repository"), ("https://example.org/r", "(https://")]
+)
+def test_the_address_of_the_repository_is_one_setting(url, text, tmp_path):
+    config = SimpleNamespace(html_theme_options={"repository_url": url}, myst_substitutions={})
+    substitute(SimpleNamespace(srcdir=tmp_path), config)
+    assert text in config.myst_substitutions["repository_copy"]
+    assert config.html_theme_options["use_repository_button"] is bool(url)
 
 
 def test_a_figure_that_no_notebook_stores_is_an_error(tmp_path):
