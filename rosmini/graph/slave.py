@@ -24,6 +24,8 @@ METHODS = frozenset(
         "getBusStats",
         "getBusInfo",
         "getMasterUri",
+        "getName",
+        "getUri",
         "shutdown",
         "getPid",
         "getSubscriptions",
@@ -100,6 +102,10 @@ class SlaveApi:
         """Answer a call by method name; an unknown one or wrong arguments give code -1."""
         if method not in METHODS:
             return [-1, f'method "{method}" is not supported', 0]
+        if not arguments:
+            return [-1, "missing required caller_id parameter", 0]
+        if not isinstance(arguments[0], str):
+            return [-1, "caller_id must be a string", 0]
         function: Callable[..., Triple] = getattr(self, method)
         try:
             return function(*arguments)
@@ -145,6 +151,14 @@ class SlaveApi:
         uri = self._node.graph.master_uri
         return [1, uri, uri]
 
+    def getName(self, caller_id: str) -> Triple:
+        """Return the node's name; only rospy's nodes have this call."""
+        return [1, "", self._node.name]
+
+    def getUri(self, caller_id: str) -> Triple:
+        """Return the node's own URI; only rospy's nodes have this call."""
+        return [1, "", self._node.uri]
+
     def shutdown(self, caller_id: str, msg: str = "") -> Triple:
         """Shut the node down: the Master asks it of the older of two nodes with one name, ``rosnode kill`` of any."""
         self._post(lambda: self._node.shutdown_requested(caller_id, str(msg)))
@@ -164,22 +178,31 @@ class SlaveApi:
 
     def paramUpdate(self, caller_id: str, parameter_key: str, parameter_value: Any) -> Triple:
         """Learn that a parameter to which the node subscribes has changed."""
-        if not isinstance(parameter_key, str):
-            return [-1, "ERROR: parameter [parameter_key] must be a string", 0]
+        problem = _name_problem("parameter_key", parameter_key)
+        if problem:
+            return [-1, problem, 0]
         self._post(lambda: self._node.parameter_changed(parameter_key, parameter_value))
         return [1, "", 0]
 
     def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:
         """Learn who publishes a topic now."""
-        if not isinstance(topic, str):
-            return [-1, "ERROR: parameter [topic] must be a string", 0]
-        if not isinstance(publishers, list) or not all(isinstance(uri, str) for uri in publishers):
-            return [-1, "ERROR: parameter [publishers] must be a list of URIs", 0]
+        problem = _name_problem("topic", topic)
+        if not problem and not (isinstance(publishers, list) and all(map(_is_uri, publishers))):
+            problem = "ERROR: parameter [publishers] must be a list of URIs"
+        if problem:
+            return [-1, problem, -1]
         self._post(lambda: self._node.publishers_changed(topic, publishers))
         return [1, "", 0]
 
     def requestTopic(self, caller_id: str, topic: str, protocols: list[list[Any]]) -> Triple:
         """Tell a subscriber how to connect to a topic that this node publishes."""
+        problem = _name_problem("topic", topic)
+        if not problem and not (
+            isinstance(protocols, list) and protocols and all(map(_is_protocol, protocols))
+        ):
+            problem = "ERROR: parameter [protocols] must be specified and non-empty: a list of lists"
+        if problem:
+            return [-1, problem, []]
         node = self._node
         published = topic in self._published
         parameters = node.graph.transport.topic_parameters(node.uri, protocols) if published else None
@@ -188,6 +211,25 @@ class SlaveApi:
         if parameters is None:
             return [0, "no supported protocol implementations", []]
         return [1, f"ready on {node.uri}", parameters]
+
+
+def _name_problem(argument: str, name: Any) -> str:
+    """Return what is wrong with the name of a topic or a parameter; the texts are rospy's."""
+    if not isinstance(name, str) or not name:
+        return f"ERROR: parameter [{argument}] must be a non-empty string"
+    if ":" in name or " " in name:
+        return f"ERROR: parameter [{argument}] contains illegal chars"
+    if name == "/":
+        return f"ERROR: parameter [{argument}] cannot be the global namespace"
+    return ""
+
+
+def _is_uri(value: Any) -> bool:
+    return isinstance(value, str) and all(value.partition("://"))
+
+
+def _is_protocol(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and isinstance(value[0], str)
 
 
 def _info(end: Sender | Connection, peer: str) -> str:

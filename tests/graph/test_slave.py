@@ -73,6 +73,31 @@ def test_each_method_answers_as_in_ros(talking: Graph) -> None:
     assert call(talking, "/talker", "publisherUpdate", "/nothing", []) == [1, "", 0]
 
 
+def test_bad_arguments_get_code_minus_1_as_from_rospy(talking: Graph) -> None:
+    node = talking.nodes["/listener"]
+    for method, *arguments in (
+        ("getPid",),
+        ("getPid", 1),
+        ("getPid", "/test", "more"),
+        ("paramUpdate", "/test", 1, 1),
+        ("paramUpdate", "/test", "", 1),
+        ("publisherUpdate", "/test", "", ["http://here:1/"]),
+        ("publisherUpdate", "/test", "/", ["http://here:1/"]),
+        ("publisherUpdate", "/test", "/a b", ["http://here:1/"]),
+        ("publisherUpdate", "/test", "/chatter", "http://here:1/"),
+        ("publisherUpdate", "/test", "/chatter", ["http://here:1/", 2]),
+        ("publisherUpdate", "/test", "/chatter", ["here"]),
+        ("requestTopic", "/test", "/chatter", []),
+        ("requestTopic", "/test", "/chatter", [1]),
+        ("requestTopic", "/test", "/chatter", [[]]),
+    ):
+        code, status, _ = node.slave_call(method, *arguments)
+        assert code == -1, (method, arguments)
+        assert status
+    assert call(talking, "/listener", "getName") == [1, "", "/listener"]
+    assert call(talking, "/listener", "getUri") == [1, "", node.uri]
+
+
 def test_the_bus_lists_each_connection(talking: Graph) -> None:
     protocol = talking.transport.ways[0].protocol
     code, status, rows = call(talking, "/talker", "getBusInfo")
@@ -244,7 +269,7 @@ def test_a_thread_that_reads_a_wire_is_answered_while_a_callback_computes() -> N
     assert [(row[2], row[4], row[5]) for row in rows] == [("o", "/rosout", True), ("i", "/work", True)]
     assert answers["getSubscriptions"][2] == [["/work", "std_msgs/String"]]
     assert answers["requestTopic"][0] == 1
-    assert answers["bad"] == [-1, "ERROR: parameter [publishers] must be a list of URIs", 0]
+    assert answers["bad"] == [-1, "ERROR: parameter [publishers] must be a list of URIs", -1]
     assert [answers[name] for name in ("paramUpdate", "publisherUpdate", "shutdown")] == [
         [1, "", 0],
         [1, "", 0],
