@@ -237,10 +237,10 @@ class Node(ServiceApi):
 
         def make() -> Subscriber:
             name = self.resolve(topic)
-            statistics = (
-                TopicStatistics(self, name) if are_wanted(self, name) else None
-            )  # the Master may take its time
             self._require_running(f"subscribe to {name}")
+            statistics = TopicStatistics(self, name) if are_wanted(self, name) else None
+            if self._stopped:  # while it waited for the Master
+                raise ROSInterruptException(self._shutdown_message())
             subscription = self.subscriptions.get(name)
             fresh = subscription is None
             if subscription is None:
