@@ -305,7 +305,8 @@ def written(number: str) -> Script:
         if line.match(source := path.read_text(encoding="utf-8")):
             return Script(path.name, source)
     raise NoAnswer(
-        f"exercise {number} has no script yet: run the %%node cell that has `# Exercise {number}` in its second line"
+        f"exercise {number} has no script yet: run the %%node cell that has `# Exercise {number}` in its second line. "
+        "If it shows an error, fix that first"
     )
 
 

@@ -89,6 +89,11 @@ class Trial:
                     f"{handle.spec.path} ended with an error: {last}", "the last line says what; mend it"
                 )
 
+    def expect_no_errors(self) -> None:
+        """Raise `Wrong` if a script has logged an error, such as that of a callback that failed."""
+        if said := self._first_error():
+            raise Wrong(f"Your script logged an error: {said}", "the error names the line and the cause")
+
     def view(self) -> Any:
         """Return the picture of the drive so far; None before the robot was seen."""
         from rosmini.sim.recording import RecordingError

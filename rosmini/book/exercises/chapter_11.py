@@ -64,7 +64,11 @@ def stops_from(answer: Script, start: float) -> Any:
             trial.run(35.0)
             moved = way(trial, 1.0)
         x, _, _ = trial.robot.truth()
-        expect(x > start + 0.1, "The robot did not drive.", "publish a Twist on cmd_vel at every scan")
+        expect(
+            x > start + 0.1,
+            "The robot did not drive, although the wall was far away.",
+            "compare scan.ranges[0] with a distance, and publish at every scan",
+        )
         gap = WALL_X - x
         expect(gap > TOUCH_M, "The robot ran against the wall.", "compare scan.ranges[0] with a distance")
         expect(
@@ -77,6 +81,7 @@ def stops_from(answer: Script, start: float) -> Any:
             f"The robot stopped {gap:.2f} m from the wall; it should come nearer than half a metre.",
             "beam 0 looks straight ahead; it starts 3 cm behind the middle of the robot",
         )
+        trial.expect_no_errors()
         return trial.view()
 
 

@@ -30,5 +30,6 @@ MISTAKES = {
         wrong("stop.py", STOP, "ranges[0]", "ranges[90]"),
         wrong("stop.py", STOP, "scan.ranges[0]", "scan.range"),
         wrong("stop.py", STOP, "x = 0.0", "x = 0.1"),
+        wrong("stop.py", STOP, "linear.x = 0.0", "linear = 0"),
     ]
 }
