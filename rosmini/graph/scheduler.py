@@ -193,7 +193,7 @@ class Scheduler(EventQueue):
         else:
             self.give_way()
         self._turns, self._charged = turns, charged
-        if charged >= POLLING_TICKS and context is not None:
+        if self.simulated and charged >= POLLING_TICKS and context is not None:
             context.keeps_polling()
 
     def give_way(self) -> None:

@@ -99,17 +99,14 @@ def test_check_takes_a_part_of_a_robot_for_what_it_is(capsys, tmp_path):
 
 
 def test_check_names_file_and_line_of_what_is_wrong(capsys, tmp_path):
-    (tmp_path / "bad.world").write_text(BAD, encoding="utf-8")
     (tmp_path / "bad.yaml").write_text("image: a.png\nresolution: x\n", encoding="utf-8")
     (tmp_path / "bad.urdf").write_text("<robot name='r'>\n<link/></robot>", encoding="utf-8")
     (tmp_path / "stage.world").write_text("window ( size [ 1 2 )", encoding="utf-8")
-    files = ["bad.world", "bad.yaml", "bad.urdf", "stage.world", "none.world"]
+    files = ["bad.yaml", "bad.urdf", "stage.world", "none.world"]
     status, out, err = run(capsys, "check", "pillars", *(tmp_path / file for file in files))
     assert status == 1
     assert "turtlebot3_world.world: sound" in out
     lines = err.splitlines()
-    assert lines[0].startswith(f"error: {tmp_path / 'bad.world'}:4: ")
-    assert "did you mean box?" in lines[0]
     for file, line in zip(files, lines, strict=True):
         assert file in line
 

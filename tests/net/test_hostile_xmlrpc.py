@@ -240,9 +240,9 @@ def _check(answer: bytes) -> list[Any]:
 @pytest.mark.parametrize(
     "uris",
     [
-        [""],
+        ["http://:"],
         ["rosrpc://127.0.0.1:1"],
-        ["ftp://127.0.0.1:1/", "http://", "http://127.0.0.1:99999/", "http://[::1", "http:// /"],
+        ["ftp://127.0.0.1:1/", "http://:", "http://127.0.0.1:99999/", "http://[::1", "http:// /"],
         ["http://no-such-host.invalid:1/", "http://a\x7fb:1/", "http://" + "a" * 300 + ":1/"],
         ["http://127.0.0.1:1/" + str(number) for number in range(30)],
     ],
