@@ -130,8 +130,8 @@ class MasterProxy:
         if port.is_local:
             self._host.scheduler.charge(MASTER_TICKS)
             return self._reach(port, method, arguments)
-        with self._turn():
-            return self._reach(port, method, arguments)
+        with self._turn():  # the graph may have another Master when the turn comes
+            return self._reach(self._host.master, method, arguments)
 
     def _reach(self, port: MasterPort, method: str, arguments: tuple[Any, ...]) -> Triple:
         """Return a port's answer, and have it recorded where the graph records what happens."""
