@@ -8,11 +8,6 @@ import rosmini.cli.main as cli
 from rosmini.packages import assets_dir
 from rosmini.sim.worlds import names
 
-BAD = (
-    "<sdf version='1.7'>\n<world name='w'>\n<model name='m'>\n<link name='l'>"
-    "<collision name='c'><geometry><boxx/></geometry></collision></link></model></world></sdf>"
-)
-
 
 def run(capsys, *arguments):
     status = cli.main(["world", *(str(each) for each in arguments)])
