@@ -1,6 +1,8 @@
-"""For pytest: notebooks run with the display form of the book, which is what their stored outputs hold.
+"""For pytest: the environment in which notebooks and tests run.
 
-The rest of the tests, and the kernels and servers that they start, keep the environment as it is.
+Notebooks run with the display form of the book, which is what their stored outputs hold. Nothing sees the variables of
+a ROS that its user has set up (``source /opt/ros/noetic/setup.bash``, ``export TURTLEBOT3_MODEL=waffle``), so that
+tests do not contact that user's Master.
 """
 
 from __future__ import annotations
@@ -11,6 +13,15 @@ from collections.abc import Iterator
 import pytest
 
 from rosmini.viz.book_form import BOOK, VARIABLE
+
+OF_ROS = ("ROS_", "ROSLISP_", "TURTLEBOT3_")
+"""How the names of variables begin that belong to a ROS on this machine."""
+
+
+def pytest_configure() -> None:
+    """Take the variables of the user's own ROS out of the environment; what tests start inherits it."""
+    for name in [name for name in os.environ if name.startswith(OF_ROS)]:
+        del os.environ[name]
 
 
 @pytest.hookimpl(wrapper=True)

@@ -37,6 +37,7 @@ class Prompt:
     def __init__(self, places: Places) -> None:
         self.places = places
         self.environment: dict[str, str] = dict(START)
+        self._unset: set[str] = set()
         self._folder = self._previous = places.home
 
     @property
@@ -80,6 +81,7 @@ class Prompt:
         """Set a variable; None takes it out of the environment."""
         if value is None:
             self.environment.pop(name, None)
+            self._unset.add(name)
         else:
             self.environment[name] = self.places.shown(value)
 
@@ -99,12 +101,13 @@ class Prompt:
             self.put_first(name, self.places.shown(str(folder)))
 
     def real_environment(self, base: Mapping[str, str]) -> dict[str, str | None]:
-        """Return what is other in this environment than in ``base``; None for what is not in it.
+        """Return how this environment differs from ``base``; None for a variable that was unset here.
 
         ROS's own folders are left out of the lists: rosmini's packages are always found. Packages that ``base`` knows
         come after those of the terminal.
         """
-        found: dict[str, str | None] = {
+        found: dict[str, str | None] = dict.fromkeys(self._unset)
+        found |= {
             name: self.places.real(value)
             for name, value in self.environment.items()
             if name not in (*LISTS, *START)

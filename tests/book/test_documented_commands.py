@@ -198,7 +198,7 @@ SKIPPED = {
 
 
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: f"{block.page}-{block.lines[0].command[:40]}")
-def test_the_commands_run(block, notebook, monkeypatch):  # noqa: F811 - the fixture
+def test_the_commands_run(block, monkeypatch, notebook):  # noqa: F811 - the fixture
     monkeypatch.chdir(ROOT)
     monkeypatch.setenv("TURTLEBOT3_MODEL", "burger")
     monkeypatch.setattr(sys, "stdin", io.StringIO())

@@ -47,6 +47,17 @@ def test_nbval_runs_notebooks_in_the_form_of_the_book_and_leaves_other_tests_alo
     assert "1 failed, 1 passed" in without.stdout
 
 
+def test_nothing_sees_the_ros_of_the_user(tmp_path):
+    (tmp_path / "test_a.py").write_text(
+        "import os\ndef test(): assert not {'ROS_MASTER_URI', 'TURTLEBOT3_MODEL'} & set(os.environ)\n",
+        encoding="utf-8",
+    )
+    environment = os.environ | {"ROS_MASTER_URI": "http://robot:11311", "TURTLEBOT3_MODEL": "waffle"}
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "book.tools.pytest_plugin"]
+    done = run([*command, tmp_path], env=environment, cwd=tmp_path)
+    assert "1 passed" in done.stdout, done.stdout
+
+
 def test_the_project_loads_the_plugin(pytestconfig):
     assert pytestconfig.pluginmanager.has_plugin("book.tools.pytest_plugin")
 
