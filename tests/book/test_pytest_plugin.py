@@ -53,7 +53,16 @@ def test_nothing_sees_the_ros_of_the_user(tmp_path):
         encoding="utf-8",
     )
     environment = os.environ | {"ROS_MASTER_URI": "http://robot:11311", "TURTLEBOT3_MODEL": "waffle"}
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "book.tools.pytest_plugin"]
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "-p",
+        "book.tools.pytest_plugin",
+    ]
     done = run([*command, tmp_path], env=environment, cwd=tmp_path)
     assert "1 passed" in done.stdout, done.stdout
 

@@ -122,7 +122,9 @@ def test_a_second_terminal_has_to_source_for_itself(cell: Cell) -> None:
 def test_an_unset_variable_of_the_machine_is_not_seen(cell: Cell, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TURTLEBOT3_MODEL", "waffle")
     cell("unset TURTLEBOT3_MODEL")
-    cell("cat > one.launch << 'EOF'\n<launch><arg name='model' default='$(env TURTLEBOT3_MODEL)'/></launch>\nEOF")
+    cell(
+        "cat > one.launch << 'EOF'\n<launch><arg name='model' default='$(env TURTLEBOT3_MODEL)'/></launch>\nEOF"
+    )
     assert "'TURTLEBOT3_MODEL' is not set" in cell("roslaunch one.launch")
     assert os.environ["TURTLEBOT3_MODEL"] == "waffle"
 
