@@ -11,10 +11,14 @@
 
 A field's type is bool, int, float or str; `tuple[T, ...]` for a list; a class of parameters for a namespace or, in a
 list, for dictionaries; or a union of these. A parameter whose type allows None may be missing.
+
+Numbers are converted as `ros::param` of roscpp converts them: an int to a float, and a float to the nearest int. The
+original nodes ignore a value of another type silently and use the default; here it is an error.
 """
 
 from __future__ import annotations
 
+import math
 import types
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import Field, dataclass, field, fields
@@ -40,6 +44,7 @@ def parameter(
 ) -> Any:
     """One parameter of a class derived from `Parameters`; its name and its type are those of the field.
 
+    A `dynamic` class limits values to the range; elsewhere a value outside of it cannot be used, and is an error.
     Range and choices of a list are those of its elements. Without `choices` any text will do. `level` and `group` are
     for parameters that are changed while the node runs: see `rosmini.dynamic_reconfigure`.
     """
@@ -54,8 +59,8 @@ class Place:
     name: str
     label: str
     owner: str
-    warn: Callable[[str], object] | None = None
-    """Where to tell of unknown names that are only warned of."""
+    warn: Callable[[str], object]
+    """Reports an unknown name."""
 
     def inside(self, name: str) -> Place:
         """A namespace in this one."""
@@ -69,8 +74,12 @@ class Parameters:
     allowed: ClassVar[tuple[str, ...]] = ()
     """Names that may be set beside the parameters, because somebody else reads them."""
 
-    tolerant: ClassVar[bool] = False
-    """Whether an unknown name is only warned of, as it suits files written for several releases of a real package."""
+    strict: ClassVar[bool] = False
+    """Whether an unknown name is an error. By default the node warns of it: the original nodes do not look at it."""
+
+    dynamic: ClassVar[bool] = False
+    """Whether a `Server` of dynamic_reconfigure offers the fields of this class: it limits values to their ranges, with
+    a warning, and takes any text. A derived class does not inherit this."""
 
     shared: ClassVar[bool] = False
     """Whether every namespace in this one may belong to somebody else, such as a plugin."""
@@ -83,8 +92,8 @@ class Parameters:
     def read(cls, node: Node, namespace: str = "~", /, **given: Any) -> Self:
         """The parameters set in a namespace, the node's private one by default; those `given` take precedence.
 
-        Raises `ParameterError`, which names the parameter, for a wrong type, a value out of range, and an unknown name
-        (a `tolerant` class: the node warns of it). Nothing changes on the Parameter Server.
+        Raises `ParameterError`, which names the parameter, for a wrong type, a value that cannot be used, and an
+        unknown name if the class is `strict`: otherwise the node warns of it. Nothing changes on the Parameter Server.
         """
         name = node.resolve_parameter(namespace)
         label = "~" if namespace == "~" else namespace.rstrip("/") + "/"
@@ -119,8 +128,9 @@ def _read(cls: type[Parameters], tree: Any, place: Place) -> dict[str, Any]:
             f"parameters: {', '.join(each.name for each in fields(cls))}"
         )
     declared = {each.name: (each, kind) for each, kind in declared_fields(cls)}
+    dynamic = {each.name for base in cls.__mro__ if vars(base).get("dynamic") for each in fields(base)}
     values = {
-        name: _converted(tree[name], *one, place.inside(name))
+        name: _converted(tree[name], *one, place.inside(name), limited=name in dynamic)
         for name, one in declared.items()
         if name in tree
     }
@@ -130,7 +140,7 @@ def _read(cls: type[Parameters], tree: Any, place: Place) -> dict[str, Any]:
         if name in others or (cls.shared and isinstance(tree[name], dict)):
             continue
         problem = _unknown(name, list(declared), place)
-        if not cls.tolerant or place.warn is None:
+        if cls.strict:
             raise ParameterError(problem)
         place.warn(problem)
     return values
@@ -149,7 +159,7 @@ def _unknown(name: str, names: list[str], place: Place) -> str:
     )
 
 
-def _converted(value: Any, declared: Field[Any], kind: Any, place: Place) -> Any:
+def _converted(value: Any, declared: Field[Any], kind: Any, place: Place, *, limited: bool = False) -> Any:
     """A value as a field of this type holds it."""
     options = _options(kind)
     for option in options:
@@ -161,8 +171,29 @@ def _converted(value: Any, declared: Field[Any], kind: Any, place: Place) -> Any
                 _converted(each, declared, item, _element(place, number)) for number, each in enumerate(value)
             )
     scalars = tuple(option for option in options if option in _SCALARS)
-    value = expected(place.name, value, scalars, _spelled(kind))
+    value = expected(place.name, rounded(value) if scalars == (int,) else value, scalars, _spelled(kind))
+    if limited:
+        return limited_value(value, declared.metadata["minimum"], declared.metadata["maximum"])
     _check_range(place.name, declared.metadata, value)
+    return value
+
+
+def rounded(value: Any) -> Any:
+    """A float as the int that `ros::param::get` of roscpp makes of it, which rounds numbers below 0 down.
+
+    Anything else, and a float that is not finite, is returned as it is.
+    """
+    if not isinstance(value, float) or not math.isfinite(value):
+        return value
+    return math.floor(value) if math.fmod(value, 1.0) < 0.5 else math.ceil(value)
+
+
+def limited_value(value: Any, low: Any, high: Any) -> Any:
+    """The value nearest to `value` in a range, whose bounds may be None."""
+    if high is not None and value > high:
+        return type(value)(high)
+    if low is not None and value < low:
+        return type(value)(low)
     return value
 
 

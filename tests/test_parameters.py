@@ -15,6 +15,7 @@ from rosmini.sim.simulator import SimulatorParameters
 
 @dataclass(frozen=True)
 class Settings(Parameters):
+    strict = True
     allowed = ("tf_prefix",)
 
     rate: float = parameter(10.0, "how often to look", unit="Hz", minimum=0.5, maximum=100.0)
@@ -63,7 +64,7 @@ def test_parameters_of_other_nodes_do_not_matter(node):
         ("~rate", float("nan"), r"/worker/rate is not a number"),
         ("~rate", 0.1, r"/worker/rate \(how often to look\) is 0.1; .* at least 0.5 and at most 100.0 Hz"),
         ("~count", 0, r"at least 1"),
-        ("~count", 2.5, r"an int is needed"),
+        ("~count", "2.5", r"an int is needed"),
         ("~loud", 1, r"a bool is needed"),
         ("~label", 4, r"a str is needed"),
     ],
@@ -106,6 +107,8 @@ def test_every_parameter_of_the_simulator_has_a_meaning():
 
 @dataclass(frozen=True)
 class Layer(Parameters):
+    strict = True
+
     name: str = parameter("", "its namespace")
     type: str = parameter("", "the plugin's name")
 
@@ -137,6 +140,8 @@ class Obstacles(Parameters):
 
 @dataclass(frozen=True)
 class Inflation(Parameters):
+    strict = True
+
     enabled: bool = parameter(True, "whether it takes part")
     inflation_radius: float = parameter(0.55, "how far costs reach", unit="m", minimum=0.0, maximum=50.0)
     cost_scaling_factor: float = parameter(10.0, "how fast they fall", minimum=0.0, maximum=100.0)
@@ -144,6 +149,8 @@ class Inflation(Parameters):
 
 @dataclass(frozen=True)
 class Costmap(Parameters):
+    strict = True
+
     global_frame: str = parameter("map", "the frame it lies in")
     robot_base_frame: str = parameter("base_link", "the robot's frame")
     update_frequency: float = parameter(5.0, "how often it is updated", unit="Hz", minimum=0.0, maximum=100.0)
@@ -159,6 +166,7 @@ class Costmap(Parameters):
 
 @dataclass(frozen=True)
 class MoveBase(Parameters):
+    strict = True
     allowed = ("DWAPlannerROS",)
 
     base_local_planner: str = parameter("base_local_planner/TrajectoryPlannerROS", "the local planner")
@@ -252,6 +260,39 @@ def test_a_parameter_file_of_the_real_amcl(node):
 
 
 @pytest.mark.parametrize(
+    ("given", "read"), [(2.49, 2), (2.5, 3), (7.0, 7), (-1.2, -2), (-1.7, -2), (1e9, 10**9)]
+)
+def test_floats_are_rounded_to_ints_as_roscpp_does(node, given, read):
+    @dataclass(frozen=True)
+    class Whole(Parameters):
+        retries: int = parameter(0, "how often to try again")
+
+    node.set_param("~retries", given)
+    assert repr(Whole.read(node).retries) == repr(read)
+
+
+@dataclass(frozen=True)
+class Tuned(Parameters):
+    dynamic = True
+
+    rate: float = parameter(10.0, "how often", unit="Hz", minimum=0.5, maximum=100.0)
+    count: int = parameter(3, "how many", minimum=1)
+
+
+@dataclass(frozen=True)
+class TunedAndFixed(Tuned):
+    share: float = parameter(0.5, "which part", minimum=0.0)
+
+
+def test_only_dynamic_fields_are_limited(node):
+    node.set_param("~", {"rate": 300, "count": -2.0})
+    assert repr(TunedAndFixed.read(node)) == repr(TunedAndFixed(100.0, 1, 0.5))
+    node.set_param("~share", -1)
+    with pytest.raises(ParameterError, match=r"/worker/share \(which part\) is -1.0.* at least 0.0"):
+        TunedAndFixed.read(node)
+
+
+@pytest.mark.parametrize(
     ("name", "value", "message"),
     [
         (
@@ -311,10 +352,9 @@ def test_the_table_of_namespaces_and_lists():
     assert {row[0]: row for row in Amcl.table()}["~initial_cov"][2] == "[0.25, 0.25]"
 
 
-def test_a_tolerant_class_warns_of_what_it_does_not_know(node, capsys):
+def test_unknown_names_are_warned_of(node, capsys):
     @dataclass(frozen=True)
     class Lenient(Parameters):
-        tolerant = True
         reset_distance: float = parameter(3.0, "a side")
 
     node.set_param("~", {"reset_distanze": 2, "reset_distance": 1.5})

@@ -13,7 +13,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import nearest
-from rosmini.parameters import Parameters, declared_fields, is_scalar
+from rosmini.parameters import Parameters, declared_fields, is_scalar, limited_value
 
 from .errors import DynamicReconfigureParameterException
 
@@ -78,11 +78,8 @@ class ReconfigurableParameter:
 
         A text's bound counts only if it is not empty, as in ROS.
         """
-        if self.max != "" and value > self.max:
-            return self.max
-        if self.min != "" and value < self.min:
-            return self.min
-        return value
+        low, high = (None if bound == "" else bound for bound in (self.min, self.max))
+        return limited_value(value, low, high)
 
     def as_dict(self) -> dict[str, Any]:
         """Return what clients are told of the parameter."""

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from rosmini.msgs import message_class, service_class
+from rosmini.parameters import rounded
 
 from .description import Description, cast_value
 from .encoding import Config, decode_values, encode_description, encode_values, group_states, group_tree
@@ -27,10 +28,11 @@ class Server:
     """Offers parameters of ``node`` for change, in ``namespace`` (the node's private one, if not given).
 
     ``type`` is whatever :meth:`Description.of` takes. Values are those on the Parameter Server, else the defaults,
-    limited to their ranges. ``callback(config, level)`` is called with all values, at once and then for each change,
-    and returns the configuration to hold:
-    ``level`` is the bitwise or of the levels of the parameters that changed, 0 if none did, and -1 (all bits set)
-    in the first call. What holds is written to the Parameter Server and published on ``parameter_updates``;
+    limited to their ranges with a warning; a float is rounded where an int is needed, as roscpp does.
+    ``callback(config, level)`` is called with all values, at once and then for each change, and returns the
+    configuration to hold: ``level`` is the bitwise or of the levels of the parameters that changed, 0 if none did, and
+    -1 (all bits set) in the first call. What holds is written to the Parameter Server and published on
+    ``parameter_updates``;
     ``parameter_descriptions`` has the description, and the service ``set_parameters`` takes changes. Callbacks come one
     after another. One that fails changes nothing.
 
@@ -131,13 +133,20 @@ class Server:
         for parameter in self.description.parameters:
             name = self.node.resolve_parameter(self.ns + parameter.name)
             found = self.node.get_param(name, None)
+            if parameter.type == "int":
+                found = rounded(found)
             try:
                 value = parameter.default if found is None else cast_value(name, parameter.type, found)
             except DynamicReconfigureParameterException as error:
                 raise DynamicReconfigureParameterException(
                     f"{error} on the Parameter Server: set it again, or delete it"
                 ) from None
-            values[parameter.name] = parameter.clamp(value)
+            values[parameter.name] = limited = parameter.clamp(value)
+            if found is not None and limited != value:
+                self.node.logwarn(
+                    f"node {self.node.name}: parameter {name} is {found!r}: {limited!r} is used, as its range is "
+                    f"{parameter.min!r} ... {parameter.max!r}"
+                )
         return values
 
     @contextmanager

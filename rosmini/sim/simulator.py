@@ -43,6 +43,7 @@ from .worlds import world as world_called
 class SimulatorParameters(Parameters):
     """The private parameters of `rosmini_sim/simulator`; beside them `~robots`, see `read_starts`."""
 
+    strict = True
     allowed = ("robots",)
 
     world: str = parameter("room", "which world: a name, or a map's yaml file")

@@ -39,15 +39,15 @@ class TurtleSimParameters(Parameters):
     A changed background is seen after `clear` or `reset`.
     """
 
-    background_r: int = parameter(BACKGROUND[0], "red of the background", minimum=0, maximum=255)
-    background_g: int = parameter(BACKGROUND[1], "green of the background", minimum=0, maximum=255)
-    background_b: int = parameter(BACKGROUND[2], "blue of the background", minimum=0, maximum=255)
+    background_r: int = parameter(BACKGROUND[0], "red of the background")
+    background_g: int = parameter(BACKGROUND[1], "green of the background")
+    background_b: int = parameter(BACKGROUND[2], "blue of the background")
     holonomic: bool = parameter(True, "turtles go sideways with linear.y of a Twist, as Noetic's do")
 
     @property
     def background(self) -> Colour:
-        """The colour of a fresh sheet."""
-        return self.background_r, self.background_g, self.background_b
+        """The colour of a fresh sheet: of each number its lowest byte, as Qt's `qRgb` takes it."""
+        return self.background_r & 255, self.background_g & 255, self.background_b & 255
 
 
 class TurtleSim:

@@ -76,11 +76,14 @@ def test_groups(graph):
         client.update_configuration({"groups": {"Filterr": True}})
 
 
-def test_values_on_the_parameter_server_come_first_and_are_limited(sim):
+def test_values_on_the_parameter_server_come_first_and_are_limited(sim, capsys):
     setter = sim.node("setter")
     setter.set_param("/tuned/inner/gain", 3)
-    setter.set_param("/tuned/inner/window", 1000)
+    setter.set_param("/tuned/inner/window", 1000.4)
     served = Served(sim, namespace="inner")
+    said = capsys.readouterr().err
+    assert "/tuned/inner/window is 1000" in said
+    assert "99 is used, as its range is 1 ... 99" in said
     assert (served.server.config.gain, served.server.config.window) == (3.0, 99)
     assert served.node.get_param("/tuned/inner/window") == 99
     setter.set_param("/tuned/gain", "much")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rosmini import rosrun
-from rosmini.errors import ParameterError, ParameterNotSet
+from rosmini.errors import ParameterNotSet
 from rosmini.graph import Graph
 from rosmini.msgs.sensor_msgs.msg import JointState
 from rosmini.msgs.tf2_msgs.msg import TFMessage
@@ -173,11 +173,9 @@ def test_what_is_doubtful_in_the_description_is_said(capsys):
         assert "the root link 'a' has an inertia, which KDL" in told.out + told.err
 
 
-def test_a_wrong_parameter_is_told(graph):
-    with pytest.raises(ParameterError, match="did you mean ~publish_frequency"):
-        rosrun(
-            "robot_state_publisher", "robot_state_publisher", "_publish_freqency:=5", graph=graph
-        ).instance()
+def test_a_wrong_parameter_is_told(graph, capsys):
+    rosrun("robot_state_publisher", "robot_state_publisher", "_publish_freqency:=5", graph=graph).instance()
+    assert "did you mean ~publish_frequency" in capsys.readouterr().err
 
 
 def test_time_that_goes_back_makes_it_tell_all_anew(graph):

@@ -208,17 +208,22 @@ def test_a_background_that_is_set_before_stays() -> None:
         assert sim.node.get_param("/turtlesim/background_r") == 7
 
 
-@pytest.mark.parametrize("argument", ["_background_r:=300", "_background_r:=red", "_colour:=1"])
-def test_a_wrong_parameter_is_named(argument: str) -> None:
-    with pytest.raises(ParameterError, match=re.escape(argument[1:].partition(":")[0])):
-        start(argument)
+def test_of_a_background_the_lowest_bytes_count() -> None:
+    graph, sim = start("_background_r:=300", "_background_g:=-1", "_background_b:=2.5")
+    with graph:
+        assert sim.frame.paper.background == (44, 255, 3)
+
+
+def test_a_wrong_parameter_is_named() -> None:
+    with pytest.raises(ParameterError, match="background_r"):
+        start("_background_r:=red")
 
 
 def test_a_background_that_is_none_is_told_and_the_paper_is_cleared(
     sim: TurtleSim, capfd: pytest.CaptureFixture[str]
 ) -> None:
     drive(sim, 1.0)
-    sim.node.set_param("/turtlesim/background_r", 1000)
+    sim.node.set_param("/turtlesim/background_r", "red")
     call(sim, "/clear", "std_srvs/Empty")
     assert "the background stays as it is: parameter /turtlesim/background_r" in capfd.readouterr().err
     assert (sim.frame.paper.background, sim.frame.paper.count) == ((69, 86, 255), 0)

@@ -27,7 +27,8 @@ from rosmini.time import Duration, Time
 from .diagnostics import deviations
 from .laser import Scan
 from .localizer import Estimate, Localizer
-from .parameters import AmclConfig, AmclParameters
+from .motion import MODELS
+from .parameters import LASERS, AmclConfig, AmclParameters
 
 if TYPE_CHECKING:
     from rosmini.graph import Node
@@ -55,7 +56,7 @@ class Amcl:
 
     def __init__(self, node: Node) -> None:
         self.node = node
-        self.parameters = AmclParameters.read(node)
+        self.parameters = self._with_known_models(AmclParameters.read(node))
         self._warn_of_prefix()
         random = node.graph.rng(f"{node.name}/particles")
         self.localizer = Localizer(self.parameters, random)
@@ -133,7 +134,7 @@ class Amcl:
             )
             config["max_particles"] = changes["max_particles"] = changes["min_particles"]
         before = self.parameters
-        self.parameters = replace(before, **changes)
+        self.parameters = self._with_known_models(replace(before, **changes))
         self._lasers = {}
         if level != -1 or self.parameters != before:
             self.localizer.configure(self.parameters)
@@ -143,6 +144,18 @@ class Amcl:
             ):
                 self._take_map(self._map, again=True)
         return config
+
+    def _with_known_models(self, given: AmclParameters) -> AmclParameters:
+        """The parameters with the default model, and a warning, where the name of a model is unknown: as in amcl."""
+        if given.odom_model_type not in MODELS:
+            self.node.logwarn(f'Unknown odom model type "{given.odom_model_type}"; defaulting to diff model')
+            given = replace(given, odom_model_type="diff")
+        if given.laser_model_type not in LASERS:
+            self.node.logwarn(
+                f'Unknown laser model type "{given.laser_model_type}"; defaulting to likelihood_field model'
+            )
+            given = replace(given, laser_model_type="likelihood_field")
+        return given
 
     def _start_pose(self) -> Pose:
         p = self.parameters

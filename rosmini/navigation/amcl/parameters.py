@@ -18,6 +18,8 @@ LASERS = ("beam", "likelihood_field", "likelihood_field_prob")
 class AmclConfig(Parameters):
     """The private parameters that can be changed while it runs."""
 
+    dynamic = True
+
     odom_model_type: str = parameter("diff", "how the robot moves", choices=MODELS)
     odom_alpha1: float = parameter(0.2, "rotation's error by rotation", minimum=0.0, maximum=10.0)
     odom_alpha2: float = parameter(0.2, "rotation's error by translation", minimum=0.0, maximum=10.0)
@@ -129,12 +131,9 @@ class AmclConfig(Parameters):
 class AmclParameters(AmclConfig):
     """All private parameters."""
 
-    tolerant = True
     allowed = ("bag_scan_period", "tf_prefix")
 
-    beam_skip_error_threshold: float = parameter(
-        0.9, "if more beams would be left out, none is", minimum=0.0, maximum=1.0
-    )
+    beam_skip_error_threshold: float = parameter(0.9, "if more beams would be left out, none is")
     std_warn_level_x: float = parameter(
         0.2, "above this deviation `/diagnostics` warns; below 0: never", unit="m"
     )

@@ -6,7 +6,6 @@ What `LocalPlannerUtil`, `MapGridVisualizer` and `goal_functions` do for both pl
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,6 @@ from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap import INSCRIBED_INFLATED_OBSTACLE
 from rosmini.navigation.nav_core import ControlFailure, NoValidCommand, TransformMissing, pose_stamped
 from rosmini.navigation.nav_core.clouds import point_cloud
-from rosmini.parameters import Parameters
 from rosmini.tf import Buffer, TransformException
 
 from .goal_functions import behind, part_in_reach
@@ -190,26 +188,6 @@ def ignore(node: Node, label: str, names: Iterable[str], whose: str) -> None:
             node.logwarn(
                 f"parameter {node.resolve_parameter(label + name)} is not read by this planner: {whose}"
             )
-
-
-def limit(node: Node, label: str, declared: type[Parameters]) -> None:
-    """Bring numbers into their ranges, as dynamic_reconfigure does without a word; here it is said."""
-    for each in fields(declared):
-        low, high = each.metadata["minimum"], each.metadata["maximum"]
-        name = label + each.name
-        if (low is None and high is None) or not node.has_param(name):
-            continue
-        value = node.get_param(name)
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            continue
-        limited = value if low is None else max(value, type(value)(low))
-        limited = limited if high is None else min(limited, type(value)(high))
-        if limited != value:
-            node.logwarn(
-                f"parameter {node.resolve_parameter(name)} is {value}: {limited} is used, as its range is "
-                f"{'' if low is None else low} ... {'' if high is None else high}"
-            )
-            node.set_param(name, limited)
 
 
 def no_command(text: str, samples: Samples) -> NoValidCommand:

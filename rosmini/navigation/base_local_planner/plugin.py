@@ -16,7 +16,7 @@ from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
 from rosmini.parameters import parameter
 from rosmini.tf import Buffer
 
-from .following import Following, Publications, ignore, limit, no_command, rename, sim_period, twist
+from .following import Following, Publications, ignore, no_command, rename, sim_period, twist
 from .goal_functions import distance_to, stands, turn_to
 from .latched_stop_rotate import braked, checked, follow
 from .limits import LocalPlannerLimits
@@ -75,7 +75,6 @@ class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
     odom_topic: str = parameter("odom", "the topic of the odometry")
     backup_vel: float | None = parameter(None, "the former name of escape_vel", unit="m/s")
 
-    tolerant = True
     allowed = (*RENAMED, *MISSPELT, *OTHERS, "point_grid")
 
 
@@ -90,7 +89,6 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         super().initialize(name, buffer, costmap)
         self.node, label = costmap.node, f"~{name}/"
         self._mend_names(label)
-        limit(self.node, label, TrajectoryPlannerParameters)
         settings = TrajectoryPlannerSettings.read(self.node, label)
         self._settings = settings
         self._say_what_is_odd(settings, label)

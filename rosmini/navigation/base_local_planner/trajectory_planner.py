@@ -41,6 +41,8 @@ INSCRIBED = 253
 class TrajectoryPlannerParameters(Parameters):
     """The parameters of `base_local_planner/TrajectoryPlannerROS` that can be changed while it runs."""
 
+    dynamic = True
+
     acc_lim_x: float = parameter(2.5, "acceleration ahead", unit="m/s2", minimum=0.0, maximum=20.0)
     acc_lim_y: float = parameter(2.5, "acceleration to the side", unit="m/s2", minimum=0.0, maximum=20.0)
     acc_lim_theta: float = parameter(3.2, "acceleration of turns", unit="rad/s2", minimum=0.0, maximum=20.0)

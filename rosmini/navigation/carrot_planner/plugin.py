@@ -24,8 +24,6 @@ from .carrot import carrot
 class CarrotParameters(Parameters):
     """The parameters of `carrot_planner/CarrotPlanner`, in `~CarrotPlanner/`."""
 
-    tolerant = True
-
     step_size: float | None = parameter(
         None, "has no effect, as in ROS: a step is a hundredth of the way", unit="m"
     )

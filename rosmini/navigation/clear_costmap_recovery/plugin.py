@@ -20,8 +20,6 @@ MAPS = ("local", "global", "both")
 class ClearCostmapParameters(Parameters):
     """The parameters of a `clear_costmap_recovery/ClearCostmapRecovery`, in `~NAME/`."""
 
-    tolerant = True
-
     reset_distance: float = parameter(
         3.0, "side of the square around the robot outside of which is cleared", unit="m"
     )

@@ -24,7 +24,7 @@ OVERWRITE, MAXIMUM = 0, 1
 class CostmapConfig(Parameters):
     """Of a costmap, `~global_costmap/`, and changed while it runs."""
 
-    tolerant: ClassVar[bool] = True
+    dynamic = True
 
     transform_tolerance: float = parameter(
         0.3, "how old the robot's pose may be", unit="s", minimum=0.0, maximum=10.0
@@ -79,7 +79,7 @@ class CostmapParameters(CostmapConfig):
 class LayerConfig(Parameters):
     """Of any layer, and changed while it runs."""
 
-    tolerant: ClassVar[bool] = True
+    dynamic = True
 
     enabled: bool = parameter(True, "whether the layer takes part")
 
@@ -104,6 +104,8 @@ class StaticParameters(LayerConfig):
 class InflationConfig(LayerConfig):
     """Of `costmap_2d::InflationLayer`: all of them can be changed while it runs."""
 
+    dynamic = True
+
     cost_scaling_factor: float = parameter(
         10.0, "how steeply the costs fall with the distance", unit="1/m", minimum=0.0, maximum=100.0
     )
@@ -116,6 +118,8 @@ class InflationConfig(LayerConfig):
 @dataclass(frozen=True)
 class ObstacleConfig(LayerConfig):
     """Of `costmap_2d::ObstacleLayer`, and changed while it runs."""
+
+    dynamic = True
 
     footprint_clearing_enabled: bool = parameter(True, "take the ground under the robot for free")
     max_obstacle_height: float = parameter(
@@ -134,14 +138,12 @@ class ObstacleStatics(Parameters):
     """Further ones of `costmap_2d::ObstacleLayer`."""
 
     observation_sources: str = parameter("", "the names of the sources, separated by spaces")
-    transform_tolerance: float = parameter(
-        0.2, "how long a transform may take to come", unit="s", minimum=0.0
-    )
+    transform_tolerance: float = parameter(0.2, "how long a transform may take to come", unit="s")
     track_unknown_space: bool | None = parameter(
         None, "whether a cell that nobody saw is unknown; as the costmap has it, by default"
     )
-    obstacle_range: float = parameter(2.5, "for sources that set none", unit="m", minimum=0.0)
-    raytrace_range: float = parameter(3.0, "for sources that set none", unit="m", minimum=0.0)
+    obstacle_range: float = parameter(2.5, "for sources that set none", unit="m")
+    raytrace_range: float = parameter(3.0, "for sources that set none", unit="m")
 
     def others(self) -> Iterable[str]:
         """The namespaces of the sources."""
@@ -156,6 +158,8 @@ class ObstacleParameters(ObstacleStatics, ObstacleConfig):
 @dataclass(frozen=True)
 class VoxelConfig(ObstacleConfig):
     """Of `costmap_2d::VoxelLayer`, and changed while it runs."""
+
+    dynamic = True
 
     origin_z: float = parameter(0.0, "the floor of the voxels", unit="m", minimum=0.0)
     z_resolution: float = parameter(0.2, "the height of a voxel", unit="m", minimum=0.0, maximum=50.0)
@@ -177,15 +181,13 @@ class VoxelParameters(ObstacleParameters, VoxelConfig):
 class SourceParameters(Parameters):
     """Of one observation source of an obstacle layer, `~global_costmap/obstacle_layer/scan/`."""
 
-    tolerant: ClassVar[bool] = True
-
     topic: str | None = parameter(None, "where it comes from; by default the name of the source")
     sensor_frame: str = parameter("", "where the sensor is; by default the frame that its messages name")
     observation_persistence: float = parameter(
-        0.0, "how long an observation is kept; 0 keeps the newest", unit="s", minimum=0.0
+        0.0, "how long an observation is kept; 0 keeps the newest", unit="s"
     )
     expected_update_rate: float = parameter(
-        0.0, "after how long without a message the costmap is out of date; 0 for never", unit="s", minimum=0.0
+        0.0, "after how long without a message the costmap is out of date; 0 for never", unit="s"
     )
     data_type: str = parameter(
         "PointCloud", "what its messages are", choices=("PointCloud", "PointCloud2", "LaserScan")

@@ -27,6 +27,8 @@ CRITICS = ("oscillation", "obstacle", "goal_front", "alignment", "path", "goal",
 class DWAPlannerParameters(LocalPlannerLimits):
     """The parameters of `dwa_local_planner/DWAPlannerROS` that can be changed while it runs."""
 
+    dynamic = True
+
     sim_time: float = parameter(1.7, "how far trajectories are driven ahead", unit="s", minimum=0.0)
     sim_granularity: float = parameter(0.025, "between two points of a trajectory", unit="m", minimum=0.0)
     angular_sim_granularity: float = parameter(

@@ -16,7 +16,6 @@ from rosmini.navigation.base_local_planner.following import (
     Following,
     Publications,
     ignore,
-    limit,
     no_command,
     sim_period,
     twist,
@@ -61,11 +60,9 @@ class DWAPlannerSettings(DWAPlannerParameters):
     cheat_factor: float = parameter(
         1.0,
         "how near the goal the nose leaves the plan: this times forward_point_distance squared",
-        minimum=0.0,
     )
     global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
 
-    tolerant = True
     allowed = (
         *RENAMED,
         *FORMER,
@@ -85,7 +82,6 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         super().initialize(name, buffer, costmap)
         self.node, label = costmap.node, f"~{name}/"
         self._warn_of_names(label)
-        limit(self.node, label, DWAPlannerParameters)
         settings = DWAPlannerSettings.read(self.node, label)
         self._settings = settings
         self.publications = Publications(self.node, name, costmap.global_frame)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from rosmini.parameters import Parameters, parameter
 
@@ -12,19 +11,15 @@ from rosmini.parameters import Parameters, parameter
 class ExploreParameters(Parameters):
     """Of the node."""
 
-    tolerant: ClassVar[bool] = True
-
     robot_base_frame: str = parameter("base_link", "the robot's frame")
     costmap_topic: str = parameter("costmap", "the map, or another's costmap")
     costmap_updates_topic: str = parameter("costmap_updates", "and its updates")
     visualize: bool = parameter(False, "whether frontiers are published on ~frontiers")
     planner_frequency: float = parameter(1.0, "how often the goal is chosen", unit="Hz", minimum=1e-3)
-    progress_timeout: float = parameter(
-        30.0, "a goal that gets no nearer for so long is given up", unit="s", minimum=0.0
-    )
+    progress_timeout: float = parameter(30.0, "a goal that gets no nearer for so long is given up", unit="s")
     potential_scale: float = parameter(1e-3, "what the distance of a frontier counts for")
     orientation_scale: float = parameter(0.0, "has no effect, as in ROS")
     gain_scale: float = parameter(1.0, "what the size of a frontier counts for")
-    transform_tolerance: float = parameter(0.3, "how old the robot's pose may be", unit="s", minimum=0.0)
-    min_frontier_size: float = parameter(0.5, "smaller frontiers are left out", unit="m", minimum=0.0)
+    transform_tolerance: float = parameter(0.3, "how old the robot's pose may be", unit="s")
+    min_frontier_size: float = parameter(0.5, "smaller frontiers are left out", unit="m")
     return_to_init: bool = parameter(False, "whether the robot drives back in the end")

@@ -32,8 +32,6 @@ WAITING = 100
 class FakeLocalizationParameters(Parameters):
     """The private parameters of `fake_localization/fake_localization`."""
 
-    tolerant = True
-
     odom_frame_id: str = parameter("odom", "the frame of the odometry")
     base_frame_id: str = parameter("base_link", "the frame of the robot's base")
     global_frame_id: str = parameter("map", "the frame of the map")

@@ -22,7 +22,6 @@ class BoundedExploreParameters(LayerConfig):
     frontier_travel_point: str = parameter(
         CLOSEST,
         "which point of a frontier to drive to",
-        choices=(CLOSEST, MIDDLE, CENTROID),
     )
 
 
@@ -33,8 +32,8 @@ class ExploreServerParameters(Parameters):
     allowed: ClassVar[tuple[str, ...]] = ("explore_costmap",)
 
     frequency: float = parameter(
-        0.0, "how often to look for the next frontier; 0: when the last is reached", unit="Hz", minimum=0.0
+        0.0, "how often to look for the next frontier; 0: when the last is reached", unit="Hz"
     )
     goal_aliasing: float = parameter(
-        0.1, "a goal nearer than half of it to the last one is not sent", unit="m", minimum=0.0
+        0.1, "a goal nearer than half of it to the last one is not sent", unit="m"
     )

@@ -27,7 +27,7 @@ from rosmini.navigation.nav_core.poses import planar_transform, pose_stamped
 from rosmini.tf import Buffer, TransformException
 from rosmini.time import Time
 
-from .parameters import CENTROID, CLOSEST, BoundedExploreParameters
+from .parameters import CENTROID, CLOSEST, MIDDLE, BoundedExploreParameters
 from .polygon import fault
 from .search import TRIES, Blacklist, Frontier, find_frontiers, places
 
@@ -214,9 +214,15 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
 
     def _travel_point(self, frontier: Frontier) -> tuple[float, float]:
         wanted = self.settings.frontier_travel_point
-        if wanted == CLOSEST:
-            return frontier.initial
-        return frontier.centroid if wanted == CENTROID else frontier.middle
+        if wanted == CENTROID:
+            return frontier.centroid
+        if wanted == MIDDLE:
+            return frontier.middle
+        if wanted != CLOSEST:
+            self.node.logerr(
+                f"Invalid 'frontier_travel_point' parameter {wanted!r}, falling back to 'closest'"
+            )
+        return frontier.initial
 
     def _publish(self, chosen: Frontier) -> None:
         rows = [(*one.initial, 0.0, CHOSEN if one is chosen else OTHERS) for one in self.frontiers]

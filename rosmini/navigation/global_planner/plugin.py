@@ -31,7 +31,7 @@ OFF_MAP_GOAL = (
 class GlobalPlannerConfig(Parameters):
     """The parameters of `global_planner/GlobalPlanner` that can be changed while it runs."""
 
-    tolerant = True
+    dynamic = True
 
     lethal_cost: int = parameter(LETHAL_COST, "the first cost that no plan passes", minimum=1, maximum=255)
     neutral_cost: int = parameter(NEUTRAL_COST, "what each step costs", minimum=1, maximum=255)
@@ -64,10 +64,8 @@ class GlobalPlannerParameters(GlobalPlannerConfig):
     allow_unknown: bool = parameter(True, "whether plans may lead through unknown cells")
     planner_window_x: float = parameter(0.0, "has no effect, as in ROS", unit="m")
     planner_window_y: float = parameter(0.0, "has no effect, as in ROS", unit="m")
-    default_tolerance: float = parameter(
-        0.0, "has no effect, as in ROS: a plan ends at the goal", unit="m", minimum=0.0
-    )
-    publish_scale: int = parameter(100, "what the highest potential is published as", minimum=1, maximum=100)
+    default_tolerance: float = parameter(0.0, "has no effect, as in ROS: a plan ends at the goal", unit="m")
+    publish_scale: int = parameter(100, "what the highest potential is published as")
     outline_map: bool = parameter(True, "take the outermost cells as lethal")
 
 
@@ -153,7 +151,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
         highest = max(1.0, float(np.max(search.potential, where=search.reached, initial=0.0)))
         scaled = np.full(search.potential.shape, -1, dtype=np.int8)
         shares = search.potential[search.reached] * (self.parameters.publish_scale / highest)
-        scaled[search.reached] = shares.astype(np.int8)
+        scaled[search.reached] = shares.astype(np.int64).astype(np.int8)  # a scale above 127 wraps, as in ROS
         message.data = scaled.ravel()
         self._potentials.publish(message)
 

@@ -17,7 +17,6 @@ Text = str
 class GmappingParameters(Parameters):
     """The private parameters."""
 
-    tolerant = True
     allowed = ("inverted_laser", "enovation")
     """What real files carry, and slam_gmapping has not read since it learned from tf how a laser is mounted."""
 
@@ -36,7 +35,7 @@ class GmappingParameters(Parameters):
         None, "ranges from here on hit nothing; without it 1 cm less than the scan's range_max", unit="m"
     )
     maxUrange: float | None = parameter(None, "ranges are used up to here; without it maxRange", unit="m")
-    minimumScore: float = parameter(0.0, "a match that scores less is not taken", minimum=0.0)
+    minimumScore: float = parameter(0.0, "a match that scores less is not taken")
     sigma: float = parameter(0.05, "the matcher's tolerance of ends", minimum=1e-6)
     kernelSize: int = parameter(1, "so many cells around an end are looked at", minimum=0, maximum=10)
     lstep: float = parameter(0.05, "the matcher's first step", unit="m", minimum=0.0)
@@ -44,17 +43,15 @@ class GmappingParameters(Parameters):
     iterations: int = parameter(5, "so often steps are halved", minimum=0, maximum=50)
     lsigma: float = parameter(0.075, "the likelihood's tolerance of ends", minimum=1e-6)
     ogain: float = parameter(3.0, "how much likelihoods are smoothed", minimum=1e-6)
-    lskip: int = parameter(0, "so many beams are left out after each", minimum=0)
+    lskip: int = parameter(0, "so many beams are left out after each")
     srr: float = parameter(0.1, "translation's error by translation", minimum=0.0)
     srt: float = parameter(0.2, "rotation's error by translation", minimum=0.0)
     str: float = parameter(0.1, "translation's error by rotation", minimum=0.0)
     stt: float = parameter(0.2, "rotation's error by rotation", minimum=0.0)
-    linearUpdate: float = parameter(1.0, "a scan is taken in after so much driving", unit="m", minimum=0.0)
-    angularUpdate: float = parameter(0.5, "or so much turning", unit="rad", minimum=0.0)
+    linearUpdate: float = parameter(1.0, "a scan is taken in after so much driving", unit="m")
+    angularUpdate: float = parameter(0.5, "or so much turning", unit="rad")
     temporalUpdate: float = parameter(-1.0, "or after so much time; below 0: never", unit="s")
-    resampleThreshold: float = parameter(
-        0.5, "resample when fewer than this share of the particles count", minimum=0.0, maximum=1.0
-    )
+    resampleThreshold: float = parameter(0.5, "resample when fewer than this share of the particles count")
     particles: int = parameter(30, "the number of paths, each with a map", minimum=1, maximum=10_000)
     xmin: float = parameter(-100.0, "the map reaches from here", unit="m")
     ymin: float = parameter(-100.0, "the map reaches from here", unit="m")
@@ -65,9 +62,7 @@ class GmappingParameters(Parameters):
     llsamplestep: float = parameter(0.01, "as in the original it is read, and changes nothing", unit="m")
     lasamplerange: float = parameter(0.005, "as in the original it is read, and changes nothing", unit="rad")
     lasamplestep: float = parameter(0.005, "as in the original it is read, and changes nothing", unit="rad")
-    occ_thresh: float = parameter(
-        0.25, "a cell is occupied if more than this share of its visits were ends", minimum=0.0, maximum=1.0
-    )
+    occ_thresh: float = parameter(0.25, "a cell is occupied if more than this share of its visits were ends")
 
     def settings(self, range_max: float) -> Settings:
         """What the filter takes, with a laser that sees so far [m]."""
@@ -79,7 +74,7 @@ class GmappingParameters(Parameters):
             self.astep,
             self.iterations,
             self.lsigma,
-            self.lskip,
+            max(0, self.lskip),
             self.minimumScore,
         )
         return Settings(

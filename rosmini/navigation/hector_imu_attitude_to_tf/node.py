@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 class AttitudeParameters(Parameters):
     """The private parameters."""
 
-    tolerant = True
     base_stabilized_frame: str = parameter("base_stabilized_frame", "the frame that stays level")
     base_frame: str = parameter("base_frame", "the robot's frame, which leans")
 

@@ -14,7 +14,6 @@ from .slam import Settings
 class HectorMappingParameters(Parameters):
     """The private parameters."""
 
-    tolerant = True
     allowed = ("pub_drawings", "pub_debug_output", "static_laser_frame_ids")
     """What real files carry: pictures and numbers for the makers of the original, and a cache of its own for tf."""
 
@@ -28,10 +27,8 @@ class HectorMappingParameters(Parameters):
     map_multi_res_levels: int = parameter(
         3, "maps, each half as fine as the one before", minimum=1, maximum=12
     )
-    map_update_distance_thresh: float = parameter(
-        0.4, "the maps change after so much driving", unit="m", minimum=0.0
-    )
-    map_update_angle_thresh: float = parameter(0.9, "or so much turning", unit="rad", minimum=0.0)
+    map_update_distance_thresh: float = parameter(0.4, "the maps change after so much driving", unit="m")
+    map_update_angle_thresh: float = parameter(0.9, "or so much turning", unit="rad")
     map_pub_period: float = parameter(2.0, "between two maps", unit="s", minimum=1e-3)
     update_factor_free: float = parameter(
         0.4, "how likely a cell is occupied that a beam passes; less than 0.5", minimum=1e-6, maximum=0.999999
@@ -39,8 +36,8 @@ class HectorMappingParameters(Parameters):
     update_factor_occupied: float = parameter(
         0.9, "and one in which a beam ends; more than 0.5", minimum=1e-6, maximum=0.999999
     )
-    laser_min_dist: float = parameter(0.4, "nearer ends are left out", unit="m", minimum=0.0)
-    laser_max_dist: float = parameter(30.0, "and farther ones", unit="m", minimum=0.0)
+    laser_min_dist: float = parameter(0.4, "nearer ends are left out", unit="m")
+    laser_max_dist: float = parameter(30.0, "and farther ones", unit="m")
     laser_z_min_value: float = parameter(-1.0, "and lower ones, above the laser", unit="m")
     laser_z_max_value: float = parameter(1.0, "and higher ones", unit="m")
     pub_map_odom_transform: bool = parameter(True, "say on tf where odom_frame is in map_frame")

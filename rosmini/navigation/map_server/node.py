@@ -37,12 +37,10 @@ DEPRECATED USAGE: map_server <map> <resolution>
 class MapServerParameters(Parameters):
     """The private parameters of `map_server/map_server`; all but the first are for the deprecated form alone."""
 
-    tolerant = True
-
     frame_id: str = parameter("map", "the frame of the published map")
-    negate: int = parameter(0, "1: white is occupied and black is free", minimum=0, maximum=1)
-    occupied_thresh: float = parameter(0.65, "darker pixels are occupied", minimum=0.0, maximum=1.0)
-    free_thresh: float = parameter(0.196, "lighter pixels are free", minimum=0.0, maximum=1.0)
+    negate: int = parameter(0, "1: white is occupied and black is free")
+    occupied_thresh: float = parameter(0.65, "darker pixels are occupied")
+    free_thresh: float = parameter(0.196, "lighter pixels are free")
 
 
 class MapServer:

@@ -17,6 +17,8 @@ from .state_machine import Limits
 class MoveBaseConfig(Parameters):
     """What can be changed while it runs."""
 
+    dynamic = True
+
     base_global_planner: str = parameter("navfn/NavfnROS", "the plugin that plans through the whole map")
     base_local_planner: str = parameter(
         "base_local_planner/TrajectoryPlannerROS", "the plugin that follows the plan"
@@ -79,7 +81,6 @@ class Behavior(Parameters):
 class MoveBaseParameters(MoveBaseConfig):
     """All of its own parameters; beside them are those of costmaps, planners and recoveries, in their namespaces."""
 
-    tolerant = True
     shared = True
     allowed = ("recovery_behaviors", "global_frame", "robot_base_frame")
 
@@ -87,7 +88,6 @@ class MoveBaseParameters(MoveBaseConfig):
         None,
         "make_plan clears a square of twice this around the robot; by default ~local_costmap/circumscribed_radius",
         unit="m",
-        minimum=0.0,
     )
 
 

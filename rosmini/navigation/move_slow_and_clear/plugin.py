@@ -32,8 +32,6 @@ CLEARED = ("obstacle", "voxel")
 class MoveSlowAndClearParameters(Parameters):
     """The parameters of a `move_slow_and_clear/MoveSlowAndClear`, in `~NAME/`."""
 
-    tolerant = True
-
     clearing_distance: float = parameter(0.5, "half the side of the square that is cleared", unit="m")
     limited_trans_speed: float = parameter(0.25, "the limited speed", unit="m/s")
     limited_rot_speed: float = parameter(0.45, "the limited speed of turns", unit="rad/s")

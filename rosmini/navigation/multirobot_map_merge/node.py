@@ -31,8 +31,6 @@ GRID = "nav_msgs/OccupancyGrid"
 class MapMergeParameters(Parameters):
     """The private parameters of `multirobot_map_merge/map_merge`."""
 
-    tolerant = True
-
     robot_map_topic: str = parameter("map", "what the name of a robot's map ends with")
     robot_map_updates_topic: str = parameter("map_updates", "of the updates of a robot's map, beside it")
     robot_namespace: str = parameter("", "what the names of the robots' namespaces contain")

@@ -30,13 +30,11 @@ OFF_MAP_GOAL = (
 class NavfnParameters(Parameters):
     """The parameters of `navfn/NavfnROS`, in `~NavfnROS/`."""
 
-    tolerant = True
-
     allow_unknown: bool = parameter(True, "whether plans may lead through unknown cells")
     planner_window_x: float = parameter(0.0, "has no effect, as in ROS", unit="m")
     planner_window_y: float = parameter(0.0, "has no effect, as in ROS", unit="m")
     default_tolerance: float = parameter(
-        0.0, "so far from the goal, along each axis, a plan may end", unit="m", minimum=0.0
+        0.0, "so far from the goal, along each axis, a plan may end", unit="m"
     )
     visualize_potential: bool = parameter(False, "whether to publish the potential as a cloud of points")
 

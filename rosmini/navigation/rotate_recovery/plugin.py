@@ -34,8 +34,6 @@ LIMITS = (
 class RotateParameters(Parameters):
     """The parameters of a `rotate_recovery/RotateRecovery`, in `~NAME/`."""
 
-    tolerant = True
-
     sim_granularity: float = parameter(
         0.017, "how far apart the headings are that it checks", unit="rad", minimum=1e-4
     )

@@ -55,7 +55,7 @@ class StageParameters(Parameters):
     """The private parameters of `stage_ros/stageros`."""
 
     base_watchdog_timeout: float = parameter(
-        WATCHDOG, "without a command for so long all robots stop; 0: never", unit="s", minimum=0.0
+        WATCHDOG, "without a command for so long all robots stop; 0: never", unit="s"
     )
     is_depth_canonical: bool = parameter(
         True, "publish depth as 32FC1 in metres (REP 118); else as 16UC1 in millimetres"

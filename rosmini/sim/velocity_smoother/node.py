@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 class SmootherLimits(Parameters):
     """The parameters that can be changed while it runs."""
 
+    dynamic = True
+
     speed_lim_v: float = parameter(1.0, "the highest speed", unit="m/s", minimum=0.0, maximum=10.0)
     speed_lim_w: float = parameter(5.0, "the fastest turn", unit="rad/s", minimum=0.0, maximum=10.0)
     accel_lim_v: float = parameter(0.5, "the strongest acceleration", unit="m/s2", minimum=0.0, maximum=10.0)
@@ -44,8 +46,6 @@ class SmootherParameters(SmootherLimits):
     robot_feedback: int = parameter(
         0,
         "where the robot's speeds are from: 0 nowhere, 1 its odometry, 2 the commands it gets in the end",
-        minimum=0,
-        maximum=2,
     )
     quiet: bool = parameter(False, "do not warn of a command that was no number")
 
@@ -56,23 +56,28 @@ class VelocitySmootherNode:
     def __init__(self, node: Node) -> None:
         parameters = SmootherParameters.read(node)
         self.node = node
-        self.smoother = VelocitySmoother(
-            period=1 / parameters.frequency, feedback=FEEDBACK[parameters.robot_feedback]
-        )
+        feedback = parameters.robot_feedback
+        if not 0 <= feedback < len(FEEDBACK):
+            node.logwarn(
+                f"Invalid robot feedback type ({feedback}). Valid options are 0 (NONE, default), 1 (ODOMETRY) and "
+                "2 (COMMANDS)"
+            )
+            feedback = 0
+        self.smoother = VelocitySmoother(period=1 / parameters.frequency, feedback=FEEDBACK[feedback])
         self._quiet = parameters.quiet
         self._server = Server(node, SmootherLimits, self._reconfigure)
         twist = message_class("geometry_msgs/Twist")
         self._message = twist()
         self._publisher = node.publisher("~smooth_cmd_vel", twist, queue_size=1)
         node.subscriber("~raw_cmd_vel", twist, self._command, queue_size=1)
-        if parameters.robot_feedback == 1:
+        if feedback == 1:
             node.subscriber(
                 "~odometry",
                 message_class("nav_msgs/Odometry"),
                 lambda message: self._measured(message.twist.twist),
                 queue_size=1,
             )
-        if parameters.robot_feedback == 2:
+        if feedback == 2:
             node.subscriber("~robot_cmd_vel", twist, self._measured, queue_size=1)
         node.timer(1 / parameters.frequency, self._step)
 

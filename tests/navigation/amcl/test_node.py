@@ -368,9 +368,8 @@ def test_another_base_frame_asks_anew_where_the_laser_is(graph):
 @pytest.mark.parametrize(
     "given",
     [
-        "_odom_alpha1:=-0.5",
-        "_laser_model_type:=sonar",
         "_max_particles:=many",
+        "_odom_alpha1:=.nan",
         "_initial_pose_a:=.nan",
         "_initial_pose_x:=.inf",
     ],
@@ -378,6 +377,19 @@ def test_another_base_frame_asks_anew_where_the_laser_is(graph):
 def test_parameters_that_cannot_be(graph, given):
     with pytest.raises(ParameterError, match=given[1:].partition(":")[0]):
         rosrun("amcl", "amcl", given, graph=graph).instance()
+
+
+def test_parameters_of_other_kinds_and_out_of_range_are_taken_as_amcl_takes_them(graph, capsys):
+    amcl = start(graph, "_odom_alpha1:=-0.5", "_max_particles:=700.0", "_min_particles:=99.5", "_kld_err:=3",
+                 "_laser_model_type:=sonar", "_odom_model_type:=car")  # fmt: skip
+    p, said = amcl.parameters, capsys.readouterr().err
+    assert (p.odom_alpha1, p.max_particles, p.min_particles, p.kld_err) == (0.0, 700, 100, 1.0)
+    assert (p.laser_model_type, p.odom_model_type) == ("likelihood_field", "diff")
+    assert said.count("/amcl/odom_alpha1 is -0.5") == 1
+    assert "0.0 ... 10.0" in said
+    assert 'Unknown laser model type "sonar"; defaulting to likelihood_field model' in said
+    assert 'Unknown odom model type "car"; defaulting to diff model' in said
+    assert amcl.node.get_param("~odom_alpha1") == 0.0
 
 
 def test_parameters_that_are_none_of_its_own(graph, capsys):

@@ -287,7 +287,7 @@ def test_without_a_footprint_the_radius_is_that_of_the_real_one(stage):
     ("parameters", "error", "said"),
     [
         ({"footprint": [[0, 0], [1, 1]]}, ParameterError, "at least three points"),
-        ({"resolution": -0.1}, ParameterError, "resolution"),
+        ({"resolution": -0.1}, ParameterError, "above 0"),
         ({"resolution": 0.0}, ParameterError, "above 0"),
         ({"width": 100_000, "resolution": 0.001}, CostmapError, "take a coarser resolution"),
         ({"plugins": "obstacles"}, ParameterError, "plugins"),

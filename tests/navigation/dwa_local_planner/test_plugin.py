@@ -64,7 +64,7 @@ def test_robotis_file_loads_and_says_what_it_limits(made, capsys):
     bench = made()
     assert bench.planner.parameters.vy_samples == 1
     told = capsys.readouterr()
-    assert "/move_base/DWAPlannerROS/vy_samples is 0: 1 is used" in told.err
+    assert "/move_base/DWAPlannerROS/vy_samples is 0: 1 is used, as its range is 1 ..." in told.err
     assert "Sim period is set to 0.10" in told.out
     assert bench.planner.planner.sim_period == pytest.approx(0.1)
 

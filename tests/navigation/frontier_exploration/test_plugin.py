@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError, ServiceException
+from rosmini.errors import ServiceException
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.nav_core import pose_stamped
@@ -70,7 +70,13 @@ def test_frontiers_inside_of_a_boundary(bounded, stage):
 
 
 @pytest.mark.parametrize(
-    ("point", "wanted"), [("closest", (2.05, 0.85)), ("middle", (2.05, 1.05)), ("centroid", (2.05, 1.05))]
+    ("point", "wanted"),
+    [
+        ("closest", (2.05, 0.85)),
+        ("closet", (2.05, 0.85)),
+        ("middle", (2.05, 1.05)),
+        ("centroid", (2.05, 1.05)),
+    ],
 )
 def test_which_point_of_a_frontier(stage, point, wanted):
     stage.know(0.5, 0.5, 2.0, 2.0)
@@ -148,9 +154,3 @@ def test_asked_before_there_is_a_boundary_or_from_outside(bounded):
     bounded.bound()
     with pytest.raises(ServiceException, match="Robot out of costmap bounds"):
         bounded.next(11.0, 1.05)
-
-
-def test_a_travel_point_that_there_is_not(stage):
-    stage.know(0.5, 0.5, 2.0, 2.0)
-    with pytest.raises(ParameterError, match="did you mean closest"):
-        Bounded(stage, frontier_travel_point="closet")

@@ -99,6 +99,15 @@ def test_costs_are_changed_while_it_runs():
     assert heard["plan"][-1].poses == []
 
 
-def test_parameters_are_checked():
+def test_parameters_out_of_range_are_limited(capsys):
+    made, _, _ = planner(GlobalPlanner, room(), orientation_mode=7, neutral_cost=66.0, cost_factor=9)
+    assert (made.config["orientation_mode"], made.config["neutral_cost"], made.config["cost_factor"]) == (
+        6,
+        66,
+        5.0,
+    )
+    said = capsys.readouterr().err
+    assert "/move_base/GlobalPlanner/orientation_mode is 7" in said
+    assert "1 ... 255" not in said
     with pytest.raises(ParameterError, match="orientation_mode"):
-        planner(GlobalPlanner, room(), orientation_mode=7)
+        planner(GlobalPlanner, room(), orientation_mode="forward")

@@ -610,11 +610,11 @@ def test_wrong_arguments_are_answered_with_the_usage(graph: Graph, arguments, wo
     assert "Usage: stageros [-g] [-u] <worldfile>" in str(caught.value)
 
 
-def test_wrong_parameters(bench):
-    with pytest.raises(ParameterError, match="~base_watchdog_timeout"):
-        bench(ROBOT % "", base_watchdog_timout=1.0)
-    with pytest.raises(ParameterError, match="at least 0"):
-        bench(ROBOT % "", base_watchdog_timeout=-1.0)
+def test_wrong_parameters(bench, capsys):
+    bench(ROBOT % "", base_watchdog_timout=1.0)
+    assert "~base_watchdog_timeout" in capsys.readouterr().err
+    with pytest.raises(ParameterError, match="base_watchdog_timeout"):
+        bench(ROBOT % "", base_watchdog_timeout="never")
 
 
 def test_a_world_without_robots_goes_on(bench):

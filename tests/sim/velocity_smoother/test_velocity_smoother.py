@@ -178,6 +178,8 @@ def test_it_hears_the_robots_odometry(graph):
     assert ears.heard[0] == pytest.approx(0.725)
 
 
-def test_wrong_parameters_are_named(graph):
+def test_an_unknown_kind_of_feedback_is_none(graph, capsys):
+    Ears(graph, robot_feedback=3)
+    assert "Invalid robot feedback type (3)" in capsys.readouterr().err
     with pytest.raises(ParameterError, match="robot_feedback"):
-        Ears(graph, robot_feedback=3)
+        Ears(graph, robot_feedback="odometry")
