@@ -3,14 +3,16 @@
 What the fields and the colours mean stands on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is
 silent, this does what map_server's image loader does: alpha is averaged with the colours in the mode `trinary` and
 means "unknown" where it is 0 in the mode `scale`; values are cut, not rounded. It is stricter in one thing: a
-cell without size, numbers that are not finite and thresholds that are not probabilities are errors here.
+cell without size and numbers that are not finite are errors here. Where map_server silently makes a map that is of no
+use, such as one that is unknown everywhere, there is a warning.
 """
 
 from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+import warnings
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast
@@ -90,8 +92,8 @@ class MapFile:
         """The image and the map that it makes, with dials; `options`: see `rosmini.viz.map_dials.map_dials`."""
         return show("map_file", self, **options)
 
-    def load(self) -> GridMap:
-        """The map. Raises `MapError` as `load_map` does."""
+    def load(self, warn: Callable[[str], object] = warnings.warn) -> GridMap:
+        """The map. Raises `MapError` as `load_map` does; `warn` is called if it is probably not the one wanted."""
         document, fields = self.document, self.fields
         occupancy = occupancy_of(self.pixels(), fields)
         most = max(occupancy.shape)
@@ -99,12 +101,14 @@ class MapFile:
             bounds = f"{SMALLEST:g} or more, and with {most} of them no more than {LARGEST:g}"
             wanted = f"the side of a cell in metres, {bounds}"
             raise _wrong(document, "resolution", fields.resolution, wanted)
+        odd = _odd_thresholds(fields) if fields.mode != "raw" else ""
         if fields.mode != "raw" and (occupancy == UNKNOWN).all():
-            raise MapDataError(
-                f"{document.path}: every cell of the map is unknown, for no pixel of {self.image} is darker than "
-                f"occupied_thresh ({fields.occupied_thresh:g}) or lighter than free_thresh ({fields.free_thresh:g}) "
-                "asks for; change the image or these fields"
+            odd = (
+                f"every cell of the map is unknown: no pixel of {self.image} is darker than occupied_thresh "
+                f"({fields.occupied_thresh:g}) or lighter than free_thresh ({fields.free_thresh:g}) asks for"
             )
+        if odd:
+            warn(f"{document.path}: {odd}; change the image or these fields")
         occupancy.flags.writeable = False
         return GridMap(occupancy, fields.resolution, fields.origin, document.path)
 
@@ -144,9 +148,8 @@ def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
     """The map that a YAML file describes. Its image is looked for beside the YAML file, unless its path is absolute.
 
     Raises `MapError`, as `MapMissing` if there is no such file; as `MapMetadataError` if it is no YAML, a field is
-    missing or has a value of another type, the resolution is not positive, a number not finite, or a threshold not
-    between 0 and 1; as `MapDataError` if the image is not there, is none, has
-    no pixels or leaves every cell unknown.
+    missing or has a value of another type, the resolution is not positive or a number not finite; as `MapDataError`
+    if the image is not there, is none or has no pixels. Warns of a map that is probably not the one wanted.
     """
     return map_file(yaml_path).load()
 
@@ -169,16 +172,27 @@ def _fields(document: _Document) -> Fields:
     if resolution <= 0:
         raise _wrong(document, "resolution", resolution, "the side of a cell in metres, more than 0")
     occupied, free = (_number(document, name, found[name]) for name in ("occupied_thresh", "free_thresh"))
-    for name, value in (("occupied_thresh", occupied), ("free_thresh", free)):
-        if not 0 <= value <= 1:
-            raise _wrong(document, name, value, "a probability, from 0 to 1")
     negate = _whole(document, "negate", found["negate"], "0 or 1 (map_server does not read true and false)")
-    mode = found.get("mode", "trinary")
+    mode = found.get("mode")
+    if mode is None or isinstance(mode, list | dict | set):  # map_server overlooks what is not one word
+        mode = "trinary"
     if mode not in MODES:
         hint = nearest(str(mode), MODES)
         raise _wrong(document, "mode", mode, f"one of {', '.join(MODES)}{'; ' + hint if hint else ''}")
     origin = _origin(document, found["origin"])
     return Fields(image, resolution, origin, occupied, free, bool(negate), cast("Mode", mode))
+
+
+def _odd_thresholds(fields: Fields) -> str:
+    """What is wrong with the thresholds, which map_server does not check; or nothing."""
+    occupied, free = fields.occupied_thresh, fields.free_thresh
+    if occupied < free:
+        return f"occupied_thresh ({occupied:g}) is below free_thresh ({free:g}), so the greys between are occupied"
+    for name, value, cells in (("occupied_thresh", occupied, "occupied"), ("free_thresh", free, "free")):
+        if not 0 <= value <= 1:
+            which = "all" if (value > 1) == (cells == "free") else "no"
+            return f"{name} ({value:g}) is not a probability from 0 to 1: {which} cells can be {cells}"
+    return ""
 
 
 def _document(path: Path) -> _Document:

@@ -81,7 +81,7 @@ class MapServer:
 
     def _load(self, file: MapFile) -> GridMap:
         self.node.loginfo(f'Loading map from image "{address_of(file.image)}"')
-        return file.load()
+        return file.load(self.node.logwarn)
 
     def _deprecated(self, image: str, resolution: str) -> MapFile:
         self.node.logwarn("Using deprecated map server interface. Please switch to new interface.")

@@ -163,13 +163,12 @@ def test_a_text_pgm_a_palette_16_bits_and_1_bit_are_read(write, tmp_path):
         ("origin", "[0, a, 0]", "'origin' is 'a'"),
         ("origin", "0", "x, y and yaw"),
         ("occupied_thresh", None, "no field 'occupied_thresh'"),
-        ("occupied_thresh", "1.5", "'occupied_thresh' is 1.5"),
-        ("free_thresh", "-0.1", "'free_thresh' is -0.1"),
+        ("occupied_thresh", ".nan", "'occupied_thresh' is nan"),
         ("negate", None, "no field 'negate'"),
         ("negate", "false", "'negate' is False; it has to be 0 or 1"),
         ("negate", "0.5", "'negate' is 0.5"),
         ("mode", "trinery", "one of trinary, scale, raw; did you mean trinary"),
-        ("mode", "[1]", "'mode' is"),
+        ("mode", "''", "'mode' is"),
     ],
 )
 def test_an_error_names_the_file_and_the_field(write, name, value, part):
@@ -227,9 +226,9 @@ def test_a_broken_image_is_no_map(write, tmp_path):
         load_map(path)
 
 
-def test_a_map_that_is_only_unknown_is_refused_but_not_in_the_mode_raw(write):
-    with pytest.raises(MapError, match="every cell of the map is unknown"):
-        load_map(write([[200, 150]]))
+def test_a_map_that_is_only_unknown_is_warned_of_but_not_in_the_mode_raw(write):
+    with pytest.warns(UserWarning, match="every cell of the map is unknown"):
+        assert load_map(write([[200, 150]])).occupancy.tolist() == [[-1, -1]]
     assert load_map(write([[255, 255]], mode="raw")).occupancy.tolist() == [[-1, -1]]
 
 
@@ -282,7 +281,7 @@ def test_a_map_is_small_plain_yaml(tmp_path, text, said):
 
 
 @pytest.mark.parametrize(
-    "field", ["resolution", "occupied_thresh", "free_thresh", "negate", "mode", "origin", "image"]
+    "field", ["resolution", "occupied_thresh", "free_thresh", "negate", "origin", "image"]
 )
 @pytest.mark.parametrize(
     "value",
@@ -340,7 +339,8 @@ def test_a_map_of_10000_by_10000_cells_is_read(write, tmp_path):
 @pytest.mark.parametrize(
     ("fields", "wanted"),
     [
-        ({"free_thresh": "0.7", "occupied_thresh": "0.3"}, [100, 100, 0]),  # occupied is asked first
+        ({"mode": ""}, [100, -1, 0]),
+        ({"mode": "[scale]"}, [100, -1, 0]),
         ({"negate": "2"}, [0, -1, 100]),
         ({"negate": "'1'"}, [0, -1, 100]),
         ({"origin": "[-1.0, 2.5, 0.0, 0.0]"}, [100, -1, 0]),
@@ -352,6 +352,25 @@ def test_odd_fields_are_read_as_map_server_reads_them(write, fields, wanted):
     assert found.occupancy.tolist() == [wanted]
     assert found.origin == (-1.0, 2.5, 0.0)
     assert found.resolution == 0.05
+
+
+@pytest.mark.parametrize(
+    ("fields", "wanted", "said"),
+    [
+        # occupied is asked first
+        (
+            {"free_thresh": "0.7", "occupied_thresh": "0.3"},
+            [100, 100, 0],
+            r"\(0.3\) is below free_thresh \(0.7\)",
+        ),
+        ({"occupied_thresh": "65"}, [-1, -1, 0], r"occupied_thresh \(65\) .* no cells can be occupied"),
+        ({"free_thresh": "-0.1"}, [100, -1, -1], r"free_thresh \(-0.1\) .* no cells can be free"),
+        ({"free_thresh": "19.6", "occupied_thresh": "65"}, [0, 0, 0], "no cells can be occupied"),
+    ],
+)
+def test_odd_thresholds_are_taken_with_a_warning(write, fields, wanted, said):
+    with pytest.warns(UserWarning, match=said):
+        assert load_map(write([[0, 150, 255]], **fields)).occupancy.tolist() == [wanted]
 
 
 def test_a_comment_in_another_encoding_does_no_harm(write):
