@@ -99,6 +99,11 @@ def expected(name: str, value: Any, kinds: tuple[type, ...], wanted: str = "") -
     raise ParameterError(msg)
 
 
+def _is_in(name: str, tree: str) -> bool:
+    """Return whether a canonical name is ``tree`` or is inside it."""
+    return name == tree or name.startswith(tree.rstrip("/") + "/")
+
+
 class ParameterApi(BlockingApi, LoggingApi):
     """The part of a node that reads and writes parameters.
 
@@ -226,6 +231,10 @@ class ParameterApi(BlockingApi, LoggingApi):
         """The parameters for which :meth:`on_param` was called."""
         return list(self._parameter_callbacks)
 
+    def watches(self, key: str) -> bool:
+        """Return whether :meth:`on_param` was called for this parameter or for a namespace that contains it."""
+        return any(_is_in(canonicalize(key), name) for name in self.watched_parameters)
+
     def parameter_changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - what the Master says
         """Learn from the Master that a parameter has changed to which this node subscribes.
 
@@ -238,7 +247,7 @@ class ParameterApi(BlockingApi, LoggingApi):
 
     def _look_at_parameters(self, changed: str) -> None:
         for name in list(self._parameter_callbacks):
-            if name != changed and not changed.startswith(name.rstrip("/") + "/"):
+            if not _is_in(changed, name):
                 continue
             now = self._value_now(name)
             callbacks = self._parameter_callbacks.get(name, [])

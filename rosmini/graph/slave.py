@@ -181,6 +181,8 @@ class SlaveApi:
         problem = _name_problem("parameter_key", parameter_key)
         if problem:
             return [-1, problem, 0]
+        if not self._node.watches(parameter_key):
+            return [-1, "not subscribed", 0]
         self._post(lambda: self._node.parameter_changed(parameter_key, parameter_value))
         return [1, "", 0]
 

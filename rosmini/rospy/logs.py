@@ -53,7 +53,23 @@ def log(level: int, text: Any, args: tuple[Any, ...], options: dict[str, Any], b
             sys.stderr.write(_text(text, args, options) + "\n")
         return
     if node.logger.is_enabled(level, logger):
-        node.logger.log(level, _text(text, args, options), logger=logger)
+        shown = _text(text, args, options)
+        node.logger.log(level, shown, logger=logger)
+        _call_handlers(level, shown, logger)
+
+
+def _call_handlers(level: int, text: str, name: str) -> None:
+    """Call the handlers that the script has added to Python's logger ``name`` or above, such as ``rosout``."""
+    importer = getattr(current_session().context, "importer", None)
+    # A script has a logging of its own, once it has imported it.
+    logging = sys.modules.get("logging") if importer is None else importer.private.get("logging")
+    if logging is None or not (logger := logging.getLogger(name)).hasHandlers():
+        return
+    code = (frame := _caller(1)).f_code
+    severity = getattr(logging, NAMES[level])
+    logger.handle(
+        logger.makeRecord(name, severity, code.co_filename, frame.f_lineno, text, (), None, code.co_name)
+    )
 
 
 def _text(text: Any, args: tuple[Any, ...], options: dict[str, Any]) -> str:

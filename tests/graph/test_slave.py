@@ -69,7 +69,7 @@ def test_each_method_answers_as_in_ros(talking: Graph) -> None:
     ]
     code, status, parameters = call(talking, "/talker", "requestTopic", "/chatter", [["UDPROS"], *offers])
     assert (code, status.startswith("ready on "), parameters[0]) == (1, True, protocol)
-    assert call(talking, "/talker", "paramUpdate", "/nothing", 1) == [1, "", 0]
+    assert call(talking, "/talker", "paramUpdate", "/nothing", 1) == [-1, "not subscribed", 0]
     assert call(talking, "/talker", "publisherUpdate", "/nothing", []) == [1, "", 0]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+
 import pytest
 
 from rosmini import rospy
@@ -66,6 +68,32 @@ def test_messages_go_to_rosout_with_their_place(programs):
     assert message.file.endswith("test_logging.py")
     assert message.line == main.__code__.co_firstlineno + 3
     assert "/rosout" in message.topics
+
+
+def test_handlers_of_the_logger_rosout_are_called(sim_programs):
+    records = []
+
+    class Keep(logging.Handler):
+        def emit(self, record):
+            records.append((record.name, record.levelname, record.getMessage(), record.funcName))
+
+    handler = Keep(logging.WARNING)
+
+    def main():
+        logging.getLogger("rosout").addHandler(handler)
+        rospy.init_node("main")
+        rospy.loginfo("below the handler's level")
+        rospy.logwarn("a %s", "text")
+        rospy.logfatal("100%", logger_name="motor")
+
+    try:
+        sim_programs(main)
+    finally:
+        logging.getLogger("rosout").removeHandler(handler)
+    assert records == [
+        ("rosout", "WARNING", "a text", "main"),
+        ("rosout.motor", "CRITICAL", "100%", "main"),
+    ]
 
 
 def test_once_and_throttle_count_each_place_alone(sim_programs, log):
