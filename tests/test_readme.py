@@ -37,6 +37,16 @@ def test_what_the_readme_points_to_is_there(target):
     assert (ROOT / target).exists()
 
 
+def test_the_page_on_the_comparison_has_each_figure_of_the_readme():
+    comparison = README.partition("\n## How it compares\n")[2].partition("\n## ")[0]
+    [(page, anchor)] = re.findall(r"\]\(([\w/]+\.md)#([\w-]+)\)", comparison)
+    heading = anchor.replace("-", " ").capitalize()
+    section = (ROOT / page).read_text(encoding="utf-8").partition(f"\n## {heading}\n")[2]
+    figures = re.findall(r"\b[\d.]+ (?:GB|MB|s)\b", comparison)
+    assert len(figures) > 10
+    assert [figure for figure in figures if figure not in section] == []
+
+
 def test_ci_runs_the_commands_of_the_readme_as_they_stand_there():
     shown = re.findall(r"^\$ (.+)$", README.partition("## Ten lines")[0], re.MULTILINE)
     one_line = ["pip install uv && uv run rosmini book", "pip install uv && uv run pytest"]
