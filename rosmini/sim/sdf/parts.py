@@ -252,35 +252,41 @@ def geometry(element: Element, reading: Reading) -> SdfGeometry:
         return SdfGeometry("other" if others else "empty", line=element.line)
     shape = shapes[0]
     if shape.tag == "polyline":
-        drawn = [_polyline(each) for each in element.all("polyline")]
+        drawn = [_polyline(each, reading) for each in element.all("polyline")]
         return SdfGeometry(
             "polyline", length=drawn[0][1], outlines=tuple(each[0] for each in drawn), line=shape.line
         )
     return _READERS[shape.tag](shape, reading)
 
 
-def _size(element: Element, tag: str) -> float:
-    value = element.need(tag).floats(element.word(tag), 1, most=FARTHEST)[0]
-    if value <= 0:
-        raise element.need(tag).error(f"the {tag} of a {element.tag} is more than 0 m, not {value:g}")
-    return value
+THINNEST = 1e-4
+"""What Gazebo takes a size of 0 for [m]."""
 
 
-def _box(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
-    size = element.need("size")
-    numbers = size.floats(size.text, 3, most=FARTHEST)
-    if min(numbers) <= 0:
-        raise size.error(f"the sides of a box are more than 0 m, not {size.text}")
-    return SdfGeometry("box", size=numbers, line=element.line)
+def _sizes(element: Element, tag: str, reading: Reading, count: int = 1) -> tuple[float, ...]:
+    """Sizes of a shape. Raises `SdfError` if one is negative; 0 is taken for a very small one, as in Gazebo."""
+    child = element.need(tag)
+    values = child.floats(child.text, count, most=FARTHEST)
+    if min(values) < 0:
+        raise child.error(f"the {tag} of a {element.tag} is more than 0 m, not {child.text}")
+    if min(values) == 0:
+        reading.note(
+            child, f"the {tag} of a {element.tag} is 0 m: {THINNEST * 1000:g} mm is taken", warning=True
+        )
+    return tuple(value or THINNEST for value in values)
 
 
-def _cylinder(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
-    radius, length = _size(element, "radius"), _size(element, "length")
+def _box(element: Element, reading: Reading) -> SdfGeometry:
+    return SdfGeometry("box", size=_sizes(element, "size", reading, 3), line=element.line)
+
+
+def _cylinder(element: Element, reading: Reading) -> SdfGeometry:
+    (radius,), (length,) = (_sizes(element, tag, reading) for tag in ("radius", "length"))
     return SdfGeometry("cylinder", radius=radius, length=length, line=element.line)
 
 
-def _sphere(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
-    return SdfGeometry("sphere", radius=_size(element, "radius"), line=element.line)
+def _sphere(element: Element, reading: Reading) -> SdfGeometry:
+    return SdfGeometry("sphere", radius=_sizes(element, "radius", reading)[0], line=element.line)
 
 
 def _plane(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
@@ -292,7 +298,7 @@ def _plane(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
     return SdfGeometry("plane", size=sides, normal=(x, y, z), line=element.line)
 
 
-def _polyline(element: Element) -> tuple[tuple[tuple[float, float], ...], float]:
+def _polyline(element: Element, reading: Reading) -> tuple[tuple[tuple[float, float], ...], float]:
     points = []
     for point in element.all("point"):
         x, y = point.floats(point.text, 2, most=FARTHEST)
@@ -303,7 +309,7 @@ def _polyline(element: Element) -> tuple[tuple[tuple[float, float], ...], float]
         raise element.error(f"a polyline has {MOST_POINTS} points or less, not {len(points)}")
     if len(points) < 3:
         raise element.error(f"a polyline has 3 points or more, not {len(points)}")
-    height = _size(element, "height") if element.find("height") is not None else 1.0
+    height = _sizes(element, "height", reading)[0] if element.find("height") is not None else 1.0
     return tuple(points), height
 
 

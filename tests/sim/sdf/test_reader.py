@@ -329,6 +329,8 @@ MISSING = "<geometry><mesh><uri>{}</uri></mesh></geometry>"
          "<boxx> is left out; did you mean box"),
         (model(f"<link name='l'><collision name='c'>{BOX}<surface><bounce><restitution_coefficient>2"
             "</restitution_coefficient></bounce></surface></collision></link>"), "not 2: 1 is taken"),
+        (model("<link name='l'><collision name='c'><geometry><box><size>1 0 1</size></box></geometry>"
+            "</collision></link>"), "the size of a box is 0 m: 0.1 mm is taken"),
     ],
 )  # fmt: skip
 def test_what_is_not_there_or_cannot_be_is_left_out_or_replaced_with_a_warning(text, said):
@@ -340,6 +342,16 @@ def test_what_is_not_there_or_cannot_be_is_left_out_or_replaced_with_a_warning(t
     for each in found.models:
         assert each.links[0].inertial.mass == 1
         assert each.links[0].inertial.inertia == (1, 1, 1, 0, 0, 0)
+
+
+@pytest.mark.parametrize(("text", "wanted"), [("True", True), (" 1 ", True), ("FALSE", False), ("0", False)])
+def test_booleans_and_white_space_are_read_as_libsdformat_reads_them(text, wanted):
+    size = "<geometry><box><size>1\t0\n  3.5e0 </size></box></geometry>"
+    found = load(
+        model(f"<static>{text}</static><link name='l'><visual name='v'>{size}</visual></link>")
+    ).models[0]
+    assert found.static is wanted
+    assert found.links[0].visuals[0].geometry.size == (1.0, 1e-4, 3.5)
 
 
 def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_path):
@@ -472,7 +484,7 @@ def test_comments_and_blank_lines_may_precede_the_declaration(tmp_path, before):
          4, "circle: a -> b -> a"),
         (model("<link name='l'/><link name='l'/>"), 3, "another link 'l'"),
         (model("<link name='l'><collision name='c'/></link>"), 3, "no <geometry>"),
-        (model("<link name='l'><collision name='c'><geometry><box><size>1 0 1</size></box></geometry>"
+        (model("<link name='l'><collision name='c'><geometry><box><size>1 -1 1</size></box></geometry>"
             "</collision></link>"), 3, "more than 0"),
         (model("<link name='l'><collision name='c'><geometry><sphere/></geometry></collision></link>"),
          3, "no <radius>"),
