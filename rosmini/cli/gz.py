@@ -1,8 +1,9 @@
 """`rosmini gz`: the verbs of Gazebo's own tool (http://classic.gazebosim.org/tutorials?tut=components).
 
-`sdf` works on files. The others act on a running server by Gazebo's own topics. In a terminal that is named after a
-`+`, as in
-`rosmini run`, and runs in the same process: `rosmini gz topic -l + gazebo_ros/gzserver worlds/empty.world`. In Python:
+`sdf` works on files. The others act on a running server through the ROS services of /gazebo: in a terminal that of the
+Master at ROS_MASTER_URI, in Python that of a graph. `topic`, and `world` with the options for which gazebo_ros has no
+service, act on the server itself, which has to run in the same process. In a terminal it is named after a `+`, as in
+`rosmini gz topic -l + gazebo_ros/gzserver worlds/empty.world`. In Python:
 
     gz = Gz(graph)
     gz("topic", "-l")
@@ -10,38 +11,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini import urdf
 from rosmini.errors import UsageError
+from rosmini.introspection.services import uri_of
 from rosmini.markup import parse_file
+from rosmini.msgs import message_class, service_class
 from rosmini.sim import sdf
 from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.from_urdf import from_urdf
-from rosmini.sim.gazebo.msgs import (
-    Factory,
-    Message,
-    Model,
-    Pose,
-    Request,
-    Response,
-    WorldControl,
-    WorldReset,
-    WorldStatistics,
-)
-from rosmini.sim.gazebo.snapshot import pose_of
+from rosmini.sim.gazebo.services import pose_message, pose_of
 from rosmini.sim.gazebo.to_sdf import to_sdf
-from rosmini.sim.gazebo.transport import TransportNode, address, find_master
+from rosmini.sim.gazebo.topics import GazeboMaster, address, find_master
 
-from .verbs import ArgumentParser, Call, Lines, Result, Tool
+from .listening import SECOND, Span, tool_node
+from .verbs import ArgumentParser, Call, Lines, Overview, Result, Tool
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
-    from rosmini.graph import Graph
+    from rosmini.graph import Node
 
 TOOL = Tool(
     "gz",
@@ -49,85 +43,72 @@ TOOL = Tool(
     usage_status=255,
     elsewhere=("camera", "debug", "joint", "log", "marker", "physics"),
     example="gazebo_ros/gzserver worlds/empty.world",
+    purpose="looking at a Gazebo server and changing its world",
+    overview=Overview(
+        closing="Type {tool} <command> -h for more detailed usage", status=0, unknown_status=255
+    ),
 )
 add_parser, main, Gz = TOOL.add_parser, TOOL.main, TOOL.on
 
 LOOK_BACK = 20
-"""Over so many messages `gz stats` takes the average."""
-
-TIMEOUT = 10.0
-"""How long an answer or a message is waited for [s]."""
-
-
-class _Client:
-    """Talks to the server of a graph."""
-
-    def __init__(self, graph: Graph) -> None:
-        self.graph = graph
-
-    def node(self) -> TransportNode:
-        """Return a new node of Gazebo's. Raises `GazeboError` if there is no server."""
-        master = find_master(self.graph)
-        if master is None:
-            raise GazeboError(
-                f"an instance of Gazebo is not running: there is no Master at {address()}. "
-                "Start `gazebo_ros/gzserver` in the same graph"
-            )
-        return TransportNode(master, "gz")
-
-    def wait(self, found: Sequence[object], count: int, seconds: float) -> None:
-        """Let the graph go on until so many messages have come, or the time is over."""
-        scheduler = self.graph.scheduler
-        end = scheduler.now_ns() + round(seconds * 1e9)
-        if scheduler.is_hub_thread() and not scheduler.driven:
-            self.graph.run(seconds, until=(lambda: len(found) >= count) if count else None)
-            scheduler.give_way()  # what was published at the last moment arrives
-            return
-        while scheduler.now_ns() < end and not (count and len(found) >= count):
-            scheduler.sleep_until(min(end, scheduler.now_ns() + 5_000_000))
-
-    def ask(self, request: str, data: str = "") -> Any:
-        """Return what the server answers. Raises `GazeboError`."""
-        node = self.node()
-        waiter = self.graph.scheduler.waiter("an answer of Gazebo's server")
-        number = int(node.address.rpartition(":")[2])  # its port: nobody else asks under it
-
-        def hear(message: Response) -> None:
-            if message.id == number and message.request == request:
-                waiter.wake(message)
-
-        node.subscribe("~/response", hear)
-        node.advertise("~/request", Request).publish(Request(number, request, data))
-        answered = waiter.wait(round(TIMEOUT * 1e9))
-        node.close()
-        if not answered:
-            raise GazeboError(f"Gazebo's server does not answer {request!r}")
-        answer: Response = waiter.value
-        if answer.response != "success":
-            raise GazeboError(str(answer.serialized_data))
-        return answer.serialized_data
-
-    def publish(self, topic: str, message: Message) -> None:
-        """Publish one message, and go on when it has been dealt with."""
-        node = self.node()
-        node.advertise(topic, type(message)).publish(message)
-        self.graph.scheduler.give_way()
-        node.close()
-
+"""Number of samples over which `gz stats` averages."""
 
 EXAMPLES = {
-    "topic": "-e /gazebo/default/world_stats -n 1 + gazebo_ros/gzserver worlds/empty.world",
-    "model": "-m ground_plane -i + gazebo_ros/gzserver worlds/empty.world",
-    "world": "-p 1 + gazebo_ros/gzserver worlds/empty.world",
-    "stats": "-d 2 + gazebo_ros/gzserver worlds/empty.world",
+    "topic": "-l + gazebo_ros/gzserver worlds/empty.world",
+    "model": "-m ground_plane -p",
+    "world": "-p 1",
+    "stats": "-d 2",
     "sdf": "-k my_robot.sdf",
 }
+
+
+def _master(call: Call) -> GazeboMaster:
+    """Return the Master of the server in this process. Raises `GazeboError` if there is none."""
+    master = find_master(call.graph)
+    if master is None:
+        raise GazeboError(
+            f"an instance of Gazebo is not running: there is no Master at {address()}. "
+            "Start `gazebo_ros/gzserver` in the same graph; in a terminal, name it after a +: "
+            f"`rosmini gz topic {EXAMPLES['topic']}`"
+        )
+    return master
+
+
+@dataclass(frozen=True)
+class _Services:
+    """The ROS services of a running server; ``name`` is that of its node."""
+
+    node: Node
+    name: str
+
+    def call(self, service: str, kind: str, **fields: Any) -> Any:
+        """Return the response. Raises `GazeboError` if the server refuses."""
+        answer = self.node.service_client(f"{self.name}/{service}", service_class(kind), numpy=False)(
+            **fields
+        )
+        if not getattr(answer, "success", True):
+            raise GazeboError(answer.status_message)
+        return answer
+
+
+@contextmanager
+def _services(call: Call) -> Iterator[_Services]:
+    """Start a node that calls the server. Raises `GazeboError` if no server runs."""
+    master = find_master(call.graph)
+    name = "/gazebo" if master is None else master.world.node.name
+    with tool_node(call.graph, "gz") as node:
+        if uri_of(call.peers, f"{name}/get_world_properties") is None:
+            raise GazeboError(
+                f"an instance of Gazebo is not running: no node offers {name}/get_world_properties. "
+                "Start one with `rosrun gazebo_ros gzserver`"
+            )
+        yield _Services(node, name)
 
 
 def _parser(
     verb: str, description: str, fill: Callable[[ArgumentParser], object]
 ) -> Callable[[], ArgumentParser]:
-    """Return what makes the parser of a verb."""
+    """Return a function that makes the parser of a verb."""
 
     def make() -> ArgumentParser:
         parser = ArgumentParser(
@@ -151,21 +132,18 @@ def _say_what(parser: Callable[[], ArgumentParser]) -> UsageError:
 
 def _topic_options(parser: ArgumentParser) -> None:
     add = parser.add_argument
-    add("-l", "--list", action="store_true", help="all topics")
-    add("-i", "--info", metavar="TOPIC", help="who publishes and who hears it")
-    add("-e", "--echo", metavar="TOPIC", help="what is published on it")
-    add("-u", "--unformatted", action="store_true", help="with -e: each message in one line")
-    add("-z", "--hz", metavar="TOPIC", help="its average rate; Gazebo prints one for each message")
-    add("-d", "--duration", type=float, default=1.0, help="for how long [s]; Gazebo goes on for ever")
-    add("-n", "--count", type=int, default=0, help="how many messages (not in Gazebo)")
+    add("-l", "--list", action="store_true", help="list all topics")
+    add("-i", "--info", metavar="TOPIC", help="show the publishers and subscribers of a topic")
+    add("-z", "--hz", metavar="TOPIC", help="measure the average rate of a topic")
+    add("-d", "--duration", type=float, default=1.0, help="how long to measure [s]; Gazebo never ends")
 
 
-_TOPIC = _parser("topic", "List Gazebo's own topics, and look into them", _topic_options)
+_TOPIC = _parser("topic", "List Gazebo's own topics", _topic_options)
 
 
 @dataclass(frozen=True, kw_only=True)
 class TopicInfo(Result):
-    """A topic's type, and the addresses of those who publish and hear it."""
+    """The type of a topic, and the addresses of its publishers and subscribers."""
 
     type: str
     publishers: tuple[str, ...]
@@ -178,21 +156,8 @@ class TopicInfo(Result):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Heard(Result):
-    """The messages that were heard on a topic."""
-
-    messages: tuple[Message, ...]
-    unformatted: bool = False
-
-    def __str__(self) -> str:
-        if self.unformatted:
-            return "\n".join(" ".join(map(str.strip, str(message).splitlines())) for message in self.messages)
-        return "\n".join(line for message in self.messages for line in (*str(message).splitlines(), ""))
-
-
-@dataclass(frozen=True, kw_only=True)
 class Frequency(Result):
-    """The average rate of a topic [Hz]; None if fewer than two messages came."""
+    """The average rate of a topic [Hz]; None if fewer than two messages arrived."""
 
     hz: float | None
 
@@ -200,33 +165,34 @@ class Frequency(Result):
         return "no new messages" if self.hz is None else f"Hz: {self.hz:6.2f}"
 
 
-@TOOL.verb("list Gazebo's own topics, and look into them", parser=_TOPIC, needs_graph=True)
+@TOOL.verb("list Gazebo's own topics", parser=_TOPIC, needs_graph=True)
 def topic(given: Namespace, call: Call) -> Result:
-    """List topics, or look into one."""
-    client = _Client(call.graph)
-    node = client.node()
-    try:
-        if given.list:
-            return Lines(lines=tuple(node.master.topics()))
-        if given.info:
-            found = node.master.info(node.resolve(given.info))
-            ends = tuple(found.publisher_addresses), tuple(found.subscriber_addresses)
-            return TopicInfo(type=found.type, publishers=ends[0], subscribers=ends[1])
-        if not (given.echo or given.hz):
-            raise _say_what(_TOPIC)
-        name = given.echo or given.hz
-        node.master.info(node.resolve(name))
-        heard: list[tuple[int, Any]] = []
-        clock = call.graph.scheduler.now_ns
-        node.subscribe(name, lambda message: heard.append((clock(), message)))
-        client.wait(heard, given.count, TIMEOUT if given.count else given.duration)
-    finally:
-        node.close()
-    if given.echo:
-        return Heard(messages=tuple(message for _, message in heard), unformatted=given.unformatted)
-    times = [when for when, _ in heard]
-    span = times[-1] - times[0] if times else 0
-    return Frequency(hz=(len(times) - 1) * 1e9 / span if span else None)
+    """List the topics, or show one."""
+    master = _master(call)
+    if given.list:
+        return Lines(lines=tuple(master.topics()))
+    if given.info:
+        found = master.info(master.resolve(given.info))
+        return TopicInfo(
+            type=found.type, publishers=found.publisher_addresses, subscribers=found.subscriber_addresses
+        )
+    if not given.hz:
+        raise _say_what(_TOPIC)
+    name = master.info(master.resolve(given.hz)).topic
+    times: list[int] = []
+
+    def note(_: object) -> None:
+        times.append(call.graph.scheduler.now_ns())
+
+    measured = [each for each in (master.poses, master.statistics) if master.resolve(each.name) == name]
+    for each in measured:
+        each.listeners.append(note)
+    duration = round(given.duration * SECOND)
+    for _ in Span.of(call.graph, duration).every(duration):
+        pass
+    for each in measured:
+        each.listeners.remove(note)
+    return Frequency(hz=(len(times) - 1) * 1e9 / (times[-1] - times[0]) if len(times) > 1 else None)
 
 
 # -- model -------------------------------------------------------------------------------------------------------
@@ -237,28 +203,17 @@ def _model_options(parser: ArgumentParser) -> None:
     add("-m", "--model-name", metavar="MODEL", help="which model")
     add("-d", "--delete", action="store_true", help="remove it from the world")
     add("-f", "--spawn-file", metavar="FILE", help="spawn it; without -m under its own name")
-    add("-i", "--info", action="store_true", help="all that is known of it")
     add(
         "-p", "--pose", action="store_true",
-        help="where it is: x y z roll pitch yaw; so without any option, where Gazebo moves it to the origin",
+        help="print its pose: x y z roll pitch yaw; also without any option, where Gazebo moves it to the origin",
     )  # fmt: skip
     for name in ("-x", "-y", "-z", "-R", "-P", "-Y"):
-        add(name, type=float, help="where it is to be [m, rad]; 0 if not given")
-
-
-@dataclass(frozen=True, kw_only=True)
-class ModelInfo(Result):
-    """All that is known of a model."""
-
-    model: Model
-
-    def __str__(self) -> str:
-        return "\n".join([*str(self.model).splitlines(), ""])
+        add(name, type=float, help="its new pose [m, rad]; 0 by default")
 
 
 @dataclass(frozen=True, kw_only=True)
 class ModelPose(Result):
-    """Where a model is: x, y, z [m], roll, pitch, yaw [rad]."""
+    """The pose of a model: x, y, z [m], roll, pitch, yaw [rad]."""
 
     pose: tuple[float, ...]
 
@@ -273,58 +228,35 @@ class ModelPose(Result):
 )
 def model(given: Namespace, call: Call) -> Result:
     """Show, move, spawn or delete a model."""
-    client = _Client(call.graph)
-    place = (given.x, given.y, given.z, given.R, given.P, given.Y)
-    x, y, z, roll, pitch, yaw = (part or 0.0 for part in place)  # what is not given is 0, as in Gazebo
+    parts = (given.x, given.y, given.z, given.R, given.P, given.Y)
+    x, y, z, roll, pitch, yaw = (
+        part or 0.0 for part in parts
+    )  # parts that are not given are 0, as in Gazebo
+    pose, name = pose_message((x, y, z, roll, pitch, yaw)), given.model_name or ""
     if given.spawn_file:
-        _spawn(
-            client,
-            Path(given.spawn_file),
-            given.model_name or "",
-            Pose.of("", 0, (x, y, z, roll, pitch, yaw)),
-        )
+        text = _read(Path(given.spawn_file))
+        with _services(call) as server:
+            fields = {"model_name": name, "model_xml": text, "initial_pose": pose}
+            server.call("spawn_sdf_model", "gazebo_msgs/SpawnModel", **fields)
         return Result()
-    if not given.model_name:
+    if not name:
         raise UsageError("gz model: which model? -m MODEL")
-    found = _found(client, given.model_name)
-    if given.delete:
-        client.ask("entity_delete", given.model_name)
-    elif given.info:
-        return ModelInfo(model=found)
-    elif any(part is not None for part in place):
-        moved = Pose.of(found.name, found.id, (x, y, z, roll, pitch, yaw))
-        client.publish("~/model/modify", Model(found.name, found.id, pose=moved))
-    else:
-        return ModelPose(pose=(0.0,) * 6 if found.pose is None else tuple(pose_of(found.pose)))
+    with _services(call) as server:
+        if given.delete:
+            server.call("delete_model", "gazebo_msgs/DeleteModel", model_name=name)
+        elif any(part is not None for part in parts):
+            state = message_class("gazebo_msgs/ModelState")(model_name=name, pose=pose)
+            server.call("set_model_state", "gazebo_msgs/SetModelState", model_state=state)
+        else:
+            found = server.call("get_model_state", "gazebo_msgs/GetModelState", model_name=name)
+            return ModelPose(pose=pose_of(found.pose))
     return Result()
 
 
-def _found(client: _Client, name: str) -> Model:
-    try:
-        found: Model = client.ask("entity_info", name)
-    except GazeboError as error:
-        where = client.node().master.namespace
-        msg = f"Unable to get info on model[{name}] in the world[{where}]: {error}"
-        raise GazeboError(msg) from error
-    return found
-
-
-def _spawn(client: _Client, path: Path, name: str, pose: Pose) -> None:
+def _read(path: Path) -> str:
     if not path.is_file():
         raise GazeboError(f"gz model: there is no file {path}")
-    node = client.node()
-    problems: list[str] = []
-
-    def hear(message: Response) -> None:
-        if message.request == "factory":
-            problems.append(str(message.serialized_data))
-
-    node.subscribe("~/response", hear)
-    client.publish("~/factory", Factory(path.read_text(encoding="utf-8"), name, pose))
-    client.graph.scheduler.give_way()  # a complaint is on its way
-    node.close()
-    if problems:
-        raise GazeboError(problems[0])
+    return path.read_text(encoding="utf-8")
 
 
 # -- world and stats ---------------------------------------------------------------------------------------------
@@ -346,77 +278,81 @@ _WORLD = _parser("world", "Pause, step and reset a world", _world_options)
 @TOOL.verb("pause, step and reset a world", parser=_WORLD, needs_graph=True)
 def world(given: Namespace, call: Call) -> Result:
     """Pause, step or reset the world."""
-    reset = None
-    if given.reset_all or given.reset_time or given.reset_models:
-        reset = WorldReset(given.reset_all, given.reset_time, given.reset_models)
-    pause = None if given.pause is None else bool(given.pause)
-    if given.multi_step is not None and given.multi_step < 1:
-        raise UsageError(f"gz world: a world is stepped once or more often, not {given.multi_step} times")
-    if reset is None and pause is None and not given.step and not given.multi_step:
+    steps = given.multi_step if given.multi_step is not None else int(given.step)
+    if given.multi_step is not None and steps < 1:
+        raise UsageError(f"gz world: the number of steps must be at least 1, not {steps}")
+    services = [
+        name
+        for wanted, name in (
+            (given.reset_all, "reset_simulation"),
+            (given.reset_models, "reset_world"),
+            (given.pause == 1, "pause_physics"),
+            (given.pause == 0, "unpause_physics"),
+        )
+        if wanted
+    ]
+    if not (services or steps or given.reset_time):
         raise _say_what(_WORLD)
-    control = WorldControl(pause, given.step or None, given.multi_step, reset)
-    _Client(call.graph).publish("~/world_control", control)
+    master = _master(call) if steps or given.reset_time else None  # for these gazebo_ros has no service
+    if services:
+        with _services(call) as server:
+            for name in services:
+                server.call(name, "std_srvs/Empty")
+    if master is not None:
+        if given.reset_time:
+            master.world.host.reset_time()
+        if steps:
+            master.world.step(steps)
+        master.publish_clock()
     return Result()
 
 
 def _stats_options(parser: ArgumentParser) -> None:
-    add = parser.add_argument
-    add("-d", "--duration", type=float, default=1.0, help="for how long [s]; Gazebo goes on for ever")
-    add("-p", "--plot", action="store_true", help="comma-separated values")
+    parser.add_argument("-d", "--duration", type=float, default=1.0, help="how long [s]; Gazebo never ends")
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The time of a world [s], and the time since the command started [s]."""
+
+    sim: float
+    real: float
+    paused: bool
 
 
 @dataclass(frozen=True, kw_only=True)
 class Statistics(Result):
-    """What the server said of its time, message by message; ``plot`` prints it as comma-separated values."""
+    """The progress of a world's time, sample by sample."""
 
-    messages: tuple[WorldStatistics, ...]
-    plot: bool = False
+    samples: tuple[Sample, ...]
 
     def __str__(self) -> str:
-        head = "# real-time factor (percent), simtime (sec), realtime (sec), paused (T or F)"
-        lines = [head] if self.plot else []
-        for count in range(2, len(self.messages) + 1):
-            last = self.messages[count - 1]
-            factor = _factor(self.messages[max(0, count - LOOK_BACK) : count])
-            if factor is None:
-                continue
-            sim, real, flag = _seconds(last.sim_time), _seconds(last.real_time), "T" if last.paused else "F"
-            if self.plot:
-                lines.append(f"{factor:4.2f}, {sim:16.6f}, {real:16.6f}, {flag}")
-            else:
-                lines.append(
-                    f"Factor[{factor:4.2f}] SimTime[{sim:4.2f}] RealTime[{real:4.2f}] Paused[{flag}]"
-                )
+        lines = []
+        for count in range(2, len(self.samples) + 1):
+            first, last = self.samples[max(0, count - LOOK_BACK)], self.samples[count - 1]
+            factor = max(0.0, (last.sim - first.sim) / (last.real - first.real))
+            flag = "T" if last.paused else "F"
+            lines.append(
+                f"Factor[{factor:4.2f}] SimTime[{last.sim:4.2f}] RealTime[{last.real:4.2f}] Paused[{flag}]"
+            )
         return "\n".join(lines)
 
 
 @TOOL.verb(
     "show how fast time passes",
-    parser=_parser("stats", "Show how fast time passes", _stats_options),
+    parser=_parser("stats", "Show how fast time passes, five times a second", _stats_options),
     needs_graph=True,
 )
 def stats(given: Namespace, call: Call) -> Statistics:
-    """Listen to how fast time passes."""
-    client = _Client(call.graph)
-    node = client.node()
-    heard: list[WorldStatistics] = []
-    node.subscribe("~/world_stats", heard.append)
-    client.wait(heard, 0, given.duration)
-    node.close()
-    return Statistics(messages=tuple(heard), plot=given.plot)
-
-
-def _factor(heard: Sequence[WorldStatistics]) -> float | None:
-    """Return the average real-time factor since the first, as Gazebo computes it; None if no time has passed."""
-    sim, real = (
-        sum(_seconds(getattr(each, name)) - _seconds(getattr(heard[0], name)) for each in heard)
-        for name in ("sim_time", "real_time")
-    )
-    return max(0.0, sim / real) if real > 0 else None
-
-
-def _seconds(time: Any) -> float:
-    return float(time.sec + time.nsec * 1e-9)
+    """Sample the time of the world."""
+    clock = call.graph.scheduler
+    start, found = clock.now_ns(), []
+    with _services(call) as server:
+        for _ in Span.of(call.graph, round(given.duration * SECOND)).every(SECOND // 5):
+            sim = server.call("get_world_properties", "gazebo_msgs/GetWorldProperties").sim_time
+            paused = server.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties").pause
+            found.append(Sample(sim, (clock.now_ns() - start) / SECOND, paused))
+    return Statistics(samples=tuple(found))
 
 
 # -- sdf ---------------------------------------------------------------------------------------------------------
@@ -430,7 +366,7 @@ def _sdf_options(parser: ArgumentParser) -> None:
 _SDF = _parser("sdf", "Check SDF and URDF files, and print them as SDF", _sdf_options)
 
 
-@TOOL.verb("check SDF and URDF files, and print them as SDF", name="sdf", parser=_SDF)
+@TOOL.verb("check SDF and URDF files, and print them as SDF", name="sdf", parser=_SDF, only_asks=True)
 def sdf_(given: Namespace, _call: Call) -> Lines:
     """Check a file, or convert it to SDF. Raises what the readers of files raise."""
     name = given.check or given.print

@@ -327,7 +327,7 @@ class Tool:
         own = self._with_verb(own)
         if self.purpose:
             own = [word for word in own if self.takes_arguments or not is_remapping(word)]
-            if not own or (own[0] not in {*self.verbs, "--help", "help"}):
+            if not own or (own[0] not in {*self.verbs, *self.elsewhere, "--help", "help"}):
                 return self._not_a_verb(own)
 
         def act() -> Result | int:

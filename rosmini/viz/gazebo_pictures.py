@@ -8,7 +8,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from rosmini.sim.gazebo.snapshot import Robot, Snapshot, place_of
+from rosmini.sim.gazebo.snapshot import Robot, Snapshot
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Pose
 from rosmini.viz.figures import WIDTH
@@ -106,11 +106,7 @@ def when(snapshot: Snapshot) -> str:
 
 def places(snapshot: Snapshot) -> list[str]:
     """A line for each model that can be moved, and one for those that stand fast."""
-    lines = [
-        f"{model.name}: pose {pose_text(place_of(model.pose))}"
-        for model in snapshot.things[:MANY]
-        if model.pose is not None
-    ]
+    lines = [f"{model.name}: pose {pose_text(model.place)}" for model in snapshot.things[:MANY]]
     if len(snapshot.things) > MANY:
         lines.append(f"and {len(snapshot.things) - MANY} more that can be moved")
     names = [model.name for model in snapshot.standing]

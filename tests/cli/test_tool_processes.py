@@ -141,3 +141,26 @@ def test_a_result_in_python_holds_no_node() -> None:
         for words in (("call", "/trigger"), ("info", "/trigger"), ("call", "-v", "/trigger")):
             TOOL.run(*words, graph=graph, say=lambda _: None)
         assert set(graph.nodes) == before
+
+
+def test_gz_acts_on_a_server_in_another_process(env: dict[str, str], tmp_path: Path) -> None:
+    box = tmp_path / "box.sdf"
+    box.write_text(
+        '<sdf version="1.6"><model name="box"><static>1</static><link name="l"><collision name="c"><geometry>'
+        "<box><size>1 1 1</size></box></geometry></collision></link></model></sdf>",
+        encoding="utf-8",
+    )
+    missing = ask(env, "gz model -m box -p")
+    assert (missing.returncode, "not running" in missing.stderr) == (1, True)
+    with start([*ROSMINI, "rosrun", "gazebo_ros", "gzserver"], env=env) as process:
+        services = "rosservice list"
+        wait_until(lambda: "/gazebo/get_world_properties" in ask(env, services).stdout, "gzserver", process)
+        assert ask(env, f"gz model -f {box} -m crate -x 2").returncode == 0
+        assert (
+            ask(env, "gz model -m crate -p").stdout
+            == "2.000000 0.000000 0.000000 0.000000 0.000000 0.000000\n"
+        )
+        assert ask(env, "gz world -p 1").returncode == 0
+        assert "Paused[T]" in ask(env, "gz stats").stdout
+        stepped = ask(env, "gz world -s")  # gazebo_ros has no service for a step
+        assert (stepped.returncode, "after a +" in stepped.stderr) == (1, True)

@@ -1,4 +1,4 @@
-"""Gazebo on rosmini's engine: the server with its ROS services, plugins, Gazebo's own topics, and a client."""
+"""Gazebo on rosmini's engine: the server with its ROS services, plugins, and a client."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
 from .plugin_tags import Tags, tag
 from .plugins import ModelPlugin, SensorPlugin, WorldPlugin, plugin_class, plugin_filenames
 from .server import Gazebo, GazeboServer
-from .transport import GazeboMaster, TransportNode
+from .topics import GazeboMaster
 
 __all__ = [
     "Gazebo",
@@ -20,7 +20,6 @@ __all__ = [
     "SensorPlugin",
     "SpawnError",
     "Tags",
-    "TransportNode",
     "UnknownEntity",
     "UnknownPlugin",
     "WorldPlugin",

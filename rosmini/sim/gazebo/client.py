@@ -1,32 +1,18 @@
-"""The node `gazebo_ros/gzclient`: a view of a running server.
+"""The node `gazebo_ros/gzclient`: a view of a running server in the same process.
 
-All it knows of the server is the address of Gazebo's Master. There it finds the server's topics: it asks for the
-scene on ~/request, hears poses on ~/pose/info, and draws what it knows. The simulation goes on whether a client looks
-or not.
+It shows the server's world as of the last poses, which it hears as often as Gazebo's client does. The simulation goes
+on with or without a client.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from functools import partial
 
 from rosmini.errors import ScriptError
 from rosmini.graph import Node
-from rosmini.sim.world import World
 
-from .msgs import (
-    Model,
-    Pose,
-    PosesStamped,
-    Request,
-    Response,
-    Scene,
-    Time,
-    WorldControl,
-    WorldReset,
-    WorldStatistics,
-)
 from .snapshot import Pictured, Snapshot
-from .transport import TransportNode, address, find_master
+from .topics import GazeboMaster, Poses, WorldStatistics, address, find_master
 
 WAIT_S = 30.0
 """How long a client waits for a server."""
@@ -64,112 +50,52 @@ class GazeboClient(Pictured):
         master = find_master(graph)
         if master is None:
             raise ScriptError(f"the server at {address()} has ended")
-        self.master = master
-        self.transport = TransportNode(master, f"gzclient {node.name}", node.spawn(f"{node.name} transport"))
-        self._models: dict[str, Model] = {}
-        self._poses: dict[str, Pose] = {}
-        self._scene: Scene | None = None
+        self.master: GazeboMaster = master
         self.statistics: WorldStatistics | None = None
-        """The last world statistics of the server."""
-        self.time = Time()
-        """Of the last poses."""
-        self._to_request = self.transport.advertise("~/request", Request)
-        self._to_control = self.transport.advertise("~/world_control", WorldControl)
-        self.transport.subscribe("~/response", self._response)
-        self.transport.subscribe("~/model/info", self._model)
-        self.transport.subscribe("~/pose/info", self._moved)
-        self.transport.subscribe("~/world_stats", self._told)
-        node.on_shutdown(self.transport.close)
-        self._to_request.publish(Request(1, "scene_info"))
-        node.wait_until(
-            lambda: self._scene is not None,
-            WAIT_S,
-            "the scene",
-            lambda: f"the server at {master.uri} does not answer",
-        )
+        """The last statistics of the world's time."""
+        self._poses = Poses.of(master.world)
+        self._lane = node.spawn(f"{node.name} display")
+        self._program = f"gzclient {node.name}"
+        master.join(self._program)
+        master.poses.listeners.append(self._moved)
+        master.statistics.listeners.append(self._counted)
+        node.on_shutdown(self._close)
+        master.statistics.publish()
+        master.poses.publish()
+        graph.changes.notify()
+
+    def _close(self) -> None:
+        self.master.leave(self._program)
+        self.master.poses.listeners.remove(self._moved)
+        self.master.statistics.listeners.remove(self._counted)
 
     def __repr__(self) -> str:
         return f"<GazeboClient {self.node.name}: {self.text}>"
 
-    # -- what the server says ------------------------------------------------------------------------------------
+    def _moved(self, poses: Poses) -> None:
+        self._lane.post(partial(setattr, self, "_poses", poses))  # as a message, it arrives after the step
 
-    def _response(self, message: Response) -> None:
-        if message.response != "success":
-            return
-        if isinstance(message.serialized_data, Scene):
-            self._scene = message.serialized_data
-            self.node.graph.changes.notify()
-            self._models = {model.name: model for model in self._scene.model}
-            self._poses = {model.name: model.pose for model in self._scene.model if model.pose is not None}
-        elif message.request == "entity_delete":
-            name = str(message.serialized_data)
-            self._models.pop(name, None)
-            for each in [each for each in self._poses if each.partition("::")[0] == name]:
-                del self._poses[each]
-
-    def _model(self, message: Model) -> None:
-        self._models[message.name] = message
-        if message.pose is not None:
-            self._poses[message.name] = message.pose
-
-    def _moved(self, message: PosesStamped) -> None:
-        self.time = message.time
-        self._poses.update((pose.name, pose) for pose in message.pose)
-
-    def _told(self, message: WorldStatistics) -> None:
-        self.statistics = message
-
-    # -- what it shows -------------------------------------------------------------------------------------------
+    def _counted(self, statistics: WorldStatistics) -> None:
+        self._lane.post(partial(setattr, self, "statistics", statistics))
 
     @property
     def models(self) -> tuple[str, ...]:
-        """The names of the models it knows."""
-        return tuple(self._models)
+        """The names of the models."""
+        return tuple(self.master.world.models)
 
     @property
     def text(self) -> str:
-        """What it shows, in words: the position of each model that is not static."""
-        name = self._scene.name if self._scene is not None else "?"
+        """The number of models, and the position of each that is not static."""
+        shown = self.snapshot()
         moving = [
-            f"{model.name} at ({self._poses[model.name].position.x:.2f}, {self._poses[model.name].position.y:.2f})"
-            for model in self._models.values()
-            if not model.is_static and model.name in self._poses
+            f"{model.name} at ({model.pose[0]:.2f}, {model.pose[1]:.2f})"
+            for model in shown.models
+            if not model.static
         ]
-        count = len(self._models)
-        there = f"{count} model{'' if count == 1 else 's'} in {name}"
+        count = len(shown.models)
+        there = f"{count} model{'' if count == 1 else 's'} in {shown.name}"
         return f"{there}: {', '.join(moving)}" if moving else there
 
     def snapshot(self) -> Snapshot:
-        """What it knows: the models, their poses, and the time."""
-        scene = replace(self._scene or Scene("default"), model=tuple(self._models.values()))
-        time = self.time.sec + self.time.nsec * 1e-9
-        return Snapshot.of(
-            scene, self._poses, time, paused=self.statistics is not None and self.statistics.paused
-        )
-
-    def world(self) -> World:
-        """Everything solid it knows, as a flat world."""
-        return self.snapshot().world()
-
-    # -- its buttons ---------------------------------------------------------------------------------------------
-
-    def _press(self, order: WorldControl) -> None:
-        """Send an order, and go on when the server has carried it out."""
-        self._to_control.publish(order)
-        self.node.scheduler.give_way()
-
-    def pause(self) -> None:
-        """Press pause."""
-        self._press(WorldControl(pause=True))
-
-    def play(self) -> None:
-        """Press play."""
-        self._press(WorldControl(pause=False))
-
-    def step(self, count: int = 1) -> None:
-        """Press the step button `count` times."""
-        self._press(WorldControl(multi_step=count))
-
-    def reset(self) -> None:
-        """Choose Edit, Reset World."""
-        self._press(WorldControl(reset=WorldReset(all=True)))
+        """The world as of the last poses."""
+        return Snapshot.of(self.master.world, self._poses)

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 import math
-from contextlib import ExitStack
 from dataclasses import asdict, replace
 from typing import Any, NoReturn
 
@@ -31,12 +30,11 @@ from .errors import GazeboError, UnknownEntity
 from .model import Model
 from .physics_properties import PhysicsProperties
 from .running_world import RunningWorld, WorldState
-from .server_topics import ServerTopics
 from .services import Services
 from .snapshot import Pictured, Snapshot
 from .spawning import spawn_text
 from .state_topics import StateTopics
-from .transport import start_master
+from .topics import GazeboMaster
 from .world_sources import EMPTY, load_world
 
 CLOCK_RATE = 100.0
@@ -105,16 +103,13 @@ class GazeboServer(Pictured, Simulation):
                 "gzserver -r records a log of Gazebo's own; here `rosbag record` records what happens"
             )
         self.world = RunningWorld(node, found, paused=options.pause, noise=noise)
-        self.master = start_master(node.graph, node.name, self.world.name)
+        self.clock = ClockDevice(self.world.host, rate=_rate(node))
+        self.master = GazeboMaster(self.world, self.clock.tell)
         super().__init__(node, self.world.host)
-        self._closing = ExitStack()
-        self._closing.callback(self.master.close)
-        self.clock = self.world.host.add(ClockDevice(self.world.host, rate=_rate(node)))
+        self.world.host.add(self.clock)
         node.set_param("/use_sim_time", True)
         self.services = Services(self.world, self.set_physics)
         self.states = StateTopics(self.world, self.services, self.clock.rate)
-        self.topics = ServerTopics(self.world, self.master, self.set_physics, self.clock.tell)
-        self._closing.callback(self.topics.close)
         self.reconfigure = ReconfigureServer(node, PhysicsProperties, self._reconfigured)
         for name in options.server_plugin:
             if name.rsplit("/", 1)[-1] not in BUILT_IN:
@@ -212,7 +207,7 @@ class GazeboServer(Pictured, Simulation):
 
     def snapshot(self) -> Snapshot:
         """The world as it is now."""
-        return self._do(self.topics.snapshot)
+        return self._do(lambda: Snapshot.of(self.world))
 
     def _finish(self) -> None:
         self.node.shutdown("so many steps as --iters said have passed")
@@ -220,7 +215,7 @@ class GazeboServer(Pictured, Simulation):
     def _end(self) -> None:
         super()._end()
         self.world.close()
-        self._closing.close()
+        self.master.close()
 
 
 class Gazebo(GazeboServer):

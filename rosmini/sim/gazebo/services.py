@@ -17,11 +17,10 @@ from rosmini.geometry.products import matrix_product
 from rosmini.markup import parse
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.sdf import Pose6, placed_links
-from rosmini.sim.sdf.poses import compose, from_quaternion, inverse, matrix
+from rosmini.sim.sdf.poses import compose, from_quaternion, inverse, matrix, quaternion
 
 from .errors import GazeboError, UnknownEntity
 from .model import Model, Velocity
-from .msgs import quaternion
 from .physics_properties import PhysicsProperties
 from .running_world import RunningWorld
 from .spawning import spawn_text

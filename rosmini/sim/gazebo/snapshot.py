@@ -1,20 +1,24 @@
-"""A world at one moment, as Gazebo's messages describe it: what a client shows."""
+"""A Gazebo world at one moment, as pictures show it: what a server or a client returns from `snapshot()`."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from rosmini.errors import RosminiError
+from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import compose
 from rosmini.graph.show import show
 from rosmini.sim.models import RobotModel
-from rosmini.sim.sdf import Pose6
-from rosmini.sim.sdf.poses import from_quaternion
+from rosmini.sim.sdf import ORIGIN, Pose6, SdfCollision, SdfVisual, placed_links, to_obstacles
 from rosmini.sim.world import Obstacle, World
 
-from .msgs import Model, Pose, Scene
+from .model import Model
+from .ros_plugins.lasers import lidar_of
+from .running_world import RunningWorld
+from .topics import Poses, wheels
 
 Place = tuple[float, float, float]
 
@@ -29,8 +33,92 @@ class Robot:
     """Of the middle of its axle: x [m], y [m], heading [rad]."""
 
 
+@dataclass(frozen=True)
+class ShownLink:
+    """A link of a model; its pose is in the frame of the model."""
+
+    name: str
+    pose: Pose6
+    visuals: tuple[SdfVisual, ...]
+    collisions: tuple[SdfCollision, ...]
+
+
+@dataclass(frozen=True)
+class ShownModel:
+    """A model and its links, and what it is in a flat world."""
+
+    name: str
+    static: bool
+    pose: Pose6
+    links: tuple[ShownLink, ...]
+    solids: tuple[Obstacle, ...]
+    """In the frame of the model."""
+    robot: RobotModel | None
+    """Of a model with a drive: its outline, its wheels and its laser."""
+    axle: Place
+    """The middle of the robot's axle in the frame of the model."""
+
+    @classmethod
+    def of(cls, model: Model, poses: Poses) -> ShownModel:
+        """Return a model at the given poses, or at its own if they do not contain it."""
+        turning = wheels(model)
+        links = []
+        for name, link, pose in placed_links(model.sdf):
+            if name in turning:
+                pose = poses.places.get(f"{model.name}::{name}", pose)
+            links.append(ShownLink(name, pose, tuple(link.visuals), tuple(link.collisions)))
+        at = poses.places.get(model.name, model.pose)
+        return cls(model.name, model.static, at, tuple(links), _solids(model), *_robot(model))
+
+    @property
+    def place(self) -> Place:
+        """Its pose on the ground: x [m], y [m], heading [rad]."""
+        return (self.pose[0], self.pose[1], normalize_angle(self.pose[5]))
+
+    def placed_solids(self) -> Iterator[Obstacle]:
+        """Its solids in the frame of the world."""
+        for each in self.solids:
+            yield replace(each, pose=compose(self.place, each.pose), mass=None, motion=None)
+
+
+def _solids(model: Model) -> tuple[Obstacle, ...]:
+    """A model in a flat world, in its own frame."""
+    if model.body is not None:
+        return tuple(
+            Obstacle(
+                f"{model.name} {i}" if i else model.name,
+                part.shape,
+                compose(model.body.axle, part.pose),
+                part.top,
+                part.colour,
+                bottom=part.bottom,
+            )
+            for i, part in enumerate(model.body.parts())
+            if part.top > 0
+        )
+    if model.sdf.links and not any(link.collisions for link in model.sdf.links):
+        own = (each for each in model.world.flat.obstacles if each.name in model.obstacles)
+        return tuple(replace(each, pose=(0.0, 0.0, 0.0)) for each in own)
+    at: Pose6 = (*ORIGIN[:2], *model.start[2:5], 0.0)
+    return to_obstacles(replace(model.sdf, static=True), at)  # each part has its own colour
+
+
+def _robot(model: Model) -> tuple[RobotModel | None, Place]:
+    """The picture of a model with a drive from above, and the middle of its axle."""
+    if model.body is None or model.body.drive is None:
+        return None, (0.0, 0.0, 0.0)
+    robot = model.body.robot_model()
+    for sensor in model.sensors:
+        if sensor.element.find("ray") is not None or sensor.element.find("lidar") is not None:
+            try:
+                return replace(robot, lidar=lidar_of(sensor)), model.body.axle
+            except RosminiError:  # a laser that is not simulated, of which the server has warned
+                continue
+    return robot, model.body.axle
+
+
 class Pictured(ABC):
-    """What has a snapshot to be shown: the server, a client, and a snapshot itself."""
+    """The base of everything that is shown as a snapshot: a server, a client, and a snapshot itself."""
 
     @abstractmethod
     def snapshot(self) -> Snapshot:
@@ -70,23 +158,24 @@ class Pictured(ABC):
 
 @dataclass(frozen=True)
 class Snapshot(Pictured):
-    """What there is in a world, where all of it is, and what time it is there."""
+    """The models of a world, where they are, and the time."""
 
     name: str
-    models: tuple[Model, ...]
-    """Each with its pose, and with its links where they are now."""
+    models: tuple[ShownModel, ...]
     flat: World
-    """Walls that are no models."""
+    """Walls that are no models, of a world that was made from a map."""
     time: float
     """[s]"""
     paused: bool
 
     @classmethod
-    def of(cls, scene: Scene, poses: Mapping[str, Pose], time: float, *, paused: bool) -> Snapshot:
-        """A scene with its models and links where ~/pose/info said last."""
-        models = tuple(_moved(model, poses) for model in scene.model)
-        flat = scene.flat or World(scene.name)
-        return cls(scene.name, models, flat, time, paused)
+    def of(cls, world: RunningWorld, poses: Poses | None = None) -> Snapshot:
+        """Return the world at the given poses, by default as it is now."""
+        if poses is None:
+            world.host.catch_up()
+            poses = Poses.of(world)
+        models = tuple(ShownModel.of(model, poses) for model in world.models.values())
+        return cls(world.name, models, replace(world.flat, obstacles=()), poses.time, world.paused)
 
     def snapshot(self) -> Snapshot:
         """The snapshot itself."""
@@ -94,59 +183,34 @@ class Snapshot(Pictured):
 
     @property
     def title(self) -> str:
-        """What it is called."""
+        """The title of a picture of it."""
         return f"Gazebo's world {self.name}"
 
     @property
     def robots(self) -> tuple[Robot, ...]:
         """The models that have a drive."""
         return tuple(
-            Robot(model.name, model.flat.robot, compose(place_of(model.pose), model.flat.axle))
+            Robot(model.name, model.robot, compose(model.place, model.axle))
             for model in self.models
-            if model.flat.robot is not None and model.pose is not None
+            if model.robot is not None
         )
 
     @property
-    def things(self) -> tuple[Model, ...]:
+    def things(self) -> tuple[ShownModel, ...]:
         """The models that are neither static nor have a drive."""
-        return tuple(model for model in self.models if not model.is_static and model.flat.robot is None)
+        return tuple(model for model in self.models if not model.static and model.robot is None)
 
     @property
-    def standing(self) -> tuple[Model, ...]:
+    def standing(self) -> tuple[ShownModel, ...]:
         """The static models."""
-        return tuple(model for model in self.models if model.is_static and model.flat.robot is None)
+        return tuple(model for model in self.models if model.static and model.robot is None)
 
     def world(self, *, robots: bool = True) -> World:
-        """All that is solid, as a flat world; with or without the models that have a drive."""
+        """Everything solid, as a flat world; with or without the models that have a drive."""
         names: dict[str, int] = {}
         found = []
         for model in self.models:
-            for each in solids_of(model) if robots or model.flat.robot is None else ():
+            for each in model.placed_solids() if robots or model.robot is None else ():
                 count = names[each.name] = names.get(each.name, 0) + 1
                 found.append(each if count == 1 else replace(each, name=f"{each.name} ({count})"))
         return replace(self.flat, name=self.name, obstacles=tuple(found), title=self.title)
-
-
-def solids_of(model: Model) -> Iterator[Obstacle]:
-    """What is solid of a model, where it is."""
-    if model.pose is not None:
-        at = place_of(model.pose)
-        for each in model.flat.solids:
-            yield replace(each, pose=compose(at, each.pose), mass=None, motion=None)
-
-
-def place_of(pose: Pose) -> Place:
-    """Where something is on the ground."""
-    x, y, _, _, _, yaw = pose_of(pose)
-    return (x, y, yaw)
-
-
-def pose_of(message: Pose) -> Pose6:
-    """The six numbers of a pose."""
-    at, to = message.position, message.orientation
-    return (at.x, at.y, at.z, *from_quaternion(to.x, to.y, to.z, to.w))
-
-
-def _moved(model: Model, poses: Mapping[str, Pose]) -> Model:
-    links = tuple(replace(link, pose=poses[link.name]) if link.name in poses else link for link in model.link)
-    return replace(model, pose=poses.get(model.name, model.pose), link=links)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.products import matrix_product
+from rosmini.tf.rigid import from_rpy
 
 from .document import ORIGIN, Pose6, SdfLink, SdfModel
 
@@ -81,6 +82,11 @@ def upright(pose: Pose6, tolerance: float = 1e-6) -> bool:
     return (
         math.cos(pose[3]) * math.cos(pose[4]) >= 1 - tolerance**2 / 2 and abs(math.sin(pose[4])) <= tolerance
     )
+
+
+def quaternion(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
+    """x, y, z and w of a rotation by yaw after pitch after roll about fixed axes."""
+    return from_rpy((0.0, 0.0, 0.0), roll, pitch, yaw)[3:]
 
 
 def from_quaternion(x: float, y: float, z: float, w: float) -> tuple[float, float, float]:

@@ -8,8 +8,8 @@ import numpy as np
 
 from rosmini.errors import nearest
 from rosmini.geometry.products import matrix_product, norm
-from rosmini.sim.gazebo.msgs import Model
-from rosmini.sim.gazebo.snapshot import Snapshot, place_of, solids_of
+from rosmini.sim.gazebo.snapshot import ShownModel, Snapshot
+from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Sphere, outline_at
 from rosmini.viz.gazebo_pictures import places, when
 from rosmini.viz.rounding import snap
@@ -20,7 +20,7 @@ from .links import link_parts
 from .scene3d import TINY, Camera, Scene3D
 from .solids import Floats
 from .view import HEIGHT, MeshcatView, camera_for, free_sight
-from .visuals import SOLID, is_plain, surfaces, transform
+from .visuals import SOLID, is_plain, surfaces
 
 CLOSE = 1.7
 """How far the camera is from a model by its size."""
@@ -54,11 +54,11 @@ def gazebo_3d(
         elevation = STEEP
     camera = camera_for(world, None, focus="world", distance=distance, azimuth=azimuth, elevation=elevation)
     plain = [model for model in snapshot.models if is_plain(model)]
-    drawn = [model for model in snapshot.models if not is_plain(model) and model.pose is not None]
+    drawn = [model for model in snapshot.models if not is_plain(model)]
     if focus != "world":
         camera = _close(snapshot, focus, distance=distance, azimuth=azimuth, elevation=elevation)
     scene = Scene3D(camera)
-    obstacles = [each for model in plain for each in solids_of(model)]
+    obstacles = [each for model in plain for each in model.placed_solids()]
     if collisions:
         obstacles = [replace(each, colour=SOLID) for each in obstacles]
     scene.add_world(replace(world, obstacles=tuple(obstacles)), bounds=world.bounds)
@@ -70,7 +70,7 @@ def gazebo_3d(
     lines += [f"{robot.name}: pose {pose_text(robot.pose)}" for robot in snapshot.robots]
     lines += places(snapshot)
     said = [f"{robot.name} at {pose_text(robot.pose)}" for robot in snapshot.robots]
-    said += [f"{m.name} at {pose_text(place_of(m.pose))}" for m in snapshot.things if m.pose is not None]
+    said += [f"{m.name} at {pose_text(m.place)}" for m in snapshot.things]
     there = f": {', '.join(said[:6])}{' and more' if len(said) > 6 else ''}" if said else ""
     alt = f"{snapshot.title} in three dimensions, {count}{kind}, at {when(snapshot)}{there}."
     return MeshcatView(
@@ -78,18 +78,16 @@ def gazebo_3d(
     )
 
 
-def _add(scene: Scene3D, model: Model, *, collisions: bool) -> None:
+def _add(scene: Scene3D, model: ShownModel, *, collisions: bool) -> None:
     """Add a model; what equal ones consist of is there once."""
     node = "models/" + model.name.replace("/", " ")
-    there = transform(model.pose) if model.pose is not None else np.eye(4)
-    for link in model.link:
-        parts = surfaces(
-            link, matrix_product(there, transform(link.pose)), collisions=collisions, without=TINY
-        )
+    there = matrix(model.pose)
+    for link in model.links:
+        parts = surfaces(link, matrix_product(there, matrix(link.pose)), collisions=collisions, without=TINY)
         if parts:
             scene.place(node, there)
-            below = f"{node}/{link.name.partition('::')[2].replace('/', ' ')}"
-            scene.place(below, transform(link.pose))
+            below = f"{node}/{link.name.replace('/', ' ')}"
+            scene.place(below, matrix(link.pose))
             for part in link_parts(below, parts):
                 scene.add_surface(part, shared=True)
 
@@ -108,12 +106,11 @@ def _close(
         raise ViewError(f"the distance of the camera is a number of metres above 0, not {distance!r}")
     points = _corners(models[name])
     low, high = points.min(axis=0), points.max(axis=0)
-    pose = models[name].pose
     size = float(snap(norm(high - low), 0.01))
     away = round(CLOSE * size + 0.1, 2) if distance is None else distance
     there = replace(snapshot, models=tuple(model for model in snapshot.models if model.name != name)).world()
     x, y, z = (round(c, 3) for c in snap((low + high) / 2).tolist())
-    sight = free_sight(there, (x, y, place_of(pose)[2] if pose is not None else 0.0), away)
+    sight = free_sight(there, (x, y, models[name].place[2]), away)
     return Camera(
         (x, y, z),
         away,
@@ -122,12 +119,12 @@ def _close(
     )
 
 
-def _corners(model: Model) -> Floats:
+def _corners(model: ShownModel) -> Floats:
     """Corners (n, 3) of what there is to see of a model, in the world."""
-    there = transform(model.pose) if model.pose is not None else np.eye(4)
-    placed = ((link, matrix_product(there, transform(link.pose))) for link in model.link)
+    there = matrix(model.pose)
+    placed = ((link, matrix_product(there, matrix(link.pose))) for link in model.links)
     found = [surface.moved(at).vertices for link, at in placed for surface in surfaces(link, at)]
-    for solid in solids_of(model) if not found else ():
+    for solid in model.placed_solids() if not found else ():
         for shape, pose in solid.parts():
             reach = shape.radius if isinstance(shape, (Cylinder, Sphere)) else 0.0
             flat = np.add(pose[:2], [(-reach, -reach), (reach, reach)])

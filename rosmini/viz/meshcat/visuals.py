@@ -1,4 +1,4 @@
-"""How Gazebo's messages describe the looks of a model, as surfaces: the visuals or the collisions of its links."""
+"""The visuals or the collisions of the links of a Gazebo model, as surfaces."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 
 from rosmini.geometry.polygons import area
 from rosmini.geometry.products import matrix_product, norm
-from rosmini.sim.gazebo.msgs import Collision, Geometry, Link, Model, Pose, Visual
-from rosmini.sim.gazebo.snapshot import pose_of, solids_of
+from rosmini.sim.gazebo.snapshot import ShownLink, ShownModel
+from rosmini.sim.sdf import SdfCollision, SdfGeometry, SdfVisual
 from rosmini.sim.sdf.poses import matrix
 from rosmini.urdf import Box, Cylinder, Sphere
 from rosmini.urdf.meshes import Surface, read
@@ -25,13 +25,8 @@ FLAT = 0.01
 """A level plane that is no higher than this [m] is the ground."""
 
 
-def transform(pose: Pose) -> Floats:
-    """The transform (4, 4) of a pose."""
-    return matrix(pose_of(pose))
-
-
 def surfaces(
-    link: Link, place: Floats, *, collisions: bool = False, without: Iterable[str] = ()
+    link: ShownLink, place: Floats, *, collisions: bool = False, without: Iterable[str] = ()
 ) -> list[Surface]:
     """What there is to see of a link at `place` (4, 4) in the world, in its own frame: one surface for each colour.
 
@@ -40,7 +35,7 @@ def surfaces(
     """
     found: dict[str, list[Surface]] = {}
     left_out = frozenset(without)
-    pieces: tuple[Visual | Collision, ...] = link.collision if collisions else link.visual
+    pieces: tuple[SdfVisual | SdfCollision, ...] = link.collisions if collisions else link.visuals
     for piece in pieces:
         colour = _rgba(SOLID) if collisions else colour_of(piece)
         if _is_ground(piece, place):
@@ -48,7 +43,7 @@ def surfaces(
         for surface in _shape(piece.geometry):
             if hex_colour(surface) in left_out:
                 continue
-            moved = surface.moved(transform(piece.pose))
+            moved = surface.moved(matrix(piece.pose))
             moved = replace(moved, colour=colour or moved.colour)
             found.setdefault(hex_colour(moved), []).append(moved)
     return [merged(several) for several in found.values()]
@@ -59,42 +54,41 @@ def _rgba(colour: str) -> tuple[float, float, float, float]:
     return (red, green, blue, 1.0)
 
 
-def colour_of(piece: Visual | Collision) -> tuple[float, float, float, float] | None:
-    """The colour that a visual says itself."""
-    if isinstance(piece, Collision) or piece.material is None:
-        return None
-    diffuse = piece.material.diffuse
-    return (diffuse.r, diffuse.g, diffuse.b, diffuse.a)
+def colour_of(piece: SdfVisual | SdfCollision) -> tuple[float, float, float, float] | None:
+    """The colour of the visual's own material."""
+    return None if isinstance(piece, SdfCollision) or piece.colour is None else _rgba(piece.colour)
 
 
-def _is_ground(piece: Visual | Collision, place: Floats) -> bool:
-    plane = piece.geometry.plane
-    if plane is None:
+def _is_ground(piece: SdfVisual | SdfCollision, place: Floats) -> bool:
+    if piece.geometry.kind != "plane":
         return False
-    at = matrix_product(place, transform(piece.pose))
-    normal = matrix_product(at[:3, :3], (plane.normal.x, plane.normal.y, plane.normal.z))
+    at = matrix_product(place, matrix(piece.pose))
+    normal = matrix_product(at[:3, :3], piece.geometry.normal)
     return bool(abs(at[2, 3]) < FLAT and normal[2] > (1 - SAME) * norm(normal))
 
 
-def _shape(shape: Geometry) -> list[Surface]:
-    if shape.box is not None:
-        size = shape.box.size
-        return surfaces_of(Box((size.x, size.y, size.z)))
-    if shape.cylinder is not None:
-        return surfaces_of(Cylinder(shape.cylinder.radius, shape.cylinder.length))
-    if shape.sphere is not None:
-        return surfaces_of(Sphere(shape.sphere.radius))
-    if shape.mesh is not None:
-        scale = shape.mesh.scale
-        stretched = np.diag([scale.x, scale.y, scale.z, 1.0])
-        return [each.moved(stretched) for each in read(shape.mesh.filename, shape.mesh.submesh or "")]
-    if shape.plane is not None:
-        normal, size2 = shape.plane.normal, shape.plane.size
-        return [_plane(np.array([normal.x, normal.y, normal.z]), size2.x, size2.y)]
-    outlines = [np.array([(point.x, point.y) for point in line.point]) for line in shape.polyline]
+def _equal(one: SdfGeometry, other: SdfGeometry) -> bool:
+    """Whether two shapes are equal, on whichever line of the file they are written."""
+    return replace(one, line=0) == replace(other, line=0)
+
+
+def _shape(shape: SdfGeometry) -> list[Surface]:
+    match shape.kind:
+        case "box":
+            x, y, z = shape.size
+            return surfaces_of(Box((x, y, z)))
+        case "cylinder":
+            return surfaces_of(Cylinder(shape.radius, shape.length))
+        case "sphere":
+            return surfaces_of(Sphere(shape.radius))
+        case "mesh" if shape.mesh is not None:
+            stretched = np.diag([*shape.scale, 1.0])
+            return [each.moved(stretched) for each in read(shape.mesh, shape.submesh)]
+        case "plane":
+            return [_plane(np.array(shape.normal), *shape.size)]
+    outlines = [np.array(outline) for outline in shape.outlines]
     return [
-        upright(outline if area(outline) > 0 else outline[::-1], 0.0, shape.polyline[0].height)
-        for outline in outlines
+        upright(outline if area(outline) > 0 else outline[::-1], 0.0, shape.length) for outline in outlines
     ]
 
 
@@ -112,25 +106,25 @@ def _plane(normal: Floats, length: float, width: float) -> Surface:
 # ---- what is drawn by its solids ----
 
 
-def is_plain(model: Model) -> bool:
+def is_plain(model: ShownModel) -> bool:
     """Whether a model looks as solid as it is, upright and of one colour, and so is drawn as in other worlds.
 
     True also without visuals, where Gazebo would show nothing at all.
     """
-    visuals = [(link, visual) for link in model.link for visual in link.visual]
+    visuals = [(link, visual) for link in model.links for visual in link.visuals]
     if not visuals:
         return True
-    solids = sum(len(solid.parts()) for solid in solids_of(model))
+    solids = sum(len(solid.parts()) for solid in model.placed_solids())
     if solids != len(visuals):
         return False
-    there = transform(model.pose) if model.pose is not None else np.eye(4)
-    for link in model.link:
-        if len(link.visual) != len(link.collision):
+    there = matrix(model.pose)
+    for link in model.links:
+        if len(link.visuals) != len(link.collisions):
             return False
-        for visual, collision in zip(link.visual, link.collision, strict=True):
-            at, solid_at = transform(visual.pose), transform(collision.pose)
-            up = matrix_product(matrix_product(there, transform(link.pose)), at)[2, 2]
-            if visual.geometry.mesh is not None or visual.geometry != collision.geometry:
+        for visual, collision in zip(link.visuals, link.collisions, strict=True):
+            at, solid_at = matrix(visual.pose), matrix(collision.pose)
+            up = matrix_product(matrix_product(there, matrix(link.pose)), at)[2, 2]
+            if visual.geometry.mesh is not None or not _equal(visual.geometry, collision.geometry):
                 return False
             if up < 1 - SAME or not np.allclose(at, solid_at, atol=SAME):
                 return False

@@ -223,7 +223,7 @@ def test_from_python_without_services(bench: Start) -> None:
 # ---- the client ----
 
 
-def test_a_client_knows_what_the_server_tells(graph: Graph) -> None:
+def test_a_client_shows_the_world_of_the_server(graph: Graph) -> None:
     server = rosrun("gazebo_ros", "gzserver", "room", graph=graph).instance()
     client = rosrun("gazebo_ros", "gzclient", graph=graph).instance()
     assert client.node.name == "/gazebo_gui"
@@ -242,20 +242,6 @@ def test_a_client_knows_what_the_server_tells(graph: Graph) -> None:
     there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="robot")
     graph.run(0.0)
     assert "robot" not in client.models
-
-
-def test_a_clients_buttons(bench: Start) -> None:
-    there = bench()
-    client = there.server.client()
-    client.pause()
-    assert there.server.world.paused
-    client.step(100)
-    assert there.server.world.now == pytest.approx(0.1, abs=1e-6)
-    client.play()
-    there.graph.run(1.0)
-    assert there.server.world.now == pytest.approx(1.1, abs=0.01)
-    client.reset()
-    assert there.server.world.now == pytest.approx(0.0, abs=0.01)
 
 
 def test_the_simulation_does_not_need_a_client(bench: Start) -> None:
@@ -289,7 +275,7 @@ def test_what_the_client_shows_is_the_world(bench: Start, tmp_path: Path) -> Non
     there = bench(str(path))
     there.spawn(urdf(), "robot", -1.0, 0.0)
     client = there.server.client()
-    shown = client.world()
+    shown = client.snapshot().world()
     names = {obstacle.name.split(" ")[0] for obstacle in shown.obstacles}
     assert names == {"wall", "crate", "robot"}
     crate = next(obstacle for obstacle in shown.obstacles if obstacle.name == "crate")
@@ -298,6 +284,6 @@ def test_what_the_client_shows_is_the_world(bench: Start, tmp_path: Path) -> Non
     message.pose.position.x = 2.0
     there.call("set_model_state", "gazebo_msgs/SetModelState", model_state=message)
     there.graph.run(0.1)
-    crate = next(obstacle for obstacle in client.world().obstacles if obstacle.name == "crate")
+    crate = next(obstacle for obstacle in client.snapshot().world().obstacles if obstacle.name == "crate")
     assert crate.pose[0] == pytest.approx(2.0)
     assert "yard" in client.show().text

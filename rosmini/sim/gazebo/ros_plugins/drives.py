@@ -13,11 +13,11 @@ from rosmini.sim import devices
 from rosmini.sim.devices import DifferentialDrive, JointStates, OdometryTransforms, one_of
 from rosmini.sim.gazebo.body import Body
 from rosmini.sim.gazebo.model import Model
-from rosmini.sim.gazebo.msgs import quaternion
 from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import ModelPlugin
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.messages import UNMEASURED
+from rosmini.sim.sdf.poses import quaternion
 
 from .ros_names import RosNames
 

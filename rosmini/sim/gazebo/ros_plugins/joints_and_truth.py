@@ -12,11 +12,10 @@ import numpy as np
 from rosmini.markup import Element
 from rosmini.sim.devices import GroundTruth, JointStates, Sensor
 from rosmini.sim.gazebo.model import WORLD_FRAMES, Model
-from rosmini.sim.gazebo.msgs import quaternion
 from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import ModelPlugin
 from rosmini.sim.sdf import Pose6
-from rosmini.sim.sdf.poses import compose, inverse
+from rosmini.sim.sdf.poses import compose, inverse, quaternion
 
 from .drives import rate_of
 from .ros_names import RosNames
