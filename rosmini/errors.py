@@ -279,6 +279,20 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
     return f"did you mean {listed}?"
 
 
+class Hints:
+    """`nearest` for the notes on one file. Only the first `MOST` names get a hint, since each takes milliseconds."""
+
+    MOST = 20
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def __call__(self, name: str, candidates: Iterable[str]) -> str:
+        """The clause of `nearest`, or nothing."""
+        self._count += 1
+        return nearest(name, candidates) if self._count <= self.MOST else ""
+
+
 def shown(value: object, limit: int = 60) -> str:
     """``repr(value)`` for an error message: one line of at most ``limit`` characters, and cut before it is made.
 

@@ -20,6 +20,15 @@ LONGEST = 200_000
 MOST = 50_000
 """Commands that are followed, those in loops counted each time."""
 
+STEPS = 3_000_000
+"""The cost of all values: one for each character of a value that is read, split or stored, as often as that happens."""
+
+OF_A_WORD = 20
+"""The cost of a word, in addition to its characters."""
+
+OF_A_GLOB = STEPS // 100
+"""The cost of a ``file(GLOB)`` pattern, which looks through the package."""
+
 _REFERENCE = re.compile(r"\$(?:(ENV|CACHE))?\{([^${}]*)\}")
 _SEPARATOR = re.compile(r"(?<!\\);")
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)
@@ -55,6 +64,7 @@ class Evaluation:
     path: Path
     passed_over: list[Word] = field(default_factory=list)
     _count: int = 0
+    _spent: int = 0
     _ended: bool = False
     _own: dict[str, int] = field(default_factory=dict)
 
@@ -88,6 +98,12 @@ class Evaluation:
     def error(self, message: str, line: int) -> CMakeError:
         """An error at a line, to be raised."""
         return CMakeError(message, self.path, line)
+
+    def spend(self, steps: int, line: int) -> None:
+        """Count the cost of values before they are computed. Raises `CMakeError` when it is too much."""
+        self._spent += steps
+        if self._spent > STEPS:
+            raise self.error("the values cost too much: they are too long, or loops repeat too often", line)
 
     # ---- blocks ----
 
@@ -133,7 +149,9 @@ class Evaluation:
             if word in ("LISTS", "ITEMS"):
                 is_list = word == "LISTS"
             elif is_list:
-                values += [part for part in self.variables.get(word, "").split(";") if part]
+                value = self.variables.get(word, "")
+                self.spend(len(value), line)
+                values += [part for part in value.split(";") if part]
             else:
                 values.append(word)
         return values
@@ -146,6 +164,7 @@ class Evaluation:
                 yield Word(each.text, each.line)
                 continue
             text = self._filled_in(each.text, each.line)
+            self.spend(OF_A_WORD * (1 + (0 if each.quoted else text.count(";"))), each.line)
             parts = [text] if each.quoted else [part for part in _SEPARATOR.split(text) if part]
             for part in parts:
                 plain = _ESCAPE.sub(
@@ -156,6 +175,7 @@ class Evaluation:
     def _filled_in(self, text: str, line: int) -> str:
         """A text with the values of its variables, from the inside out."""
         for _ in range(20):
+            self.spend(len(text), line)
             if "$" not in text:
                 break
             new = _REFERENCE.sub(lambda match: "" if match[1] else self.variables.get(match[2], ""), text)
@@ -202,8 +222,9 @@ class Evaluation:
             return _UNARY[word](self, following), min(at + 2, len(tokens))
         if following in _BINARY:
             right = tokens[at + 2].text if at + 2 < len(tokens) else ""
-            left = self.variables.get(word, word)
-            return _BINARY[following](left, self.variables.get(right, right)), min(at + 3, len(tokens))
+            left, right = self.variables.get(word, word), self.variables.get(right, right)
+            self.spend(len(left) + len(right), tokens[at].line)
+            return _BINARY[following](left, right), min(at + 3, len(tokens))
         if following in _UNKNOWN:
             return False, min(at + 3, len(tokens))
         return self._truth(word), at + 1
@@ -307,11 +328,14 @@ def _list(self: Evaluation, words: list[str], line: int) -> None:
     if len(words) < 2:
         return
     how, name, *values = words
-    old = [part for part in self.variables.get(name, "").split(";") if part]
+    value = self.variables.get(name, "")
+    self.spend(len(value) + OF_A_WORD * value.count(";"), line)
+    old = [part for part in value.split(";") if part]
     if how == "APPEND":
         _set(self, [name, *old, *values], line)
     elif how == "REMOVE_ITEM":
-        _set(self, [name, *(part for part in old if part not in values)], line)
+        removed = set(values)
+        _set(self, [name, *(part for part in old if part not in removed)], line)
     elif how in ("SORT", "REMOVE_DUPLICATES"):
         _set(self, [name, *(sorted(old) if how == "SORT" else dict.fromkeys(old))], line)
 
@@ -331,7 +355,8 @@ def _file(self: Evaluation, words: list[str], line: int) -> None:
             patterns.append(word)
     found: set[str] = set()
     top = self.folder.resolve()
-    for pattern in patterns[:100]:
+    for pattern in patterns:
+        self.spend(OF_A_GLOB, line)
         parts = Path(pattern)
         if parts.is_absolute():
             parts = parts.relative_to(self.folder) if parts.is_relative_to(self.folder) else Path("*.none")

@@ -93,9 +93,10 @@ def crossing_sides(outline: Floats) -> tuple[int, int] | None:
             _cross(way, following) == 0 and scalar_product(way, following) <= 0
         ):  # back along the same line, or a side of no length
             return first, (first + 1) % count
-        for second in range(first + 2, count - (first == 0)):
-            if _meet(outline[first], ends[first], outline[second], ends[second]):
-                return first, second
+        others = slice(first + 2, count - (first == 0))
+        meeting = np.flatnonzero(_meet(outline[first], ends[first], outline[others], ends[others]))
+        if len(meeting):
+            return first, first + 2 + int(meeting[0])
     return None
 
 
@@ -170,18 +171,16 @@ def _cross(a: Floats, b: Floats) -> Floats:
     return product
 
 
-def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> bool:
-    """Tell whether the segments a b and c d have a point in common."""
+def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> NDArray[np.bool_]:
+    """Tell which of the segments c d (n, 2) have a point in common with the segment a b."""
     c_side, d_side, a_side, b_side = (
         _cross(b - a, c - a),
         _cross(b - a, d - a),
         _cross(d - c, a - c),
         _cross(d - c, b - c),
     )
-    if c_side == d_side == a_side == b_side == 0:  # on one line
-        low, high = (
-            np.maximum(np.minimum(a, b), np.minimum(c, d)),
-            np.minimum(np.maximum(a, b), np.maximum(c, d)),
-        )
-        return bool((low <= high).all())
-    return bool(c_side * d_side <= 0 and a_side * b_side <= 0)
+    on_one_line = (c_side == 0) & (d_side == 0) & (a_side == 0) & (b_side == 0)
+    low = np.maximum(np.minimum(a, b), np.minimum(c, d))
+    high = np.minimum(np.maximum(a, b), np.maximum(c, d))
+    across: NDArray[np.bool_] = (c_side * d_side <= 0) & (a_side * b_side <= 0)
+    return np.where(on_one_line, (low <= high).all(axis=1), across)

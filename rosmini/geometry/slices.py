@@ -8,9 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import polygons
+from .errors import GeometryError
 from .overlaps import Outline, Overlaps
 
 Floats = NDArray[np.float64]
+
+AT_ONCE = 1_000_000
+"""How many pairs of sides are compared at a time."""
+
+MOST = 2_000_000
+"""The largest product of the number of sides and the number of heights at which outlines are divided."""
 
 
 def convex_hull(points: Floats) -> Floats:
@@ -136,7 +143,7 @@ def pieces(outlines: list[Floats]) -> list[Floats]:
 
     Outlines that neither cross themselves nor lie in or across others stay whole; the others become trapezoids between
     the heights of their corners. They cover the same points to the last bit of the arithmetic, and only touch one
-    another.
+    another. Raises `GeometryError` for outlines that cross too often.
     """
     crossed = any(polygons.crossing_sides(outline) for outline in outlines)
     turned = [outline if polygons.area(outline) > 0 else outline[::-1] for outline in outlines]
@@ -144,6 +151,11 @@ def pieces(outlines: list[Floats]) -> list[Floats]:
         return turned
     sides = np.vstack([polygons.sides_of(outline) for outline in outlines])
     heights = np.unique(np.concatenate([sides[:, 1], _crossing_heights(sides)]))
+    if len(heights) * len(sides) > MOST:
+        msg = (
+            f"outlines of {len(sides)} sides have {len(heights)} heights of vertices and crossings: too many"
+        )
+        raise GeometryError(msg)
     found = []
     for low, high in pairwise(heights):
         if high - low < 1e-9:
@@ -166,15 +178,24 @@ def pieces(outlines: list[Floats]) -> list[Floats]:
 
 def _crossing_heights(sides: Floats) -> Floats:
     """The heights at which sides cross one another."""
+    rows = max(1, AT_ONCE // len(sides))
+    found = [_crossed(sides[first : first + rows], sides) for first in range(0, len(sides), rows)]
+    heights: Floats = np.concatenate(found)
+    return heights
+
+
+def _crossed(some: Floats, sides: Floats) -> Floats:
+    """The heights at which some of the sides cross others."""
+    begins, ways = some[:, :2], some[:, 2:] - some[:, :2]
     begin, way = sides[:, :2], sides[:, 2:] - sides[:, :2]
-    slope = way[:, None, 0] * way[None, :, 1] - way[:, None, 1] * way[None, :, 0]
-    gap = begin[None, :] - begin[:, None]
+    slope = ways[:, None, 0] * way[None, :, 1] - ways[:, None, 1] * way[None, :, 0]
+    gap = begin[None, :] - begins[:, None]
     meets = np.abs(slope) > 1e-15
     divisor = np.where(meets, slope, 1.0)
     along = (gap[..., 0] * way[None, :, 1] - gap[..., 1] * way[None, :, 0]) / divisor
-    other = (gap[..., 0] * way[:, None, 1] - gap[..., 1] * way[:, None, 0]) / divisor
+    other = (gap[..., 0] * ways[:, None, 1] - gap[..., 1] * ways[:, None, 0]) / divisor
     hit = meets & (along > 0) & (along < 1) & (other > 0) & (other < 1)
-    heights: Floats = (begin[:, None, 1] + along * way[:, None, 1])[hit]
+    heights: Floats = (begins[:, None, 1] + along * ways[:, None, 1])[hit]
     return heights
 
 

@@ -10,7 +10,7 @@ import hashlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from .definition import MessageSpec, ServiceSpec
 
@@ -22,35 +22,45 @@ def message_md5(spec: MessageSpec, lookup: Lookup) -> str:
 
     ``lookup`` gives the definition of a nested type by its full name.
     """
-    return hashlib.md5(_md5_text(spec, lookup).encode(), usedforsecurity=False).hexdigest()
+    return _md5(_md5_text(spec, lookup, {}))
 
 
 def service_md5(spec: ServiceSpec, lookup: Lookup) -> str:
     """The md5 sum of a service: of its request's md5 text directly followed by its response's."""
-    text = _md5_text(spec.request, lookup) + _md5_text(spec.response, lookup)
-    return hashlib.md5(text.encode(), usedforsecurity=False).hexdigest()
+    known: dict[str, str] = {}
+    return _md5(_md5_text(spec.request, lookup, known) + _md5_text(spec.response, lookup, known))
 
 
 def full_text(spec: MessageSpec, lookup: Lookup) -> str:
     """The definition followed by those of all nested types, each under a line of 80 "=" and a line "MSG: type"."""
     parts = [spec.text]
-    parts += [
-        f"{'=' * 80}\nMSG: {name}\n{lookup(name).text}" for name in dict.fromkeys(dependencies(spec, lookup))
-    ]
+    parts += [f"{'=' * 80}\nMSG: {name}\n{lookup(name).text}" for name in dependencies(spec, lookup)]
     return "\n".join(parts)
 
 
-def dependencies(spec: MessageSpec, lookup: Lookup) -> Iterator[str]:
-    """The full names of all nested types, depth first, in the order of the fields, with repetitions."""
-    for field in spec.fields:
-        if not field.builtin:
-            yield field.base
-            yield from dependencies(lookup(field.base), lookup)
+def dependencies(spec: MessageSpec, lookup: Lookup) -> list[str]:
+    """The full names of all nested types, each once, depth first, in the order of the fields."""
+    found: dict[str, None] = {}
+
+    def add(part: MessageSpec) -> None:
+        for field in part.fields:
+            if not field.builtin and field.base not in found:  # a type that was found before adds nothing
+                found[field.base] = None
+                add(lookup(field.base))
+
+    add(spec)
+    return list(found)
 
 
-def _md5_text(spec: MessageSpec, lookup: Lookup) -> str:
+def _md5(text: str) -> str:
+    return hashlib.md5(text.encode(), usedforsecurity=False).hexdigest()
+
+
+def _md5_text(spec: MessageSpec, lookup: Lookup, known: dict[str, str]) -> str:
+    """The text of which the md5 sum is made; `known` collects the sums of nested types."""
     lines = [f"{constant.type} {constant.ros_name}={constant.text}" for constant in spec.constants]
     for field in spec.fields:
-        kind = field.type if field.builtin else message_md5(lookup(field.base), lookup)
-        lines.append(f"{kind} {field.ros_name}")
+        if not field.builtin and field.base not in known:
+            known[field.base] = _md5(_md5_text(lookup(field.base), lookup, known))
+        lines.append(f"{field.type if field.builtin else known[field.base]} {field.ros_name}")
     return "\n".join(lines).strip()

@@ -5,16 +5,26 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from rosmini.errors import DefinitionError
+
 from .registry import Registry
 
 _SEPARATOR = re.compile(r"^={80}\n", re.MULTILINE)
 
+MOST_TYPES = 500
+"""The largest number of nested types: each class has the texts of all types below it."""
+
 
 class FullText:
-    """The definitions in the full text of one message type, as a source of a registry."""
+    """The definitions in the full text of one message type, as a source of a registry.
+
+    Raises ``DefinitionError`` for too many.
+    """
 
     def __init__(self, name: str, text: str) -> None:
         first, *rest = _SEPARATOR.split(text)
+        if len(rest) > MOST_TYPES:
+            raise DefinitionError(f"the full text of {name} has more than {MOST_TYPES} nested types")
         self._texts = {name: first}
         for part in rest:
             head, _, body = part.partition("\n")

@@ -15,6 +15,9 @@ from .model import Inertial, Joint, Link
 SLACK = 1e-6
 """By how much, relative to the largest, moments of inertia may break the laws: files round."""
 
+LONGEST_MIMIC = 50
+"""How many joints a chain may have in which each mimics the next."""
+
 
 def check_tree(
     robot: Element, links: Mapping[str, Link], joints: Mapping[str, Joint], elements: Mapping[str, Element]
@@ -55,16 +58,17 @@ def _check_circles(robot: Element, links: Mapping[str, Link], above: Mapping[str
     """Every link must lead to the root."""
     good: set[str] = set()
     for name in links:
-        way: list[str] = []
+        path: dict[str, None] = {}
         at = name
         while at in above and at not in good:
-            if at in way:
-                circle = way[way.index(at) :]
+            if at in path:
+                links_above = list(path)
+                circle = links_above[links_above.index(at) :]
                 joints = ", ".join(f"{above[link].name!r} (line {above[link].line})" for link in circle)
                 raise robot.error(f"joints form a circle: {joints}; a tree has a root")
-            way.append(at)
+            path[at] = None
             at = above[at].parent
-        good.update(way)
+        good.update(path)
 
 
 def mimic_problem(joint: Joint, joints: Mapping[str, Joint]) -> str:
@@ -84,6 +88,8 @@ def mimic_problem(joint: Joint, joints: Mapping[str, Joint]) -> str:
         if not at.moves:
             return f"the joint {joint.name!r} mimics {followed!r}, which is {at.type} and does not move"
         way.append(followed)
+        if len(way) > LONGEST_MIMIC:
+            return f"more than {LONGEST_MIMIC} joints mimic one another, beginning with {joint.name!r}"
     return ""
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypeVar, get_args
 
 from rosmini import files
-from rosmini.errors import RosminiError, nearest
+from rosmini.errors import Hints, RosminiError, nearest
 from rosmini.markup import FARTHEST, HEAVIEST, NO_PATH, Element, parse, parse_file
 from rosmini.packages import SCHEME, PackageIndex
 
@@ -102,6 +102,7 @@ class _Reader:
         self.notes: list[str] = []
         self.left_out: dict[str, list[str]] = {}
         self.materials: dict[str, Material] = {}
+        self.hint = Hints()
 
     def robot(self) -> Robot:
         root = self.root
@@ -115,7 +116,7 @@ class _Reader:
                     "or let its name end in .xacro"
                 )
             if child.tag not in KNOWN:
-                hint = nearest(child.tag, KNOWN)
+                hint = self.hint(child.tag, KNOWN)
                 self.note(child, f"<{child.tag}> means nothing in a robot{f'; {hint}' if hint else ''}")
         for each in root.all("material"):
             self.define(each)
@@ -237,7 +238,7 @@ class _Reader:
             return Sphere(self.positive(shape, "radius"))
         if shape.tag == "mesh":
             return self.mesh(shape)
-        hint = nearest(shape.tag, ("box", "cylinder", "sphere", "mesh"))
+        hint = self.hint(shape.tag, ("box", "cylinder", "sphere", "mesh"))
         raise shape.error(
             f"<{shape.tag}> is no shape: there are box, cylinder, sphere and mesh{f'; {hint}' if hint else ''}"
         )
@@ -290,7 +291,7 @@ class _Reader:
         if colour is None and texture is None:
             if name in self.materials:
                 return self.materials[name]
-            hint = nearest(name, self.materials)
+            hint = self.hint(name, self.materials)
             raise element.error(
                 f"the material {name!r} has neither <color> nor <texture>, and none of this name stands in the robot"
                 f"{f'; {hint}' if hint else ''}"
@@ -368,7 +369,7 @@ class _Reader:
     def extension(self, element: Element, links: dict[str, Link], joints: dict[str, Joint]) -> Extension:
         reference = element.get("reference")
         if reference and reference not in links and reference not in joints:
-            hint = nearest(reference, {*links, *joints})
+            hint = self.hint(reference, {*links, *joints})
             self.note(
                 element,
                 f"<gazebo reference={reference!r}> is about nothing: there is no such link or joint"

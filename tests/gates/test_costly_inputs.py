@@ -20,9 +20,13 @@ from rosmini import launch, rosparam, urdf
 from rosmini.bag.mcap import from_mcap
 from rosmini.bag.reader import Reader, read_index
 from rosmini.bag.records import MAGIC, OP_CHUNK, OP_CHUNK_INFO, bag_header, pack_record, u32, u64
+from rosmini.catkin.project import CMAKE, read_project
 from rosmini.errors import RosminiError
 from rosmini.expressions import Expression
+from rosmini.msgs.full_text import class_from
 from rosmini.packages import PackageIndex
+from rosmini.sim import worlds
+from rosmini.urdf import meshes
 
 AT_LEAST = 20_000
 """Fewer calls are not compared."""
@@ -82,6 +86,37 @@ def _read_bag(path: Path) -> None:
         reader = Reader(file, index, str(path))
         for each in index.chunks:
             reader.data(each)
+
+
+def _levels(n: int) -> str:
+    """The full text of a message in which each of n types contains the next one nine times."""
+    parts = [f"{_each(f'A{i + 1}[] a#{chr(10)}', 9)}{'=' * 80}\nMSG: a/A{i + 1}\n" for i in range(n)]
+    return "".join(parts) + "int8 a\n"
+
+
+def _cmake(text: str) -> str:
+    return f"cmake_minimum_required(VERSION 3.0)\nproject(a)\n{text}"
+
+
+def _robot(text: str) -> str:
+    return f'<robot name="r"><link name="a"/>{text}</robot>'
+
+
+def _collada(points: int, pieces: int, shown: int) -> str:
+    piece = '<triangles><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>'
+    geometry = (
+        f'<source id="s"><float_array>{"0 1 2 " * points}</float_array></source>'
+        f'<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>{piece * pieces}'
+    )
+    node = '<instance_geometry url="#g"/>' * shown
+    return (
+        f'<COLLADA><library_geometries><geometry id="g"><mesh>{geometry}</mesh></geometry></library_geometries>'
+        f"<library_visual_scenes><visual_scene><node>{node}</node></visual_scene></library_visual_scenes></COLLADA>"
+    )
+
+
+def _world(text: str) -> str:
+    return f'<sdf version="1.6"><world name="w">{text}</world></sdf>'
 
 
 TALKER = '<node name="n#" pkg="rospy_tutorials" type="talker.py"/>'
@@ -161,11 +196,62 @@ FAMILIES = {
         500,
         refused=True,
     ),
+    # messages and packages
+    "messages of messages": Family("a.msg", _levels, 8),
+    "loops over long values": Family(
+        "CMakeLists.txt",
+        lambda n: _cmake(f'set(A "{"x;" * n}")\nforeach(i RANGE {n})\nmessage(${{A}})\nendforeach()\n'),
+        5000,
+        refused=True,
+    ),
+    "lists that grow in loops": Family(
+        "CMakeLists.txt",
+        lambda n: _cmake(f"foreach(i RANGE {n})\nlist(APPEND A a)\nendforeach()\n"),
+        20_000,
+        refused=True,
+    ),
+    # robots, meshes and worlds
+    "references to missing links": Family(
+        "a.urdf", lambda n: _robot(_each('<gazebo reference="b#"/>', n)), 1000
+    ),
+    "joints that mimic one another": Family(
+        "a.urdf",
+        lambda n: _robot(
+            "".join(
+                f'<link name="b{i}"/><joint name="j{i}" type="continuous"><parent link="a"/><child link="b{i}"/>'
+                f'<mimic joint="j{i + 1}"/></joint>'
+                for i in range(n)
+            )
+        ),
+        1000,
+    ),
+    "pieces with the same points": Family("a.dae", lambda n: _collada(n, n, 1), 1000),
+    "a mesh that is shown many times": Family("a.dae", lambda n: _collada(n, 1, n), 1000),
+    "chains of frames": Family(
+        "a.world",
+        lambda n: _world(
+            "".join(f'<frame name="f{i}" attached_to="f{i + 1}"/>' for i in range(n))
+            + '<frame name="f1000"/>'
+        ),
+        1000,
+        refused=True,
+    ),
+    "outlines of many sides": Family(
+        "a.world",
+        lambda n: _world(
+            '<model name="m"><link name="l"><collision name="c"><geometry><polyline>'
+            f"{_each(f'<point>{n} #</point>', n)}{_each('<point>0 #</point>', n)}"
+            "</polyline></geometry></collision></link></model>"
+        ),
+        900,
+    ),
 }
 
 
 def _read(path: Path) -> object:
     match path.suffix:
+        case ".txt" if path.name == CMAKE:
+            return read_project(path.parent)
         case ".txt":
             return Expression(path.read_text("utf-8")).evaluate({})
         case ".yaml":
@@ -176,6 +262,14 @@ def _read(path: Path) -> object:
             return _read_bag(path)
         case ".mcap":
             return from_mcap(path, path.with_suffix(".bag"))
+        case ".msg":
+            return class_from("a/A0", path.read_text("utf-8"))
+        case ".urdf":
+            return urdf.load(path)
+        case ".dae":
+            return meshes.read(path)
+        case ".world":
+            return worlds.world(path)
         case ".launch":
             return launch.read(path, environ={}, packages=PACKAGES, lenient=True)
     raise AssertionError(path)

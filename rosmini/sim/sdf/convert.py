@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from rosmini.geometry.errors import GeometryError
 from rosmini.geometry.poses import Pose
 from rosmini.sim.motion import Motion, Walk
 from rosmini.sim.shapes import Compound, Cylinder, Shape, Sphere
@@ -199,7 +200,7 @@ def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], *, sliced: bool) ->
         for collision in link.collisions:
             try:
                 found, remark = solids(collision.geometry, compose(place, collision.pose), sliced=sliced)
-            except MeshError as error:
+            except (MeshError, GeometryError) as error:
                 raise SdfError(str(error), model.path, collision.line) from error
             if remark:
                 text = f"{collision.name!r} of the model {model.name!r} {remark}"

@@ -14,6 +14,9 @@ from rosmini.markup import FARTHEST, Element
 from .document import ORIGIN, Pose6
 from .poses import compose, from_quaternion, inverse
 
+LONGEST_CHAIN = 200
+"""How many frames a chain may have in which the pose of each is relative to the next."""
+
 
 @dataclass
 class Given:
@@ -82,6 +85,10 @@ class Scope:
             circle = " -> ".join([*self._open[self._open.index(name) :], name])
             raise (asked or pose.element or Element("pose")).error(
                 f"poses hang on one another in a circle: {circle}"
+            )
+        if len(self._open) == LONGEST_CHAIN:
+            raise (asked or pose.element or Element("pose")).error(
+                f"poses are relative to one another in a chain of more than {LONGEST_CHAIN}"
             )
         self._open.append(name)
         try:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import get_args
 
-from rosmini.errors import nearest
+from rosmini.errors import Hints, nearest
 from rosmini.markup import FARTHEST, HEAVIEST, Element
 from rosmini.urdf import meshes
 
@@ -28,8 +29,11 @@ from .frames import Scope, given
 from .material_colours import colour_of
 from .resources import Resources
 
-MOST_MODELS = 50_000
-"""How many models a file may make, with all that it includes."""
+MOST_INCLUDED = 200_000
+"""How many XML elements the includes of a file may read, those of one file as often as it is included."""
+
+OF_AN_INCLUDE = 20
+"""The cost of an include, in elements, in addition to those of its file."""
 
 MOST_POINTS = 2_000
 """How many corners a polyline may have."""
@@ -41,8 +45,8 @@ class Reading:
 
     resources: Resources
     notes: list[Note] = field(default_factory=list)
-    models: int = 0
-    """How many were read, each as often as it is included."""
+    included: int = 0
+    hint: Hints = field(default_factory=Hints)
 
     def note(self, element: Element, text: str, *, warning: bool = False, left_out: str = "") -> None:
         """Note what was left out, or read otherwise; the same thing of the same line once."""
@@ -50,17 +54,19 @@ class Reading:
         if note not in self.notes[-50:]:
             self.notes.append(note)
 
-    def count(self, element: Element) -> None:
-        """Count a model. Raises `SdfError` if there are too many."""
-        self.models += 1
-        if self.models > MOST_MODELS:
-            raise element.error(f"there are more than {MOST_MODELS} models in what this file includes")
+    def include(self, element: Element, file: Path) -> Element:
+        """The root of an included file, which is counted first. Raises `SdfError` at `element` for too much."""
+        root, size = self.resources.parsed(file)
+        self.included += OF_AN_INCLUDE + size
+        if self.included > MOST_INCLUDED:
+            raise element.error(f"the includes of this world have more than {MOST_INCLUDED} elements")
+        return root
 
     def unknown(self, element: Element, known: tuple[str, ...]) -> None:
         """Note each child that SDF does not have there. Those with a prefix (`other:tag`) are somebody's own."""
         for child in element:
             if child.tag not in known and ":" not in child.tag:
-                hint = nearest(child.tag, known)
+                hint = self.hint(child.tag, known)
                 self.note(
                     child,
                     f"<{child.tag}> is nothing that <{element.tag}> has{'; ' + hint if hint else ''}: left out",

@@ -182,7 +182,6 @@ def _model(element: Element, pose: Pose6, reading: Reading, depth: int) -> SdfMo
         raise element.error(
             f"models stand inside one another deeper than {DEEPEST}: does one include itself?"
         )
-    reading.count(element)
     reading.unknown(element, MODEL_TAGS)
     name = name_of(element)
     scope = Scope("__model__", what=f"the model {name!r}")
@@ -252,7 +251,7 @@ def _inner(element: Element, reading: Reading, depth: int) -> Element:
             f"files include one another deeper than {DEEPEST}: does {shown(uri.text)} include itself?"
         )
     path = reading.resources.model_file(uri.text, uri)
-    root = reading.resources.parsed(path)
+    root = reading.include(uri, path)
     if root.tag not in ("sdf", "gazebo"):
         raise root.error(f"a model's file begins with <sdf version=...>, not with <{root.tag}>")
     inside = root.all("model", "actor", "light")

@@ -34,7 +34,8 @@ class Resources:
     def __init__(self, folders: Iterable[str | os.PathLike[str]] = ()) -> None:
         self.folders = [Path(folder) for folder in folders]
         self._packages = PackageIndex()
-        self._parsed: dict[Path, Element] = {}
+        self._parsed: dict[Path, tuple[Element, int]] = {}
+        self._files: dict[tuple[str, str], Path] = {}
 
     @cached_property
     def model_folders(self) -> list[Path]:
@@ -48,13 +49,17 @@ class Resources:
 
     def model_file(self, uri: str, asked: Element) -> Path:
         """The SDF file of the model at an address. Raises `MissingError` at `asked`, with what was searched."""
-        place = self.find(uri, asked)
-        return place if files.is_file(place) else _described(place, asked)
+        key = (uri, asked.path)
+        if key not in self._files:
+            place = self.find(uri, asked)
+            self._files[key] = place if files.is_file(place) else _described(place, asked)
+        return self._files[key]
 
-    def parsed(self, path: Path) -> Element:
-        """The root of an SDF file, which is read once. Raises `SdfError`."""
+    def parsed(self, path: Path) -> tuple[Element, int]:
+        """The root of an SDF file, which is read once, and how many elements it has. Raises `SdfError`."""
         if path not in self._parsed:
-            self._parsed[path] = read_file(path)
+            root = read_file(path)
+            self._parsed[path] = root, sum(1 for _ in root.walk())
         return self._parsed[path]
 
     def find(self, uri: str, asked: Element) -> Path:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +45,8 @@ def read(root: Element, part: str = "") -> Iterator[Surface]:
 
 
 class _Reader:
+    """Reads one file. What several elements refer to is worked out once."""
+
     def __init__(self, root: Element) -> None:
         self.root = root
         self.by_id = {each.get("id"): each for each in root.walk() if each.get("id")}
@@ -53,6 +56,11 @@ class _Reader:
             raise root.error(f"the unit of a mesh is more than 0 m, not {scale:g}")
         self.base = np.diag([scale, scale, scale, 1.0])
         self.nodes = self.corners = 0
+        self.places: dict[Element, Floats] = {}
+        self.bound: dict[Element, dict[str, Colour | None]] = {}
+        self.colours: dict[Element, Colour | None] = {}
+        self.pieces: dict[Element, tuple[Surface | None, int]] = {}
+        self.points: dict[Element, Floats] = {}
 
     def target(self, element: Element, attribute: str) -> Element:
         """What a reference `#id` is to."""
@@ -79,7 +87,9 @@ class _Reader:
         if depth > DEEPEST or self.nodes > MOST_NODES:
             raise node.error("nodes of the scene hold one another without end")
         with np.errstate(over="ignore", invalid="ignore"):
-            place = matrix_product(above, _transform(node))
+            if node not in self.places:
+                self.places[node] = _transform(node)
+            place = matrix_product(above, self.places[node])
             size = abs(determinant(place[:3, :3]))
         if not (np.abs(place).max() <= FARTHEST and size > 0):
             raise node.error("the transforms of this node make it infinitely large, or flat")
@@ -91,15 +101,21 @@ class _Reader:
             elif child.tag == "instance_node":
                 yield from self.node(self.target(child, "url"), place, part, depth + 1)
             elif child.tag == "instance_geometry" and not part:
-                bound = {
-                    each.get("symbol"): self.colour(each)
-                    for each in child.walk()
-                    if each.tag == "instance_material"
-                }
-                yield from self.geometry(self.target(child, "url"), place, bound)
+                if child not in self.bound:
+                    self.bound[child] = {
+                        each.get("symbol"): self.colour(self.target(each, "target"))
+                        for each in child.walk()
+                        if each.tag == "instance_material"
+                    }
+                yield from self.geometry(self.target(child, "url"), place, self.bound[child])
 
-    def colour(self, instance: Element) -> Colour | None:
-        effect = self.target(instance, "target").find("instance_effect")
+    def colour(self, material: Element) -> Colour | None:
+        if material not in self.colours:
+            self.colours[material] = self.diffuse(material)
+        return self.colours[material]
+
+    def diffuse(self, material: Element) -> Colour | None:
+        effect = material.find("instance_effect")
         if effect is None:
             return None
         for each in self.target(effect, "url").walk():
@@ -118,11 +134,17 @@ class _Reader:
         if mesh is None:
             return
         for piece in mesh.all("triangles", "polylist", "polygons"):
-            found = self.piece(piece, bound.get(piece.get("material")))
+            if piece not in self.pieces:
+                self.pieces[piece] = self.piece(piece)
+            found, corners = self.pieces[piece]
+            self.corners += corners
+            if self.corners > MOST_CORNERS:
+                raise piece.error(f"this mesh has more than {MOST_CORNERS} vertices of triangles")
             if found is not None:
-                yield found.moved(place)
+                yield replace(found.moved(place), colour=bound.get(piece.get("material")))
 
-    def piece(self, piece: Element, colour: Colour | None) -> Surface | None:
+    def piece(self, piece: Element) -> tuple[Surface | None, int]:
+        """The surface of a piece, and how many vertices its polygons have."""
         inputs = piece.all("input")
         stride = 1 + max((_offset(each) for each in inputs), default=0)
         streams = {each.get("semantic"): each for each in inputs}
@@ -130,10 +152,7 @@ class _Reader:
             raise piece.error(f"<{piece.tag}> has no input VERTEX")
         index, sizes = _indices(piece, stride)
         if not len(index):
-            return None
-        self.corners += len(index)
-        if self.corners > MOST_CORNERS:
-            raise piece.error(f"this mesh has more than {MOST_CORNERS} corners")
+            return None, 0
         at = self.target(streams["VERTEX"], "source")
         position = next((each for each in at.all("input") if each.get("semantic") == "POSITION"), None)
         if position is None:
@@ -145,7 +164,7 @@ class _Reader:
         if "NORMAL" in streams:
             directions = self.floats(self.target(streams["NORMAL"], "source"))
             normals = directions[self.column(piece, index, streams["NORMAL"], len(directions))]
-        return _welded(points[corners], normals, faces, colour)
+        return _welded(points[corners], normals, faces), len(index)
 
     def column(
         self, piece: Element, index: NDArray[np.int64], stream: Element, count: int
@@ -158,6 +177,11 @@ class _Reader:
         return np.asarray(found)
 
     def floats(self, source: Element) -> Floats:
+        if source not in self.points:
+            self.points[source] = self.rows(source)
+        return self.points[source]
+
+    def rows(self, source: Element) -> Floats:
         array = source.need("float_array")
         values = np.array(array.floats(array.text, most=FARTHEST))
         accessor = source.find("technique_common/accessor")
@@ -210,9 +234,7 @@ def _fans(sizes: list[int]) -> NDArray[np.int64]:
     return np.array(faces, dtype=np.int64)
 
 
-def _welded(
-    points: Floats, normals: Floats | None, faces: NDArray[np.int64], colour: Colour | None
-) -> Surface:
+def _welded(points: Floats, normals: Floats | None, faces: NDArray[np.int64]) -> Surface:
     """Corners that are alike in position and normal become one vertex: between flat faces, edges stay sharp."""
     rows = points if normals is None else np.hstack([points, normals])
     places: dict[bytes, int] = {}
@@ -224,7 +246,7 @@ def _welded(
             places[key] = len(firsts)
             firsts.append(i)
         which[i] = places[key]
-    return Surface(points[firsts], which[faces], colour)
+    return Surface(points[firsts], which[faces])
 
 
 def _transform(node: Element) -> Floats:
