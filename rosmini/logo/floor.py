@@ -1,11 +1,10 @@
-"""The floor turtle: a robot that Logo drives by velocities, and that finds out by odometry how far it has come.
+"""Robots on the floor, which Logo drives by velocities, with feedback from odometry.
 
-The robot goes where it is told as nearly as it can. Each command moves a goal, without error, and the robot drives to
-the goal until odometry says that it is there: so what one movement is off by, the next one mends. The paper begins
-where the robot stood: [0 0] is there, and heading 0 is where it looked. A hundred steps are a metre.
+Each command moves a goal, exactly, and the robot drives until odometry reports that it has reached the goal, so errors
+of one movement are corrected in the next. [0 0] and heading 0 are the initial pose. A hundred steps are a metre.
 
-A movement is three: turn on the spot towards the goal (away from it, to go back), drive there while steering, turn to
-the heading. A robot has no pen: the lines are where it drove, by its odometry.
+A movement has three parts: turn on the spot towards the goal (away from it, to go back), drive there while steering,
+turn to the heading. A robot has no pen: its lines are the path that it drove, by its odometry.
 """
 
 from __future__ import annotations
@@ -17,8 +16,8 @@ from rosmini.errors import ROSException
 from rosmini.geometry.angles import normalize_angle, yaw_from_quaternion
 from rosmini.msgs import message_class
 
-from .errors import LogoError
-from .turtles import ExactTurtle, Flock, Pen, Pose, Sheet
+from .turtles import Flock, Pose, Stroke, Turtle
+from .values import LogoError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,84 +28,83 @@ METRE = 100.0
 """Steps in a metre."""
 
 RATE = 20.0
-"""Commands in a second."""
+"""Velocity commands per second."""
 
 SPEED, SLOWEST = 0.18, 0.01
-"""The linear speed is between these [m/s]; a TurtleBot3 burger may have 0.22."""
+"""Maximum and minimum linear speed [m/s]; the maximum of a TurtleBot3 burger is 0.22."""
 
 SPIN, SLOWEST_SPIN = 1.2, 0.05
-"""The angular speed on the spot is between these [rad/s]; a burger may have 2.84."""
+"""Maximum and minimum angular speed on the spot [rad/s]; the maximum of a burger is 2.84."""
 
 NEAR, NEAR_ANGLE = 0.003, math.radians(0.3)
-"""A goal that is as near as this is reached [m, rad]."""
+"""Tolerances at the goal [m, rad]."""
 
 TRACE = 1.0
-"""Where it drove is noted at such distances [steps]."""
+"""Distance between recorded points of the path [steps]."""
 
 PATIENCE = 5.0
-"""A robot that has come no nearer for so long is stuck; so long is odometry waited for [s]."""
+"""Timeout for odometry, and for progress towards the goal [s]."""
 
 
-class FloorTurtle(ExactTurtle):
-    """A robot with the topics `cmd_vel` and `odom` in a namespace, driven from ``node``.
+def robots_of(node: Node) -> list[str]:
+    """The namespaces that have a published topic `odom` and a subscribed topic `cmd_vel`; "" is the global one."""
+    published, subscribed, _ = node.master.ask("getSystemState")
+    with_odometry = {name.removesuffix("/odom") for name, _ in published if name.endswith("/odom")}
+    with_velocity = {name.removesuffix("/cmd_vel") for name, _ in subscribed if name.endswith("/cmd_vel")}
+    return sorted(with_odometry & with_velocity)
 
-    Raises ``LogoError`` where there is no odometry, and where it does not get on.
+
+class FloorTurtle(Turtle):
+    """A robot with the topics `cmd_vel` and `odom` in a namespace.
+
+    Raises ``LogoError`` if it publishes no odometry, or if it makes no progress.
     """
 
-    def __init__(self, node: Node, namespace: str, sheet: Sheet) -> None:
-        super().__init__(namespace.strip("/") or "robot", sheet)
+    def __init__(self, node: Node, namespace: str, strokes: list[Stroke]) -> None:
+        super().__init__(namespace.strip("/") or "robot", strokes)
         self.node = node
         self._twist = message_class("geometry_msgs/Twist")
         topic = f"{namespace.rstrip('/')}/odom"
         self._publisher = node.publisher(f"{namespace.rstrip('/')}/cmd_vel", self._twist, queue_size=1)
         kind = message_class("nav_msgs/Odometry")
         try:
-            self._hear(node.wait_for_message(topic, kind, PATIENCE))
+            self._update(node.wait_for_message(topic, kind, PATIENCE))
         except ROSException as error:
-            raise LogoError(f"{self.name} does not say where it is: {error}") from error
+            raise LogoError(f"{self.name} publishes no odometry: {error}") from error
         self._origin = self._odom
-        self._noted = self.pose
-        node.subscriber(topic, kind, self._hear, queue_size=1)
+        self._traced = self.pose
+        node.subscriber(topic, kind, self._update, queue_size=1)
 
     @property
     def pose(self) -> Pose:
-        """Where it is, by its odometry."""
+        """The pose by odometry."""
         ahead, left, yaw = self._relative()
         return Pose(-METRE * left, METRE * ahead, math.degrees(-yaw) % 360.0)
 
     def right(self, degrees: float) -> None:
-        """Turn clockwise, all the way round if that is asked."""
-        goal = Pose(self._pose.x, self._pose.y, (self._pose.heading + degrees) % 360.0)
-        turns = math.trunc(degrees / 180.0)  # the last turn, of less than half a round, is that to the goal
-        for _ in range(abs(turns)):
-            self._spin(
-                normalize_angle(self._relative()[2] - math.copysign(math.pi * 0.98, degrees)),
-                -math.copysign(1, degrees),
-            )
-        self._move(goal)
+        """Turn clockwise, by whole turns too."""
+        halves = math.trunc(degrees / 180.0)  # the rest, less than half a turn, is the turn to the goal
+        for _ in range(abs(halves)):
+            yaw = self._relative()[2] - math.copysign(math.pi * 0.98, degrees)
+            self._spin(normalize_angle(yaw), -math.copysign(1, degrees))
+        self.face(self.goal.heading + degrees)
 
-    def place(self, pose: Pose) -> None:
-        """Drive to a pose, as near as odometry can tell."""
+    def move(self, pose: Pose) -> None:
+        """Drive to a pose, within the tolerances."""
         left, ahead = -pose.x / METRE, pose.y / METRE
         here = self._relative()
-        if math.hypot(ahead - here[0], left - here[1]) > NEAR and pose[:2] != self._pose[:2]:
+        if math.hypot(ahead - here[0], left - here[1]) > NEAR and pose[:2] != self.goal[:2]:
             bearing = math.atan2(left - here[1], ahead - here[0])
             backwards = abs(normalize_angle(bearing - here[2])) > math.pi / 2
             self._spin(normalize_angle(bearing + math.pi) if backwards else bearing)
             self._drive(ahead, left, -1.0 if backwards else 1.0)
         self._spin(normalize_angle(-math.radians(pose.heading)))
-
-    def take(self, pen: Pen) -> None:
-        """Note it: a robot has no pen."""
-
-    def stop(self) -> None:
-        """Stand still."""
-        self._publisher.publish(self._twist())
+        self.goal = pose
 
     # -- movements -----------------------------------------------------------------------------------------------
 
     def _spin(self, yaw: float, sense: float = 0.0) -> None:
-        """Turn on the spot to an angle; if ``sense`` is given, that way round."""
+        """Turn on the spot to an angle: the shorter way, or in the direction of the sign of ``sense``."""
 
         def error() -> float:
             off = normalize_angle(yaw - self._relative()[2])
@@ -118,7 +116,7 @@ class FloorTurtle(ExactTurtle):
         self._control(error, command, NEAR_ANGLE)
 
     def _drive(self, ahead: float, left: float, sign: float) -> None:
-        """Drive to a point [m]; at the point's height, not at the point, it is there."""
+        """Drive towards a point [m] until it is beside the robot."""
         start = self._relative()
         course = math.atan2(left - start[1], ahead - start[0])
 
@@ -138,7 +136,7 @@ class FloorTurtle(ExactTurtle):
     def _control(
         self, error: Callable[[], float], command: Callable[[float], tuple[float, float]], near: float
     ) -> None:
-        """Drive until the error is small. Stops in any case; raises ``LogoError`` if it no longer shrinks."""
+        """Drive until the error is small, then stop. Raises ``LogoError`` if it no longer decreases."""
         best, since = math.inf, self.node.now().to_sec()
         twist = self._twist()
         try:
@@ -147,37 +145,31 @@ class FloorTurtle(ExactTurtle):
                 if abs(off) < 0.98 * best:
                     best, since = abs(off), now
                 elif now - since > PATIENCE:
-                    raise LogoError(
-                        f"{self.name} is stuck: for {PATIENCE:g} s it has come no nearer to its goal"
-                    )
+                    raise LogoError(f"{self.name} is stuck: it has made no progress for {PATIENCE:g} s")
                 twist.linear.x, twist.angular.z = command(off)
                 self._publisher.publish(twist)
                 self.node.sleep(1.0 / RATE)
-                self._trail(TRACE)
+                self._trace(TRACE)
         finally:
-            self.stop()
-            self._trail(0.0)
+            self._publisher.publish(self._twist())
+            self._trace(1e-9)
 
-    def _trail(self, least: float) -> None:
-        """Note the line from where it was noted last, if it is as long as that [steps], or the robot has turned."""
+    def _trace(self, least: float) -> None:
+        """Add a stroke to the drawing if the robot has driven this distance [steps] or has turned."""
         here = self.pose
-        turned = abs(math.remainder(here.heading - self._noted.heading, 360.0))
-        if math.dist(here[:2], self._noted[:2]) >= max(least, 1e-9) or turned > 10.0:
-            self.trace(self._noted)
-            self._noted = here
-
-    def _move(self, pose: Pose) -> None:
-        self.place(pose)
-        self._pose = pose
+        turned = abs(math.remainder(here.heading - self._traced.heading, 360.0))
+        if math.dist(here[:2], self._traced[:2]) >= least or turned > 10.0:
+            self.strokes.append(Stroke(self.name, self._traced, here, self.pen))
+            self._traced = here
 
     # -- odometry ------------------------------------------------------------------------------------------------
 
-    def _hear(self, message: Any) -> None:
-        place, turned = message.pose.pose.position, message.pose.pose.orientation
-        self._odom = place.x, place.y, yaw_from_quaternion(turned.x, turned.y, turned.z, turned.w)
+    def _update(self, message: Any) -> None:
+        position, q = message.pose.pose.position, message.pose.pose.orientation
+        self._odom = position.x, position.y, yaw_from_quaternion(q.x, q.y, q.z, q.w)
 
     def _relative(self) -> tuple[float, float, float]:
-        """Where it is [m, m, rad], ahead and to the left of where it began."""
+        """The pose [m, m, rad], ahead and to the left of the initial one."""
         x, y, yaw = self._odom
         x0, y0, yaw0 = self._origin
         c, s = math.cos(yaw0), math.sin(yaw0)
@@ -185,7 +177,7 @@ class FloorTurtle(ExactTurtle):
 
 
 class FloorFlock(Flock):
-    """Robots on the floor, one for each namespace; all of them listen at first."""
+    """Robots on the floor, one for each namespace; all are active at first."""
 
     metre = METRE
     middle = 0.0
@@ -194,15 +186,15 @@ class FloorFlock(Flock):
     def __init__(self, node: Node, namespaces: list[str]) -> None:
         super().__init__()
         for namespace in namespaces:
-            turtle = FloorTurtle(node, namespace, self.sheet)
+            turtle = FloorTurtle(node, namespace, self.strokes)
             self.turtles[turtle.name] = turtle
-        self.tell(list(self.turtles.values()))
+        self.active = list(self.turtles.values())
 
     def make(self, name: str) -> FloorTurtle:
-        """Raises ``LogoError``: Logo builds no robots."""
-        raise LogoError(f"Logo makes no robot {name}: start one in the graph, and name it")
+        """Raises ``LogoError``: Logo cannot make robots."""
+        raise LogoError(f"Logo cannot make the robot {name}: start a robot in the graph")
 
 
 def _between(value: float, least: float, most: float) -> float:
-    """A speed in the direction of ``value``, of at least and at most these."""
+    """A speed with the sign of ``value`` and a magnitude between these."""
     return math.copysign(min(max(abs(value), least), most), value)

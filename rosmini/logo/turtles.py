@@ -1,33 +1,36 @@
-"""What Logo drives: turtles with pens, where the middle of the paper is [0 0], heading 0 is up, and right is clockwise.
+"""Turtles with pens, on paper: the middle is [0 0], heading 0 is up, and right is clockwise.
 
-Lengths are turtle steps, headings degrees. A `Flock` makes turtles and knows which of them listen; `Paper` is the one
-that draws lines and nothing else. Those that are nodes of a graph are in `rosmini.logo.turtlesim` and
-`rosmini.logo.floor`.
+Lengths are in turtle steps, headings in degrees. A `Flock` makes turtles and knows which of them listen. This one draws
+on paper in memory; `rosmini.logo.turtlesim` and `rosmini.logo.floor` drive turtles and robots of a graph.
 """
 
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
-from dataclasses import dataclass, field, replace
-from typing import NamedTuple, TypeAlias
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeAlias
 
-from .errors import LogoError, suggestion
+from rosmini.graph.show import show
+
+from .values import LogoError, suggestion
 
 Colour: TypeAlias = tuple[int, int, int]
 """Red, green, blue, from 0 to 255."""
 
 FARTHEST = 1e9
-"""No turtle goes farther from the middle [steps]."""
+"""Maximum distance of a turtle from the middle [steps]."""
+
+SHORTEST = 1e-6
+"""Minimum length of a line [steps]; a shorter stroke is the rounding error of a sine."""
 
 BACKGROUND: Colour = (69, 86, 255)
 PEN: Colour = (179, 184, 255)
-"""The colours that turtlesim begins with (turtlesim/src/turtle_frame.cpp, turtle.cpp)."""
+"""Initial colours in turtlesim (turtlesim/src/turtle_frame.cpp, turtle.cpp)."""
 
 
 @dataclass(frozen=True)
 class Pen:
-    """What a turtle draws with; its size is in steps."""
+    """A turtle's pen; its size is in steps."""
 
     down: bool = True
     colour: Colour = PEN
@@ -35,7 +38,7 @@ class Pen:
 
 
 class Pose(NamedTuple):
-    """Where a turtle is [steps], and where it looks [degrees clockwise from up, 0 to 360]."""
+    """A turtle's position [steps] and heading [degrees clockwise from up, 0 to 360]."""
 
     x: float
     y: float
@@ -46,7 +49,7 @@ HOME = Pose(0.0, 0.0, 0.0)
 
 
 class Stroke(NamedTuple):
-    """A straight line that a turtle has drawn, or, where ``pen`` is up, has gone."""
+    """A straight movement of a turtle, which has drawn a line if its pen was down."""
 
     turtle: str
     start: Pose
@@ -54,187 +57,151 @@ class Stroke(NamedTuple):
     pen: Pen
 
 
-@dataclass
-class Sheet:
-    """What has been drawn since it was last cleared."""
+class Turtle:
+    """A turtle on paper; subclasses drive others. Raises ``LogoError`` for a pose that it cannot reach."""
 
-    strokes: list[Stroke] = field(default_factory=list)
-    background: Colour = BACKGROUND
-
-
-class Turtle(ABC):
-    """One turtle. Raises ``LogoError`` where it cannot go."""
-
-    def __init__(self, name: str, sheet: Sheet) -> None:
+    def __init__(self, name: str, strokes: list[Stroke]) -> None:
         self.name = name
-        self.sheet = sheet
-        self.visible = True
-        self._pen = Pen()
-
-    @property
-    @abstractmethod
-    def pose(self) -> Pose:
-        """Where it is."""
-
-    @abstractmethod
-    def forward(self, distance: float) -> None:
-        """Go straight ahead, or back."""
-
-    @abstractmethod
-    def right(self, degrees: float) -> None:
-        """Turn clockwise."""
-
-    @abstractmethod
-    def go(self, x: float, y: float) -> None:
-        """Go to a point in a straight line, and look where it looked before."""
-
-    @abstractmethod
-    def take(self, pen: Pen) -> None:
-        """Learn that the pen is another one."""
-
-    @abstractmethod
-    def face(self, heading: float) -> None:
-        """Look in a direction."""
-
-    @property
-    def pen(self) -> Pen:
-        """What it draws with."""
-        return self._pen
-
-    @pen.setter
-    def pen(self, pen: Pen) -> None:
-        if pen != self._pen:
-            self._pen = pen
-            self.take(pen)
-
-    def home(self) -> None:
-        """Go to where it began."""
-        self.go(HOME.x, HOME.y)
-        self.face(HOME.heading)
-
-    def lift(self) -> None:
-        """Put the pen up."""
-        self.pen = replace(self.pen, down=False)
-
-    def trace(self, start: Pose) -> None:
-        """Note the line from there to here."""
-        self.sheet.strokes.append(Stroke(self.name, start, self.pose, self._pen))
-
-
-class ExactTurtle(Turtle):
-    """A turtle that is where it is told to be: `place` puts it there."""
-
-    def __init__(self, name: str, sheet: Sheet, pose: Pose = HOME) -> None:
-        super().__init__(name, sheet)
-        self._pose = pose
+        self.strokes = strokes
+        self.goal = HOME
+        """The pose that its commands add up to."""
+        self.pen = Pen()
 
     @property
     def pose(self) -> Pose:
-        """Where it is."""
-        return self._pose
+        """The current pose."""
+        return self.goal
 
     def place(self, pose: Pose) -> None:
-        """Put it there, drawing a line if its pen is down. Raises ``LogoError`` where it cannot be."""
+        """Move the turtle of the graph, if there is one, to a pose. Raises ``LogoError``."""
 
-    def take(self, pen: Pen) -> None:
-        """Learn that the pen is another one."""
+    def send_pen(self) -> None:
+        """Give the turtle of the graph, if there is one, the pen. Raises ``LogoError``."""
+
+    def set_pen(self, pen: Pen) -> None:
+        """Change the pen."""
+        if pen != self.pen:
+            self.pen = pen
+            self.send_pen()
+
+    def move(self, pose: Pose) -> None:
+        """Go to a pose, drawing a line if the pen is down."""
+        if max(abs(pose.x), abs(pose.y)) > FARTHEST:
+            raise LogoError(f"turtle out of bounds: {self.name} would be {FARTHEST:g} steps away")
+        before = self.goal
+        self.place(pose)
+        self.goal = pose
+        if pose != before:
+            self.strokes.append(Stroke(self.name, before, pose, self.pen))
 
     def forward(self, distance: float) -> None:
-        """Go straight ahead, or back."""
-        x, y, heading = self._pose
-        self._move(Pose(x + distance * sine(heading), y + distance * cosine(heading), heading))
+        """Go straight ahead, or back if the distance is negative."""
+        x, y, heading = self.goal
+        self.move(Pose(x + distance * sine(heading), y + distance * cosine(heading), heading))
 
     def right(self, degrees: float) -> None:
         """Turn clockwise."""
-        self.face(self._pose.heading + degrees)
-
-    def go(self, x: float, y: float) -> None:
-        """Go to a point."""
-        self._move(Pose(x, y, self._pose.heading))
+        self.face(self.goal.heading + degrees)
 
     def face(self, heading: float) -> None:
-        """Look in a direction."""
-        self._move(Pose(self._pose.x, self._pose.y, heading % 360.0))
+        """Turn to a heading."""
+        self.move(Pose(self.goal.x, self.goal.y, heading % 360.0))
 
-    def _move(self, pose: Pose) -> None:
-        before = self._pose
-        if max(abs(pose.x), abs(pose.y)) > FARTHEST:
-            raise LogoError(f"turtle out of bounds: {self.name} would be {FARTHEST:g} steps away")
-        self.place(pose)
-        self._pose = pose
-        if pose[:2] != before[:2] or pose.heading != before.heading:
-            self.trace(before)
+    def home(self) -> None:
+        """Return to the pose at which the turtle began."""
+        self.move(Pose(HOME.x, HOME.y, self.goal.heading))
+        self.face(HOME.heading)
 
 
-class Flock(ABC):
-    """All turtles that there are, and those that listen: commands go to each of these, questions to the first."""
+class Flock:
+    """All turtles, and the active ones: commands go to each of these, questions to the first."""
 
     metre = 45.0
-    """So many steps are a metre of turtlesim's window."""
+    """Steps in a metre of turtlesim's window."""
     middle = 249.5 / metre
-    """Where [0 0] is in that window [m]."""
+    """Position of [0 0] in that window, in x and y [m]; 0 for turtles outside it."""
     place = "the window"
 
     def __init__(self) -> None:
-        self.sheet = Sheet()
+        self.strokes: list[Stroke] = []
+        """All movements since the paper was cleared."""
         self.turtles: dict[str, Turtle] = {}
         self.active: list[Turtle] = []
-        self.told: list[Turtle] = []
-        """Those of the last `tell`."""
 
-    @abstractmethod
     def make(self, name: str) -> Turtle:
-        """Make a turtle in the middle. Raises ``LogoError``."""
+        """Return a new turtle in the middle. Raises ``LogoError``."""
+        return Turtle(name, self.strokes)
 
-    def look(self) -> None:  # noqa: B027 - on paper nothing changes by itself
-        """Find out what has changed since the last program."""
-
-    def known(self) -> list[str]:
-        """The names of turtles that are there."""
-        return sorted(self.turtles)
+    def refresh(self) -> None:
+        """Update poses and turtles that have changed since the last program."""
 
     def find(self, name: str) -> Turtle:
-        """The turtle of this name. Raises ``LogoError`` if there is none."""
+        """The turtle with this name. Raises ``LogoError``."""
         found = self.turtles.get(name)
         if found is None:
-            guess = suggestion(name, self.known()) or f'; newturtle "{name} makes one'
+            guess = suggestion(name, self.turtles) or f'; newturtle "{name} makes one'
             raise LogoError(f"there is no turtle {name}{guess}")
         return found
 
     def add(self, name: str) -> Turtle:
         """Make a turtle. Raises ``LogoError`` if the name is taken."""
-        if name in self.known():
+        if name in self.turtles:
             raise LogoError(f"there is a turtle {name} already")
         self.turtles[name] = self.make(name)
         return self.turtles[name]
 
-    def tell(self, turtles: list[Turtle]) -> None:
-        """Let these listen from now on."""
-        self.active = self.told = turtles
-
-    def reset(self) -> None:
-        """Let those of the last `tell` listen, whatever was stopped."""
-        self.active = self.told
-
     def clean(self) -> None:
-        """Erase what is drawn; turtles stay where they are."""
-        self.sheet.strokes.clear()
-
-    def paint(self, colour: Colour) -> None:
-        """Change the background."""
-        self.sheet.background = colour
+        """Erase the drawing; the turtles stay where they are."""
+        self.strokes.clear()
 
 
 class Paper(Flock):
-    """A sheet of paper in memory, with one turtle to begin with."""
+    """A sheet of paper in memory with one turtle."""
 
-    def __init__(self, names: tuple[str, ...] = ("turtle1",)) -> None:
+    def __init__(self) -> None:
         super().__init__()
-        self.tell([self.add(name) for name in names])
+        self.active = [self.add("turtle1")]
 
-    def make(self, name: str) -> Turtle:
-        """Make a turtle in the middle."""
-        return ExactTurtle(name, self.sheet)
+
+@dataclass(frozen=True)
+class Drawing:
+    """A drawing in turtle steps: all movements, and the turtles' poses at the end."""
+
+    strokes: tuple[Stroke, ...]
+    turtles: dict[str, Pose]
+    metre: float
+    middle: float
+    place: str
+    """See `Flock`."""
+
+    @classmethod
+    def of(cls, flock: Flock) -> Drawing:
+        """Return what these turtles have drawn."""
+        poses = {turtle.name: turtle.pose for turtle in flock.turtles.values()}
+        return cls(tuple(flock.strokes), poses, flock.metre, flock.middle, flock.place)
+
+    @property
+    def lines(self) -> tuple[Stroke, ...]:
+        """The strokes that left a line."""
+        return tuple(stroke for stroke in self.strokes if stroke.pen.down and _length(stroke) > SHORTEST)
+
+    @property
+    def length(self) -> float:
+        """Total length of all lines [steps]."""
+        return sum(map(_length, self.lines))
+
+    def show(self, **options: Any) -> Any:
+        """Show how the drawing grew: a player in a page, a still picture elsewhere.
+
+        Options and their defaults:
+            title=None: a caption, and the first words of the text form
+            speed=200.0: speed of the turtles [steps/s]; a long drawing is drawn faster
+        """
+        return show("logo", self, **options)
+
+
+def _length(stroke: Stroke) -> float:
+    return math.dist(stroke.start[:2], stroke.end[:2])
 
 
 def sine(degrees: float) -> float:

@@ -17,13 +17,12 @@ TITLE = "--title"
 
 
 def logo(session: Session, line: str, cell: str) -> Any:
-    """Run the cell as a program in Logo; show what is drawn.
+    """Run the cell as a program in Logo; show the drawing.
 
-    Without names it drives what is there: turtlesim's first turtle, or all robots, or a turtle on paper. A procedure
-    that one cell defines is known to the next, until %roscore; so is what is on the paper, until clearscreen.
-    A program that fails says so, with the line of the cell, as Logo does; the cell itself does not fail, as that of a
-    ``%%node`` does not. Raises ``UsageError`` for a line that makes no sense, and ``LogoError`` for a turtle that is
-    not there.
+    Without names it drives turtlesim's first turtle, or all robots, or a turtle on paper. Later cells know the
+    procedures and the drawing of this one until %roscore, and until clearscreen.
+    The error of a program is printed with its line in the cell; like a ``%%node`` cell, the cell itself does not fail.
+    Raises ``UsageError`` for an invalid line, and ``LogoError`` for an unknown turtle.
     """
     words = words_of(line, "%logo", session.shell.user_ns)
     title: str | None = None
@@ -38,14 +37,13 @@ def logo(session: Session, line: str, cell: str) -> Any:
         raise UsageError(f"unknown option {wrong!r}. Usage: {USAGE}")
     session.look()
     interpreter = session.logo(tuple(words), lambda: _begin(session, words))
-    interpreter.look_around()
-    before = len(interpreter.drawing.lines)
+    before = interpreter.drawing.lines
     try:
         interpreter.run(cell, first_line=2)
     except LogoError as error:
         session.say(str(error))
     drawing = interpreter.drawing
-    has_changed = title is not None or len(drawing.lines) != before
+    has_changed = title is not None or drawing.lines != before
     return drawing.show(title=title) if has_changed and drawing.strokes else None
 
 

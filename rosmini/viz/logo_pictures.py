@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rosmini.logo.drawing import Drawing
+from rosmini.logo.turtles import BACKGROUND, Drawing
 from rosmini.logo.values import write
 from rosmini.viz.replay.layers import Layer, Strokes
 from rosmini.viz.replay.layers import Stroke as Line
@@ -20,7 +20,6 @@ from rosmini.viz.words import plural
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from rosmini.logo.drawing import Standing
     from rosmini.logo.turtles import Pose, Stroke
 
     Floats = NDArray[np.float64]
@@ -44,7 +43,9 @@ class _Shown(Shown):
 
     def text(self, title: str) -> str:
         """How many lines there are, and where the turtles stand."""
-        return "\n".join([f"{title}: {_lines(self.drawing)}", *map(_standing, self.drawing.turtles)])
+        return "\n".join(
+            [f"{title}: {_lines(self.drawing)}", *(_turtle(*each) for each in self.drawing.turtles.items())]
+        )
 
     @property
     def alt(self) -> str:
@@ -52,7 +53,7 @@ class _Shown(Shown):
         return " ".join(
             [
                 f"A drawing by Logo, which grows: {_lines(self.drawing)}.",
-                *(f"{_standing(each)}." for each in self.drawing.turtles[:3]),
+                *(f"{_turtle(*each)}." for each in list(self.drawing.turtles.items())[:3]),
             ]
         )
 
@@ -76,10 +77,10 @@ def logo_picture(drawing: Drawing, *, title: str | None = None, speed: float = 2
     layers: tuple[Layer, ...] = tuple(
         Strokes(f"lines of {name}", lines) for name, lines in _strokes(drawing, times).items() if lines
     )
-    bodies = tuple(_body(each, drawing, times) for each in drawing.turtles if each.visible)
+    bodies = tuple(_body(name, pose, drawing, times) for name, pose in drawing.turtles.items())
     run = Run(
         "Logo", 0.0, end, bodies=bodies, layers=layers, frame=drawing.place, bounds=_bounds(drawing),
-        background=_hex(drawing.background) if drawing.middle else None, opens_at_end=True,
+        background=_hex(BACKGROUND) if drawing.middle else None, opens_at_end=True,
     )  # fmt: skip
     return ReplayView([_Shown(drawing, run)], title=title)
 
@@ -117,15 +118,15 @@ def _strokes(drawing: Drawing, times: Floats) -> dict[str, tuple[Line, ...]]:
     return found
 
 
-def _body(turtle: Standing, drawing: Drawing, times: Floats) -> Body:
-    own = [(i, stroke) for i, stroke in enumerate(drawing.strokes) if stroke.turtle == turtle.name]
-    poses = [own[0][1].start, *(stroke.end for _, stroke in own)] if own else [turtle.pose]
+def _body(name: str, pose: Pose, drawing: Drawing, times: Floats) -> Body:
+    own = [(i, stroke) for i, stroke in enumerate(drawing.strokes) if stroke.turtle == name]
+    poses = [own[0][1].start, *(stroke.end for _, stroke in own)] if own else [pose]
     when = np.array([times[own[0][0]], *(times[i + 1] for i, _ in own)]) if own else np.zeros(1)
     rows = np.array([_metres(drawing, pose) for pose in poses])
     rows[:, 2] = np.unwrap(rows[:, 2])
     scale = 45.0 / drawing.metre
     outline = tuple((scale * x, scale * y) for x, y in TURTLE)
-    return Body(turtle.name, when, rows, colour="green", outline=outline, trail=False)
+    return Body(name, when, rows, colour="green", outline=outline, trail=False)
 
 
 def _metres(drawing: Drawing, pose: Pose) -> tuple[float, float, float]:
@@ -150,9 +151,9 @@ def _lines(drawing: Drawing) -> str:
     return f"{plural(len(lines), 'line')}, {write(round(drawing.length, 1) + 0.0)} steps"
 
 
-def _standing(turtle: Standing) -> str:
-    x, y, heading = (write(round(part, 1) + 0.0) for part in turtle.pose)
-    return f"{turtle.name} at [{x} {y}], heading {heading}"
+def _turtle(name: str, pose: Pose) -> str:
+    x, y, heading = (write(round(part, 1) + 0.0) for part in pose)
+    return f"{name} at [{x} {y}], heading {heading}"
 
 
 def _hex(colour: tuple[int, int, int]) -> str:

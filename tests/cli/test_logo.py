@@ -79,7 +79,7 @@ def test_ctrl_c_ends_the_program_and_not_the_conversation(
     def pressed(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("rosmini.logo.turtles.ExactTurtle.right", pressed)
+    monkeypatch.setattr("rosmini.logo.turtles.Turtle.face", pressed)
     monkeypatch.setattr("sys.stdin", io.StringIO("fd 10\nforever [right 1]\nprint pos\n"))
     assert TOOL.main(Namespace(words=["--paper"])) == 0
     assert capsys.readouterr().out == "? ? stopped by Ctrl-C\n? 0 10\n? "

@@ -1,4 +1,4 @@
-"""The programs that come with rosmini: they run on paper, fit into the window of turtlesim, and draw what they say."""
+"""The programs in rosmini_logo: they run on paper, fit into turtlesim's window, and draw their figures."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ def test_each_fits_into_the_window(path: Path) -> None:
     ("name", "lines"),
     [("square", 4), ("star", 5), ("koch", 3 * 4**4), ("dragon", 2**10), ("hilbert", 4**5 - 1)],
 )
-def test_how_many_lines_there_are(name, lines):
+def test_number_of_lines(name, lines):
     assert len(drawn(name).drawing.lines) == lines
 
 
-def test_what_is_closed_closes():
+def test_closed_figures_close():
     for name in ("square", "star", "koch"):
         drawing = drawn(name).drawing
-        assert math.dist(drawing.lines[0].start[:2], drawing.turtles[0].pose[:2]) < 1e-9
+        assert math.dist(drawing.lines[0].start[:2], drawing.turtles["turtle1"][:2]) < 1e-9
 
 
 def test_hilberts_curve_visits_each_point_once():

@@ -47,10 +47,6 @@ def test_a_long_drawing_is_drawn_faster_and_a_large_one_is_seen_whole():
     assert run.bounds is None
 
 
-def test_turtles_that_are_hidden_are_not_drawn():
-    assert run_of(logo_picture(drawing("fd 10 hideturtle"))).bodies == ()
-
-
 def test_forms_and_equal_bytes():
     first, second = (logo_picture(drawing("repeat 5 [fd 100 rt 144]")) for _ in range(2))
     assert first.html == second.html

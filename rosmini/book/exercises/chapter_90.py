@@ -10,14 +10,14 @@ from rosmini.book.checks import Script, exercise, expect
 from rosmini.book.trials import Trial
 from rosmini.graph import Graph
 from rosmini.logo import Limits, Logo
-from rosmini.logo.drawing import Drawing
+from rosmini.logo.turtles import Drawing
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.scripts import Console, ScriptHandle, ScriptSpec, rosrun
 
 if TYPE_CHECKING:
     from rosmini.turtlesim.node import TurtleSim
 
-LIMITS = Limits(steps=200_000, moves=5_000, depth=500)
+LIMITS = Limits(steps=200_000, moves=5_000, depth=5_000)
 
 PLACES = ((60, 0), (60, 80), (0, 80))
 
@@ -56,7 +56,7 @@ def _corners(drawing: Drawing) -> list[tuple[int, int]]:
 
 
 def _is_home(drawing: Drawing) -> bool:
-    x, y, heading = drawing.turtles[0].pose
+    (x, y, heading), *_ = drawing.turtles.values()
     return math.hypot(x, y) < 0.5 and abs(math.remainder(heading, 360)) < 0.5
 
 
