@@ -19,6 +19,15 @@ Floats = NDArray[np.float64]
 TURN = 2 * math.pi
 
 
+def cos_sin(angles: Floats) -> tuple[Floats, Floats]:
+    """Cosines and sines (n,) of angles (n,), by the C library.
+
+    Machine code computes the same bits; numpy's own functions differ in the last bit.
+    """
+    given = angles.tolist()
+    return np.array([math.cos(angle) for angle in given]), np.array([math.sin(angle) for angle in given])
+
+
 @overload
 def normalize_angle(angle: float) -> float: ...
 @overload

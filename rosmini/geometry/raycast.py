@@ -1,7 +1,7 @@
 """What a flat laser sees: rays against line segments and discs.
 
-`raycast` does it in machine code where numba is installed, else with numpy, and both give the same ranges: they get the
-same directions and do the same arithmetic in the same order. `backend` tells which one it would be.
+`raycast` uses numpy first, and machine code once that pays and numba is installed. Both return the same ranges, to the
+last bit: they get the same directions and do the same arithmetic in the same order. `backend` returns the name of one.
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.errors import RosminiError, nearest
 
 from . import raycast_numpy
-from .angles import normalize_angle
+from .angles import cos_sin, normalize_angle
 from .errors import GeometryError
+from .machine_code import Deferral
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -29,6 +30,9 @@ VARIABLE = "ROSMINI_RAYCAST"
 """The environment variable that chooses a backend where the caller does not."""
 
 BACKENDS = ("numba", "numpy")
+
+MANY_RAYS = 50_000
+"""From this number of rays a second numba casts them in wall time; numpy takes about 1 us for one."""
 
 EVERY: Ints = np.empty((0, 2), dtype=np.int64)
 """No rows: each thing concerns every ray."""
@@ -62,7 +66,9 @@ def raycast(
     sees 0 all around. A segment of no length is a point.
 
     `backend` is "numba" or "numpy"; without it the environment variable `ROSMINI_RAYCAST` decides, and without that
-    numba if it is installed. Raises `GeometryError` for a number that is nan or infinite (`max_range` may be infinite),
+    the number of rays cast so far, if numba is installed.
+
+    Raises `GeometryError` for a number that is nan or infinite (`max_range` may be infinite),
     a negative radius, range or count or an array of another shape, and `BackendMissing` for "numba" without numba.
     """
     walls, pillars = _tables(segments, discs)
@@ -73,7 +79,7 @@ def raycast(
     if not (max_range >= 0 and count >= 0):
         msg = f"max_range ({max_range}) and count ({count}) are 0 or more"
         raise GeometryError(msg)
-    cast = _kernel(_chosen(backend))
+    cast = _kernel(_chosen(backend, count))
     ranges = np.full(count, np.inf)
     if not count:
         return ranges
@@ -129,7 +135,7 @@ def raycast_each(
     if not max_range >= 0:
         raise GeometryError(f"max_range ({max_range}) is 0 or more")
     spans = [_spans(segment_rays, len(walls), count), _spans(disc_rays, len(pillars), count)]
-    cast = _kernel(_chosen(backend))
+    cast = _kernel(_chosen(backend, count))
     ranges = np.full(count, np.inf)
     if not count:
         return ranges
@@ -146,24 +152,41 @@ def raycast_each(
         pillars,
         x,
         y,
-        np.cos(looks),
-        np.sin(looks),
+        *cos_sin(looks),
         float(normalize_angle(looks[0])),
         step,
         float(max_range),
         ranges,
         dx,
         dy,
-        float(np.hypot(dx, dy).max()),
+        float(np.sqrt(dx * dx + dy * dy).max()),
         float(np.abs(looks - even).max()),
         *(np.ascontiguousarray(span) for span in spans),
     )
     return ranges[::-1].copy() if back else ranges
 
 
-def backend() -> str:
-    """The backend that `raycast` uses when it is not told: "numba" or "numpy". Imports numba, if it is installed."""
-    return _chosen(None)
+def backend(rays: int) -> str:
+    """The backend that `raycast` uses by default, "numba" or "numpy"; counts these rays as work to do."""
+    return _chosen(None, rays)
+
+
+class _Lasers(Deferral):
+    """Decides when the rays of lasers are cast in machine code."""
+
+    rays_per_second = 0.0
+    """Of the lasers in wall time."""
+
+
+_LASERS = _Lasers()
+
+
+def expect(rays_per_second: float) -> None:
+    """Prepare for one more laser in wall time, where nothing is compiled while robots drive."""
+    _LASERS.rays_per_second += rays_per_second
+    _LASERS.held = _LASERS.rays_per_second < MANY_RAYS
+    if not _LASERS.held:
+        _LASERS.force()
 
 
 def _tables(segments: ArrayLike, discs: ArrayLike) -> tuple[Floats, Floats]:
@@ -203,10 +226,10 @@ def _table(rows: ArrayLike, width: int, what: str) -> Floats:
     return table
 
 
-def _chosen(name: str | None) -> str:
+def _chosen(name: str | None, rays: int) -> str:
     wanted = name or os.environ.get(VARIABLE)
     if not wanted:
-        return "numpy" if _numba() is None else "numba"
+        return "numba" if _LASERS.due(rays) and _numba() is not None else "numpy"
     if wanted not in BACKENDS:
         source = "" if name else f" (from the environment variable {VARIABLE})"
         there = " and ".join(BACKENDS)

@@ -131,12 +131,12 @@ def cast_disc(
     """`cast` for one disc that is seen from the sensor, by the rays from `low` to before `high`."""
     distance = math.sqrt(x * x + y * y)
     gap = distance - radius
-    if gap <= SLACK + away:
+    if gap <= 2 * SLACK + away:
         for i in range(low, high):
             px, py = x - dx[i], y - dy[i]
             if math.sqrt(px * px + py * py) - radius <= SLACK:
                 ranges[i] = 0.0
-    if gap <= SLACK - away or gap > max_range + away:
+    if gap > max_range + 2 * SLACK + away:
         return
     begin, width = 0.0, math.inf
     if distance >= NEAR and gap >= 2 * away and step >= FLAT:
@@ -175,9 +175,9 @@ def meet_segment(x1: float, y1: float, x2: float, y2: float, c: float, s: float)
         return math.inf
     a1, a2 = c * x1 + s * y1, c * x2 + s * y2
     if max(abs(k1), abs(k2)) <= SLACK:
-        return max(min(a1, a2), 0.0) if max(a1, a2) >= -SLACK else math.inf
+        return positive(min(a1, a2)) if max(a1, a2) >= -SLACK else math.inf
     ahead = a1 + min(max(k1 / (k1 - k2), 0.0), 1.0) * (a2 - a1)
-    return max(ahead, 0.0) if ahead >= -SLACK else math.inf
+    return positive(ahead) if ahead >= -SLACK else math.inf
 
 
 def meet_disc(x: float, y: float, radius: float, c: float, s: float) -> float:
@@ -185,7 +185,16 @@ def meet_disc(x: float, y: float, radius: float, c: float, s: float) -> float:
     aside, ahead = abs(c * y - s * x), c * x + s * y
     if aside > radius or ahead <= 0:
         return math.inf
-    return max(ahead - math.sqrt((radius - aside) * (radius + aside)), 0.0)
+    return positive(ahead - math.sqrt((radius - aside) * (radius + aside)))
+
+
+def positive(number: float) -> float:
+    """Return a number, or 0.0 for one that is negative or -0.0."""
+    return max(0.0, number)
+
+
+HELPERS = (cast_segment, cast_disc, before, segment_distance, meet_segment, meet_disc, positive)
+"""The functions that `cast` calls."""
 
 
 @cache
@@ -199,5 +208,4 @@ def compiled() -> Callable[..., None]:
     rays: Any = numba.types.Array(numba.int64, 2, "C", readonly=True)
     plain = (table, table, number, number, read, read, number, number, number, number[::1])
     signature = numba.void(*plain, read, read, number, number, rays, rays)
-    helpers = (cast_segment, cast_disc, before, segment_distance, meet_segment, meet_disc)
-    return machine_code(cast, signature, helpers)
+    return machine_code(cast, signature, HELPERS)

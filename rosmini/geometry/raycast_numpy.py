@@ -89,7 +89,7 @@ def cast_segments(
             part = np.minimum(np.maximum(k1 / (k1 - k2), 0.0), 1.0)
         ahead = np.where(along, np.minimum(a1, a2), a1 + part * (a2 - a1))
         last = np.where(along, np.maximum(a1, a2), ahead)
-        ahead = np.maximum(ahead, 0.0)
+        ahead = np.where(ahead > 0.0, ahead, 0.0)
         met = touched & (last >= -SLACK) & (ahead <= max_range)
         np.minimum.at(ranges, ray[met], ahead[met])
 
@@ -109,9 +109,9 @@ def cast_discs(
     dx, dy, away, spread = origins
     distances = np.sqrt(discs[:, 0] * discs[:, 0] + discs[:, 1] * discs[:, 1])
     gaps = distances - discs[:, 2]
-    within = gaps <= max_range + away
+    within = gaps <= max_range + 2 * SLACK + away
     discs, distances, gaps = discs[within], distances[within], gaps[within]
-    near = (distances < NEAR) | (gaps < 2 * away) | (gaps <= SLACK + away)
+    near = (distances < NEAR) | (gaps < 2 * away) | (gaps <= 2 * SLACK + away)
     safe = np.where(near, 1.0, distances)
     halves = np.arcsin(np.where(near, 0.0, discs[:, 2] / safe)) + spread
     halves += np.arcsin(np.where(near, 0.0, away / np.where(near, 1.0, gaps)))
@@ -125,7 +125,7 @@ def cast_discs(
         half_chord = np.sqrt(np.maximum((radius - aside) * (radius + aside), 0.0))
         entry = np.where(inside, 0.0, ahead - half_chord)
         met = inside | ((aside <= radius) & (ahead > 0) & (entry <= max_range))
-        np.minimum.at(ranges, ray[met], np.maximum(entry[met], 0.0))
+        np.minimum.at(ranges, ray[met], np.where(entry > 0.0, entry, 0.0)[met])
 
 
 def _distances(segments: Floats) -> Floats:
@@ -136,7 +136,8 @@ def _distances(segments: Floats) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore"):
         part = np.where(squares > 0, -(x1 * ex + y1 * ey) / squares, 0.0)
     part = np.minimum(np.maximum(part, 0.0), 1.0)
-    nearest: Floats = np.hypot(x1 + part * ex, y1 + part * ey)
+    px, py = x1 + part * ex, y1 + part * ey
+    nearest: Floats = np.sqrt(px * px + py * py)
     return nearest
 
 

@@ -128,8 +128,6 @@ class Simulator(Simulation):
             raise WorldError(f"{error}. {PLACE}") from error
         if moved := displacement(engine, starts[0]):
             node.logwarn(moved)
-        if starts[0].model.lidar is not None:
-            engine.scan(self.name)  # where numba has to compile, it does so now and not on the way
         super().__init__(node, Host(node, engine))
         if own.obstacles:
             self.host.add(ObstacleMarkers(self.host))

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry import raycast
 from rosmini.geometry.poses import Pose
-from rosmini.sim.engine.sweep import prepare
 from rosmini.sim.host import Host, Stamp
 from rosmini.sim.models import LidarModel
 from rosmini.sim.sensors.lidar import unmeasured
@@ -139,7 +139,9 @@ class Laser(RangeDevice):
         self._deviation = lidar.noise * noise
         self._rep_117 = rep_117
         if sweep:
-            prepare(host.engine.trails, self._beam_time * lidar.beams)
+            host.engine.trails.remember(1.01 * self._beam_time * lidar.beams)
+        if not host.node.graph.simulated:
+            raycast.expect(lidar.beams * (rate or lidar.rate))
 
     def describe(self, message: Any) -> None:
         """Fill in the numbers of the laser."""

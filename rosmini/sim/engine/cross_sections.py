@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.angles import cos_sin
 from rosmini.geometry.poses import Pose, compose
 from rosmini.geometry.products import matrix_product
 from rosmini.sim.models import RobotModel
@@ -84,7 +85,8 @@ def stack(cuts: Sequence[CrossSection]) -> CrossSection:
 
 def at_each_pose(template: CrossSection, poses: Floats) -> CrossSection:
     """Return a cross-section at each of the poses (k, 3): segments (k * n, 4) and discs (k * m, 3), pose by pose."""
-    x, y, c, s = poses[:, :1], poses[:, 1:2], np.cos(poses[:, 2:]), np.sin(poses[:, 2:])
+    x, y = poses[:, :1], poses[:, 1:2]
+    c, s = (each[:, None] for each in cos_sin(poses[:, 2]))
     (segments, discs), count = template, len(poses)
     sides, circles = np.empty((count, len(segments), 4)), np.empty((count, len(discs), 3))
     for table, source, columns in ((sides, segments, (0, 2)), (circles, discs, (0,))):

@@ -7,8 +7,8 @@ fast as it can, with 12.5 rad/s^2, is off by 0.6 milliradians for a moment. Othe
 `TOGETHER` beams, to where they are in the middle of them: off by 2.2 ms of their way, half a millimetre for a
 Burger, and 3 mm for a walker at 1.4 m/s.
 
-With numba one function does it all, `rosmini.sim.engine.sweep_kernel.sweep`; else numpy, with the same ranges
-to 1e-9.
+Where machine code pays, one function does all of it, `rosmini.sim.engine.sweep_kernel.sweep`; else numpy, with the
+same ranges, to the last bit.
 """
 
 from __future__ import annotations
@@ -22,13 +22,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry import raycast
+from rosmini.geometry.angles import cos_sin
 from rosmini.sim.models import LidarModel
 from rosmini.sim.sensors.lidar import measured
 
 from . import sweep_kernel
 from .cross_sections import CrossSection, at_each_pose, obstacle_section, stack
 from .sweep_kernel import TOGETHER
-from .trails import Later, Trails, between
+from .trails import Later, between
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -50,13 +51,6 @@ PARTS = tuple(part / GRID for part in range(GRID, -1, -1))
 """How much of a revolution is left at these times."""
 
 NO_NOISE: Floats = np.empty(0)
-
-
-def prepare(trails: Trails, seconds: float) -> None:
-    """Get ready for sweeps that take so long: remember where all were, and compile what numba compiles."""
-    trails.remember(1.01 * seconds)
-    if raycast.backend() == "numba":
-        sweep_kernel.compiled()
 
 
 class Sweeps:
@@ -84,7 +78,7 @@ class Sweeps:
         if not self._numbers:
             return self._scan(viewer.name, noise, lidar), seen_from
         reach = lidar.range_max if noise is None else lidar.range_max + 6 * lidar.noise
-        if raycast.backend() == "numpy":
+        if raycast.backend(count) == "numpy":
             return self._with_numpy(viewer, lidar, beam_time, noise, reach, seen_from), seen_from
         own = self._numbers.get(viewer.name, -1)
         mx, my, height = lidar.mount
@@ -123,26 +117,32 @@ class Sweeps:
         if own >= 0:
             seen_from[:] = between(*self._track(own), now - beam_time * beams)
         angles = seen_from[:, 2] + (lidar.yaw + lidar.angle_min) + lidar.increment * beams
-        c, s = np.cos(seen_from[:, 2]), np.sin(seen_from[:, 2])
+        c, s = cos_sin(seen_from[:, 2])
         mx, my, height = lidar.mount
         places = np.column_stack([seen_from[:, 0] + c * mx - s * my, seen_from[:, 1] + s * mx + c * my])
-        moved = float(np.hypot(*(places - places[0]).T).max())
-        away = np.hypot(*(self._around[:, :2] - places[0]).T) - self._around[:, 2]
+        back = bool(angles[-1] < angles[0])
+        middle = places[count - 1 - count // 2 if back else count // 2].copy()
+        places -= middle  # everything is relative to it, as in `sweep`
+        moved = float(np.hypot(*places.T).max())
+        away = np.hypot(*(self._around[:, :2] - middle).T) - self._around[:, 2]
         begins = np.arange(0, count, TOGETHER)
         spans = np.column_stack([begins, np.minimum(begins + TOGETHER, count)])
         middles = now - beam_time * (spans.sum(axis=1) - 1) / 2
         sides, segments, discs = self._outlines(height)
-        cuts = [self._still(viewer, lidar)]
+        walls, pillars = self._still(viewer, lidar)
+        cuts = [(walls - (*middle, *middle), pillars - (*middle, 0.0))]
         rays = [tuple(np.tile((0, count), (len(part), 1)) for part in cuts[0])]
         for k in np.flatnonzero(away < reach + moved).tolist():
             if k != own:
                 a, b, d, e = sides[k]
                 template = (segments[a:b], discs[d:e])
-                cuts.append(at_each_pose(template, between(*self._track(k), middles)))
+                poses = between(*self._track(k), middles) - (*middle, 0.0)
+                cuts.append(at_each_pose(template, poses))
                 rays.append(tuple(np.repeat(spans, len(part), axis=0) for part in template))
         segment_rays, disc_rays = (np.vstack(each) for each in zip(*rays, strict=True))
+        cut = stack(cuts)
         ranges = raycast.raycast_each(
-            *stack(cuts), places, angles, reach, segment_rays=segment_rays, disc_rays=disc_rays
+            *cut, places, angles, reach, segment_rays=segment_rays, disc_rays=disc_rays, backend="numpy"
         )
         return measured(lidar, ranges if noise is None else ranges + noise)
 

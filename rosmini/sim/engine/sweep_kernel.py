@@ -16,9 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry import raycast_numba
 from rosmini.geometry.machine_code import machine_code
-from rosmini.geometry.raycast_numba import MARGIN, NEAR, TURN, before, cast_disc, cast_segment
+from rosmini.geometry.raycast_numba import HELPERS, MARGIN, NEAR, TURN, before, cast_disc, cast_segment
 
 from .trails import arc
 
@@ -176,16 +175,4 @@ def compiled() -> Callable[..., None]:
         f[:, ::1],
         f[::1],
     )
-    helpers = (
-        cast_segment,
-        cast_disc,
-        before,
-        raycast_numba.segment_distance,
-        raycast_numba.meet_segment,
-        raycast_numba.meet_disc,
-        arc,
-        pose_at,
-        turned,
-        overlap,
-    )
-    return machine_code(sweep, signature, helpers)
+    return machine_code(sweep, signature, (*HELPERS, arc, pose_at, turned, overlap))

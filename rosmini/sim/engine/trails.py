@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.angles import cos_sin
 from rosmini.geometry.poses import Pose
 
 Floats = NDArray[np.float64]
@@ -137,7 +138,8 @@ def between(times: Floats, poses: Floats, when: Floats) -> Floats:
     part = (when - times[leg]) / (times[leg + 1] - times[leg])
     x, y, theta = poses[leg].T
     wx, wy, turn = (poses[leg + 1] - poses[leg]).T
-    half = np.where(turn == 0.0, 1e-9, turn / 2)
-    scale, back = np.sin(part * half) / np.sin(half), (part - 1) * half
-    c, s = scale * np.cos(back), scale * np.sin(back)
+    half = np.where(turn != 0.0, turn / 2, 1e-9)
+    scale, back = cos_sin(part * half)[1] / cos_sin(half)[1], (part - 1.0) * half
+    cos, sin = cos_sin(back)
+    c, s = scale * cos, scale * sin
     return np.column_stack([x + c * wx - s * wy, y + s * wx + c * wy, theta + part * turn])

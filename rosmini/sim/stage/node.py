@@ -183,8 +183,6 @@ class Stageros(Simulation):
             except IllegalName as error:
                 what = f"with -u the name of {robot.name!r} is that of its topics, and that it cannot be: {error}"
                 raise StageError(robot.place, what) from error
-            if robot.lasers:
-                self.engine.scan(name)  # where numba has to compile, it does so now
             devices = f"{_count(len(robot.lasers), 'laser')} and {_count(len(robot.cameras), 'camera')}"
             self.node.loginfo(f"robot {robot.number}, {robot.name}, has {devices}")
 
