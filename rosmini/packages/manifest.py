@@ -14,6 +14,9 @@ from rosmini.names import ROS_RELEASE
 
 from .folders import MANIFEST, ROSBUILD_MANIFEST, STACK_MANIFEST
 
+MOST_TAGS = 2000
+"""How many tags a ``package.xml`` may have: catkin_pkg compares each dependency with all the others."""
+
 
 @dataclass(frozen=True)
 class Export:
@@ -113,12 +116,14 @@ def read_package(folder: Path) -> Package:
 
     read_heading(manifest)  # that it is XML, and harmless
     data = _read(manifest)
+    if data.count(b"<") > MOST_TAGS:
+        raise DefinitionError(f"this has more than {MOST_TAGS} tags: no manifest has", manifest)
     try:
         parsed = parse_package_string(data, str(manifest), warnings=[])
         with warnings.catch_warnings():  # catkin_pkg calls pyparsing by names that pyparsing means to drop
             warnings.simplefilter("ignore", DeprecationWarning)
             parsed.evaluate_conditions(ROS_RELEASE)
-    except (InvalidPackage, AssertionError, ValueError) as error:
+    except (InvalidPackage, AssertionError, ValueError, RecursionError) as error:
         reason = _reason(error)
         raise DefinitionError(reason, manifest, _line_at_fault(data, reason)) from error
     needed = [*parsed.build_depends, *parsed.build_export_depends, *parsed.exec_depends]

@@ -24,7 +24,7 @@ from rosmini.catkin.project import CMAKE, read_project
 from rosmini.errors import RosminiError
 from rosmini.expressions import Expression
 from rosmini.msgs.full_text import class_from
-from rosmini.packages import PackageIndex
+from rosmini.packages import PackageIndex, read_package
 from rosmini.sim import worlds
 from rosmini.urdf import meshes
 
@@ -227,6 +227,19 @@ FAMILIES = {
     ),
     "pieces with the same points": Family("a.dae", lambda n: _collada(n, n, 1), 1000),
     "a mesh that is shown many times": Family("a.dae", lambda n: _collada(n, 1, n), 1000),
+    "properties that nobody knows": Family("a.world", lambda n: f"model ( {_each('a# 1 ', n)} )", 800),
+    "definitions of many words": Family(
+        "a.world",
+        lambda n: f"define a model ( {'size [1 1 1] ' * n})\n{'a()' * n}",
+        1500,
+        refused=True,
+    ),
+    "dependencies": Family(
+        "package.xml",
+        lambda n: f"<package format='2'><name>a</name>{_each('<depend>a#</depend>', n)}</package>",
+        2000,
+        refused=True,
+    ),
     "chains of frames": Family(
         "a.world",
         lambda n: _world(
@@ -262,6 +275,8 @@ def _read(path: Path) -> object:
             return _read_bag(path)
         case ".mcap":
             return from_mcap(path, path.with_suffix(".bag"))
+        case ".xml":
+            return read_package(path.parent)
         case ".msg":
             return class_from("a/A0", path.read_text("utf-8"))
         case ".urdf":

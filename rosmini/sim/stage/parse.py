@@ -38,6 +38,9 @@ WORLD_FILES = (".inc", ".world")
 MOST = 100_000
 """The largest number of entities of a world."""
 
+MOST_WORDS = 500_000
+"""How many words the definitions may insert, those of one definition as often as it is used."""
+
 
 @dataclass(frozen=True)
 class Property:
@@ -119,7 +122,7 @@ class _Parser:
         self._words = _Words(words, Place(path, 1), whole=True)
         self._macros: dict[str, _Macro] = {}
         self._parsed = Parsed(Entity("", Place(path, 1)), path)
-        self._count = 0
+        self._count = self._inserted = 0
 
     def world(self) -> Parsed:
         """Read all."""
@@ -177,6 +180,11 @@ class _Parser:
             if name in using:
                 msg = f"{name} is defined by itself: {' is a '.join((*using[using.index(name) :], name))}"
                 raise StageError(macro.place, msg)
+            self._inserted += len(macro.body)
+            if self._inserted > MOST_WORDS:
+                raise StageError(
+                    place, f"the definitions insert more than {MOST_WORDS} words, the last of {name}"
+                )
             entity = self._make(macro.base, place, macro.body, (*using, name))
             entity.title = name
         self._count += 1

@@ -9,6 +9,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -113,9 +114,7 @@ class Maker:
         self.parsed = parsed
         self.units = units
         self._counts: Counter[str] = Counter()
-        self._images: dict[
-            tuple[str, Place], tuple[tuple[Block, ...], tuple[float, float, float, float], str]
-        ] = {}
+        self._images: dict[Path, tuple[tuple[Block, ...], tuple[float, float, float, float], str]] = {}
 
     def things(self) -> list[Thing]:
         """The models of the world, with their children. Raises `StageError`."""
@@ -202,7 +201,7 @@ class Maker:
             return "grey"
         found = name if name.startswith("#") and not colour_problem(name) else colour(name)
         if found is None:
-            hint = suggestion(name)
+            hint = suggestion(name, self.units.hint)
             what = f'there is no colour "{name}" among those of X11, so it is red, as in Stage'
             self.units.note(reader.place("color"), f"{what}{'; ' + hint if hint else ''}")
             return rgb(1.0, 0.0, 0.0)
@@ -255,13 +254,13 @@ class Maker:
     def _image(
         self, name: str, place: Place
     ) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
-        if (name, place) not in self._images:
-            path = find_file(name, self.parsed.path, place.path)
-            if path is None:
-                where = searched(self.parsed.path, place.path)
-                raise StageError(place, f'there is no bitmap "{name}" {where}')
-            self._images[name, place] = image(path, place)
-        return self._images[name, place]
+        path = find_file(name, self.parsed.path, place.path)
+        if path is None:
+            where = searched(self.parsed.path, place.path)
+            raise StageError(place, f'there is no bitmap "{name}" {where}')
+        if path not in self._images:
+            self._images[path] = image(path, place)
+        return self._images[path]
 
 
 def _pose(reader: Reader, name: str) -> Pose4:

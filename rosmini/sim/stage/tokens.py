@@ -8,10 +8,10 @@ includes it, and in the folders of the environment variable STAGEPATH.
 
 from __future__ import annotations
 
-import itertools
 import os
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -26,6 +26,9 @@ VARIABLE = "STAGEPATH"
 
 MOST_FILES = 1000
 """The largest number of includes of a world, repeated ones counted."""
+
+MOST_BYTES = 4_000_000
+"""The size of all included files together, repeated ones counted [bytes]."""
 
 _TOKEN = re.compile(
     r"""(?P<space>[ \t\r\f\v]+|\#[^\n]*)
@@ -85,13 +88,28 @@ def _complaint(text: str, at: int) -> str:
 
 def read(path: Path) -> Iterator[Token]:
     """The words of a world file and of all that it includes. Raises `StageError`."""
-    return _included(path, path, (), itertools.count())
+    return _included(path, path, (), _Included())
 
 
-def _included(path: Path, root: Path, above: tuple[Path, ...], count: Iterator[int]) -> Iterator[Token]:
-    if next(count) == MOST_FILES:
+@dataclass
+class _Included:
+    """How much a world has included so far."""
+
+    files: int = 0
+    size: int = 0
+
+
+def _included(path: Path, root: Path, above: tuple[Path, ...], so_far: _Included) -> Iterator[Token]:
+    so_far.files += 1
+    if so_far.files > MOST_FILES:
         raise StageError(Place(path, 1), f"the world includes more than {MOST_FILES} files")
     try:
+        if above:
+            so_far.size += files.check(path).st_size
+        if so_far.size > MOST_BYTES:
+            raise StageError(
+                Place(path, 1), f"the files that the world includes have more than {MOST_BYTES} bytes"
+            )
         text = files.read(path).decode("utf-8", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
         where = Place(path, 1)
@@ -113,7 +131,7 @@ def _included(path: Path, root: Path, above: tuple[Path, ...], count: Iterator[i
             circle = [*chain[chain.index(target.resolve()) :], target.resolve()]
             way = " -> ".join(each.name for each in circle)
             raise StageError(name.place, f'"{name.text}" includes itself: {way}')
-        yield from _included(target, root, (*above, path), count)
+        yield from _included(target, root, (*above, path), so_far)
 
 
 def find_file(name: str, root: Path, mentioned_in: Path) -> Path | None:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from rosmini.errors import nearest
+from rosmini.errors import Hints, nearest
 
 from .errors import Place, StageError
 from .parse import Entity, Property, Value, leading_number
@@ -26,6 +26,7 @@ class Units:
     angle: float = DEGREE
     left_out: Counter[str] = field(default_factory=Counter)
     """What is left out of the world, in a few words each, and how often."""
+    hint: Hints = field(default_factory=Hints)
     _notes: dict[str, list[str]] = field(default_factory=dict)
 
     def note(self, place: Place, what: str, who: str = "", left_out: str = "") -> None:
@@ -166,7 +167,7 @@ class Reader:
         for name, found in self.entity.properties.items():
             if name in self.read or name in known:
                 continue
-            hint = nearest(name, [*self.read, *known])
+            hint = self.units.hint(name, [*self.read, *known])
             title = self.entity.title or "the world"
             what = f"{name} is no property of {title} that is known here, and is left out{'; ' + hint if hint else ''}"
             self.units.note(found.place, what, left_out=f"the property {name}")

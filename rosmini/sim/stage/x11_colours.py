@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from rosmini.errors import nearest
+from rosmini.errors import Hints
 
 DIFFERENT = {"gray": "#bebebe", "green": "#00ff00", "maroon": "#b03060", "purple": "#a020f0"}
 """What X11 means by a name that means something else on the web; grey is gray."""
@@ -42,9 +42,9 @@ def colour(name: str) -> str | None:
     return None
 
 
-def suggestion(name: str) -> str:
-    """The words that name a colour like this one."""
-    return nearest(name.lower(), _names())
+def suggestion(name: str, hint: Hints) -> str:
+    """The words that name a colour like this one; `hint` limits how many names are looked up."""
+    return hint(name.lower(), _names())
 
 
 def rgb(red: float, green: float, blue: float) -> str:
