@@ -27,7 +27,7 @@ VARIABLE = "STAGEPATH"
 MOST_FILES = 1000
 """The largest number of includes of a world, repeated ones counted."""
 
-MOST_BYTES = 4_000_000
+MOST_BYTES = 500_000
 """The size of all included files together, repeated ones counted [bytes]."""
 
 _TOKEN = re.compile(
