@@ -16,7 +16,7 @@ from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.navigation.costmap_2d import Costmap2D
 from rosmini.navigation.costmap_2d.explanation import CellCosts
 from rosmini.navigation.costmap_2d.footprint import footprint_from_radius, padded, radii
-from rosmini.navigation.costmap_2d.inflation import cost_at
+from rosmini.navigation.costmap_2d.inflation import cost_at, inflated
 from rosmini.navigation.navfn import NavfnSearch
 from rosmini.scripts import rosrun
 from rosmini.tf import StaticTransformBroadcaster
@@ -77,18 +77,16 @@ def door(answer: Any) -> Any:
     radius, reach, scaling = (float(answer[name]) for name in names)
     expect(radius >= 0.105, f"The Burger is 21 cm wide; with a radius of {radius:g} m it touches.", "0.105")
     inscribed, _ = radii(padded(footprint_from_radius(radius), 0.01))
-    inflated = (
-        _apartment()
-        .show_inflation(inscribed_radius=inscribed, inflation_radius=reach, cost_scaling_factor=scaling)
-        .inflated
+    costmap = inflated(
+        _apartment(), inscribed_radius=inscribed, inflation_radius=reach, cost_scaling_factor=scaling
     )
-    search = NavfnSearch(inflated.costs, START, GOAL)
+    search = NavfnSearch(costmap.costs, START, GOAL)
     search.expand()
     if not search.arrived:
-        view = inflated.show(title="No way leads through the wall")
+        view = costmap.show(title="No way leads through the wall")
         raise Wrong("There is no path at all: the door is closed.", "half of 80 cm has to be enough", view)
     path = search.path()
-    view = inflated.show(plan=(path + 0.5) * CELL, title="The plan by your numbers")
+    view = costmap.show(plan=(path + 0.5) * CELL, title="The plan by your numbers")
     at_wall = path[(path[:, 0] >= WALL[0]) & (path[:, 0] < WALL[1]), 1] + 0.5
     if (at_wall > sum(DOOR) / 2 + 10).any():
         raise Wrong("The plan leads through the gap of 20 cm.", "253 closes it: which number decides?", view)

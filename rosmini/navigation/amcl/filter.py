@@ -264,5 +264,5 @@ def summed(particles: Floats, weights: Floats) -> Cluster:
 def show_steps(
     grid: Any, steps: Sequence[tuple[str, ArrayLike, ArrayLike | None, Any]], **options: Any
 ) -> Any:
-    """A filter on a map, with a slider. A step: its name, particles (n, 3), weights or None, true pose or None."""
+    """Show a filter on a map, step by step. A step: name, particles (n, 3), weights or None, true pose or None."""
     return show("filter_steps", grid, steps=steps, **options)

@@ -117,7 +117,7 @@ class Samples:
         return int(np.argmin(np.abs(self.velocities - (x, y, theta)).sum(axis=1)))
 
     def show(self, **options: Any) -> Any:
-        """A picture of them: see `rosmini.viz.trajectory_window`."""
+        """Show the trajectories in a stepped player: see `rosmini.viz.stepped_pictures.trajectory_steps`."""
         return show("trajectories", self, **options)
 
 

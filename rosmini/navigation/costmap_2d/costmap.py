@@ -183,7 +183,7 @@ class Costmap2D:
         return show("costmap", self, **options)
 
     def show_inflation(self, **options: Any) -> Any:
-        """A picture of the obstacles and of inflation around them, with dials for its numbers in the page.
+        """Show the obstacles and inflation around them, with sliders for its three numbers in the page.
 
         Options, with what they are unless given:
             inscribed_radius=0.105: of the robot [m]

@@ -277,7 +277,7 @@ class Costmap2DROS:
         return self.grid.show(**options)
 
     def show_inflation(self, **options: Any) -> Any:
-        """The same with dials for the numbers of inflation, which are this costmap's at first.
+        """Show the costs for several values of the three numbers of inflation, at first those of this costmap.
 
         See `Costmap2D.show_inflation` for the options.
         """

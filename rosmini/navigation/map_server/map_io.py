@@ -89,7 +89,7 @@ class MapFile:
         return _channels(self.image, self.document.place("image"))
 
     def show(self, **options: Any) -> Any:
-        """The image and the map that it makes, with dials; `options`: see `rosmini.viz.map_dials.map_dials`."""
+        """The image and the map made from it, for several thresholds: see `rosmini.viz.stepped_pictures.map_steps`."""
         return show("map_file", self, **options)
 
     def load(self, warn: Callable[[str], object] = warnings.warn) -> GridMap:

@@ -175,7 +175,7 @@ class Search(ABC):
 
 
 def show_steps(searches: Mapping[str, Search], **options: Any) -> Any:
-    """Searches that have not begun, by name, beside each other: in a page one steps them with a slider."""
+    """Show searches that have not begun, by name, side by side and step by step."""
     return show("search_steps", searches, **options)
 
 
