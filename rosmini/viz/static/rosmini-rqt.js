@@ -2,7 +2,7 @@
    A plain script that sets `globalThis.rosminiRqt`; `render({ model, el })` is what anywidget calls.
 
    To the kernel:   {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "start"} let the graph go on,
-                    {type: "set", key, value} a control was operated; a pointer on a drawing is told in words, "press 10 20".
+                    {type: "seen"} what was sent is on the page, {type: "set", key, value} a control was operated; a pointer on a drawing is told in words, "press 10 20".
    From the kernel: {type: "sheet", html} what the panel shows now, {type: "alive"} the same as before, {type: "refused", text},
                     {type: "still"} nobody drives the graph; {type: "gone", text};
                     {type: "solid", ...} with buffers, for the script rosmini-rviz.js.
@@ -165,14 +165,20 @@
           morph(this.host, made);
           this.sheets += 1;
           this.note("live");
+          this.seen();
           break;
         }
         case "alive": this.note("live"); break;
-        case "solid": globalThis.rosminiRviz.show(this, content, buffers); break;
+        case "solid": globalThis.rosminiRviz.show(this, content, buffers); this.seen(); break;
         case "still": this.note("the graph stands still"); break;
         case "refused": this.refuse(content.text); break;
         default: this.end(content.text);
       }
+    }
+
+    /* The kernel sends the next sheet after this only, so that none queue up in a slow browser. */
+    seen() {
+      setTimeout(() => this.tell({ type: "seen" }), 0);
     }
 
     end(text) {

@@ -1,6 +1,7 @@
 """A panel of rqt in a live notebook: what goes between the kernel and the page that shows it.
 
-The page is sent the panel's HTML when that has changed, a few times a second while the page is open.
+The page is sent the panel's HTML when that has changed, a few times a second while the page is open. The page answers
+each time, and is sent no more until then, so that messages do not queue up in a slow browser.
 """
 
 from __future__ import annotations
@@ -66,10 +67,13 @@ class PanelLink(PageLink):
     """Takes what the page of a panel sends (see `rosmini-rqt.js`), and sends it what it shows."""
 
     acts = frozenset({"set", "start"})
+    signs = frozenset({"hello", "beat", "seen"})
 
     def __init__(self, panel: LinkedPanel, clock: Callable[[], float] = time.monotonic) -> None:
         self.panel = panel
         self._last_sent = 0.0
+        self._unseen = False
+        """Whether the page has not yet answered what it was sent last."""
         self._last = panel.markup(live=True)
         self._cancel: Callable[[], None] | None = None
         super().__init__(module((*SCRIPTS, *panel.scripts), "rosminiRqt"), {"html": self._last}, clock)
@@ -92,7 +96,9 @@ class PanelLink(PageLink):
                 self.panel.set(str(content.get("key")), content.get("value"))
         if kind == "hello":
             self._last = ""
-        self._look(at_once=kind != "beat")
+        if kind in ("hello", "seen"):
+            self._unseen = False
+        self._look(at_once=kind not in ("beat", "seen"))
 
     def _look(self, *, at_once: bool = False) -> None:
         """Send what is new, and come again."""
@@ -108,7 +114,8 @@ class PanelLink(PageLink):
             return
         if now - self._heard > LEFT_S:
             return
-        if at_once or now - self._last_sent >= 0.9 * self.panel.look_s:  # timers may be early
+        is_due = at_once or now - self._last_sent >= 0.9 * self.panel.look_s  # timers may be early
+        if is_due and (not self._unseen or now - self._last_sent > LEFT_S):
             self._show(now)
         wait = max(self.panel.look_s, REST * (self._clock() - now))
         scheduler = self.panel.graph.scheduler
@@ -131,4 +138,5 @@ class PanelLink(PageLink):
             return
         if news is not None:
             self._send(*news)
+        self._unseen = html != self._last or news is not None
         self._last, self._last_sent = html, now

@@ -24,7 +24,13 @@ class Page:
         self.lives = 0
         panel.graph.live = self.live
         self.link = PanelLink(panel, clock=lambda: self.wall)
-        self.link.widget.send = lambda content, buffers=None: self.sent.append(content)
+        self.answers = True
+        self.link.widget.send = lambda content, buffers=None: self.get(content)
+
+    def get(self, content: dict) -> None:
+        self.sent.append(content)
+        if self.answers and content["type"] == "sheet":
+            self.say("seen")
 
     def live(self) -> None:
         self.lives += 1
@@ -98,6 +104,22 @@ def test_a_panel_says_how_often_it_is_looked_at(page):
     page.say("hello")
     page.run(2)
     assert page.kinds().count("sheet") >= 30
+
+
+def test_a_slow_page_is_sent_no_sheet_before_it_has_answered_the_last(page):
+    page.live()
+    page.panel.markup = lambda *, live: f"<p>{page.graph.now()}</p>"
+    page.answers = False
+    page.say("hello")
+    page.run(2)
+    page.say("set", key="add")
+    page.run(0.5)
+    assert page.kinds() == ["sheet"]
+    page.say("seen")
+    page.run(2 * page.panel.look_s)
+    assert page.kinds() == ["sheet", "sheet"]
+    page.run(4)
+    assert 2 < len(page.kinds()) <= 4, "an answer that was lost does not stop the panel"
 
 
 def test_nobody_looks_and_nothing_is_sent(page):
