@@ -172,6 +172,7 @@ globalThis.rosminiPadStyle = `
   .rp-keys, .rp-gauges { padding: 12px; }
   .rp-gauges { padding-left: 0; }
   .rp-messages { grid-column: 1 / 3; }
+  .rp-log:has(p) { flex: none; min-height: 0; padding-bottom: 8px; }
 }
 @container (max-width: 420px) {
   .rp-readings { display: grid; }
