@@ -12,26 +12,26 @@ TYPE_CHECKING = False  # as `typing` has it, which takes longer to import than a
 if TYPE_CHECKING:
     from typing import Any
 
-    from .errors import RosminiError
-    from .graph import Graph, Node, default_graph, set_default_graph
+    from .core.errors import RosminiError
+    from .core.graph import Graph, Node, default_graph, set_default_graph
+    from .core.time import Duration, Time
     from .notebook.waiting import wait
-    from .rospy import install, uninstall
-    from .scripts import rosrun
-    from .time import Duration, Time
+    from .ros.rospy import install, uninstall
+    from .ros.scripts import rosrun
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "Duration": "rosmini.time",
-    "Graph": "rosmini.graph",
-    "Node": "rosmini.graph",
-    "RosminiError": "rosmini.errors",
-    "Time": "rosmini.time",
-    "default_graph": "rosmini.graph",
-    "install": "rosmini.rospy",
-    "rosrun": "rosmini.scripts",
-    "set_default_graph": "rosmini.graph",
-    "uninstall": "rosmini.rospy",
+    "Duration": "rosmini.core.time",
+    "Graph": "rosmini.core.graph",
+    "Node": "rosmini.core.graph",
+    "RosminiError": "rosmini.core.errors",
+    "Time": "rosmini.core.time",
+    "default_graph": "rosmini.core.graph",
+    "install": "rosmini.ros.rospy",
+    "rosrun": "rosmini.ros.scripts",
+    "set_default_graph": "rosmini.core.graph",
+    "uninstall": "rosmini.ros.rospy",
     "wait": "rosmini.notebook.waiting",
 }
 

@@ -6,7 +6,7 @@ import sys
 def main() -> int:
     """Run the command line; Ctrl-C ends it quietly with status 130, also while its modules are being imported."""
     try:
-        from rosmini.cli.main import main as run
+        from rosmini.tools.main import main as run
     except KeyboardInterrupt:
         print(file=sys.stderr)
         return 130

@@ -136,7 +136,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def state_of_process() -> dict[str, Any]:
     """What a test may change while it runs."""
     environment = {name: value for name, value in os.environ.items() if name != "PYTEST_CURRENT_TEST"}
-    graphs = getattr(sys.modules.get("rosmini.graph.graph"), "_default", {})
+    graphs = getattr(sys.modules.get("rosmini.core.graph.graph"), "_default", {})
     return {
         "the working directory": os.getcwd(),
         "the environment": environment,

@@ -30,4 +30,4 @@ def test_an_example_does_what_it_shows(example: doctest.DocTest) -> None:
 
 
 def test_there_are_examples() -> None:
-    assert any(example.name == "rosmini.graph.node" for example in examples())
+    assert any(example.name == "rosmini.core.graph.node" for example in examples())

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
-from rosmini.scripts import rosrun
+from rosmini.ros.launch import roslaunch
+from rosmini.ros.scripts import rosrun
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.recording import Recording
 from rosmini.sim.world import World

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs.registry import Registry
 from rosmini.msgs.sources import PackageSource
 from rosmini.msgs.stubs import package_stubs
-from rosmini.packages import PackageIndex, assets_dir
 
 HEAD = "# Written by python -m assets.generate; do not edit.\n"
 

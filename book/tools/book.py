@@ -6,7 +6,7 @@ import argparse
 import webbrowser
 from pathlib import Path
 
-from rosmini.cli.checkout import find_checkout
+from rosmini.tools.checkout import find_checkout
 
 from .build import build_book, has_display
 

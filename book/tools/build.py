@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 
 class BookError(RosminiError):

@@ -11,8 +11,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from rosmini.cli.checkout import find_checkout
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
+from rosmini.tools.checkout import find_checkout
 
 from . import notebooks as stored
 from .build import has_display

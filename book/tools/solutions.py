@@ -11,7 +11,7 @@ import copy
 import re
 from typing import TYPE_CHECKING
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 if TYPE_CHECKING:
     import nbformat

@@ -24,15 +24,15 @@ from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.graph.notebook import mark_as_shown
-from rosmini.packages import PackageIndex
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.graph.notebook import mark_as_shown
+from rosmini.core.packages import PackageIndex
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from types import UnionType
 
-    from rosmini.graph import Graph, Publisher
+    from rosmini.core.graph import Graph, Publisher
     from rosmini.msgs.message import Message
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, cast
 
-from rosmini.graph import Graph
-from rosmini.scripts import Console, ScriptHandle, ScriptSpec, rosrun
+from rosmini.core.graph import Graph
+from rosmini.ros.scripts import Console, ScriptHandle, ScriptSpec, rosrun
 
 from .checks import Script, Wrong
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from rosmini.sim.simulator import Simulator
-    from rosmini.turtlesim import TurtleSim
+    from rosmini.sim.turtlesim import TurtleSim
 
 
 class Trial:
@@ -134,13 +134,13 @@ class TurtleTrial(Trial):
     @property
     def sim(self) -> TurtleSim:
         """The only turtlesim. Raises `TurtleError` if there is none, or more than one."""
-        from rosmini.turtlesim import window
+        from rosmini.sim.turtlesim import window
 
         return window(graph=self.graph)
 
     def view(self) -> Any:
         """Return the picture of the window; None where there is none."""
-        from rosmini.turtlesim import TurtleError
+        from rosmini.sim.turtlesim import TurtleError
 
         try:
             return self.sim.show(title="What the turtle did")

@@ -37,8 +37,8 @@ enable_own_imports()
 def message_class(name: str) -> type[Any]:
     """The class of a message type such as "std_msgs/String".
 
-    Raises :class:`~rosmini.errors.UnknownType` or :class:`~rosmini.errors.UnknownPackage` with the nearest names, and
-    :class:`~rosmini.errors.DefinitionError` with file and line if a definition is broken.
+    Raises ``UnknownType`` or ``UnknownPackage`` with the nearest names, and
+    :class:`~rosmini.core.errors.DefinitionError` with file and line if a definition is broken.
     """
     return _registry().message_class(name)
 

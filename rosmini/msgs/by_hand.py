@@ -9,7 +9,7 @@ from __future__ import annotations
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import SerializationError
+from rosmini.core.errors import SerializationError
 
 from .definition import Field, MessageSpec
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.time import Duration, Time
+from rosmini.core.time import Duration, Time
 
 from . import fields
 from .definition import BYTES, FORMATS

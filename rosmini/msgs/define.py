@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import UnknownPackage, UnknownType, nearest
+from rosmini.core.errors import UnknownPackage, UnknownType, nearest
 
 from .definition import BUILTIN_TYPES, parse_message, parse_service, split_action
 from .fingerprint import full_text, message_md5, service_md5
@@ -24,7 +24,7 @@ def define_message(name: str, text: str) -> type[Any]:
 
     Each call makes a class of its own, also for a name that was given before or that has a file: so two versions of a
     type can stand side by side. Only types that have files can be nested. Raises
-    :class:`~rosmini.errors.DefinitionError` with the line that is wrong.
+    :class:`~rosmini.core.errors.DefinitionError` with the line that is wrong.
     """
     return _class_of(parse_message(text, name), "msg")
 

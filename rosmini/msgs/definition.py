@@ -15,7 +15,7 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from rosmini.errors import DefinitionError, nearest, shown
+from rosmini.core.errors import DefinitionError, nearest, shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

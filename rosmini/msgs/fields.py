@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.errors import DeserializationError, SerializationError, shown
+from rosmini.core.errors import DeserializationError, SerializationError, shown
 
 from .definition import BYTES, FORMATS, INTEGER_RANGES
 

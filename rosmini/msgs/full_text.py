@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from rosmini.errors import DefinitionError
+from rosmini.core.errors import DefinitionError
 
 from .registry import Registry
 

@@ -13,7 +13,7 @@ from importlib.machinery import SOURCE_SUFFIXES, FileFinder, ModuleSpec, PathFin
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import UnknownPackage, UnknownType, nearest
+from rosmini.core.errors import UnknownPackage, UnknownType, nearest
 
 from .registry import MODULE_PREFIX, registry
 from .sources import PackageSource

@@ -43,7 +43,7 @@ class Measure:
 def measure(spec: MessageSpec, of: Callable[[str], Measure]) -> Measure:
     """Measure a definition; ``of`` gives the measures of nested types by name.
 
-    Raises :class:`~rosmini.errors.DefinitionError` at the field with which the type becomes too large.
+    Raises :class:`~rosmini.core.errors.DefinitionError` at the field with which the type becomes too large.
     """
     depth = fields = wire = empty = 0
     memory = _OBJECT

@@ -10,7 +10,7 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, Any, Self
 
-from rosmini.errors import DeserializationError, SerializationError, nearest
+from rosmini.core.errors import DeserializationError, SerializationError, nearest
 
 from .contract import MessageContract
 from .definition import BYTES, NUMBERS
@@ -256,7 +256,7 @@ def make_message_class(
 ) -> type[Message]:
     """Make the class for ``spec``; ``nested`` has the classes of its fields by type name.
 
-    Raises :class:`~rosmini.errors.DefinitionError` if it is too large: see :mod:`rosmini.msgs.limits`.
+    Raises :class:`~rosmini.core.errors.DefinitionError` if it is too large: see :mod:`rosmini.msgs.limits`.
     """
     names = [field.name for field in spec.fields]
     fields_class = type(

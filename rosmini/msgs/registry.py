@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from rosmini.errors import UnknownPackage, UnknownType, nearest, shown
+from rosmini.core.errors import UnknownPackage, UnknownType, nearest, shown
 
 from .definition import (
     ACTION_SUFFIXES,

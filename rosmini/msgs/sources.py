@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from rosmini.errors import DefinitionError
-from rosmini.files import read
-from rosmini.packages import PackageIndex, assets_dir, reconfigure_modules, search_paths
+from rosmini.core.errors import DefinitionError
+from rosmini.core.files import read
+from rosmini.core.packages import PackageIndex, assets_dir, reconfigure_modules, search_paths
 
 from .definition import LONGEST_TEXT
 

@@ -51,7 +51,7 @@ def _module(
     text = "\n".join(body)
     times = [name for name in ("Duration", "Time") if f"_{name}" in text]
     if times:
-        bases.append(f"from rosmini.time import {', '.join(f'{name} as _{name}' for name in times)}")
+        bases.append(f"from rosmini.core.time import {', '.join(f'{name} as _{name}' for name in times)}")
     imports = [f"from {module_of(other)} import msg as _{other}" for other in sorted(others)]
     typing = "from typing import Any, ClassVar, Sequence, overload\n"
     return typing + "\n".join(sorted([*bases, *imports])) + "\n\n" + text

@@ -18,7 +18,7 @@ from functools import lru_cache
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError, SerializationError
+from rosmini.core.errors import RosminiError, SerializationError
 
 from . import fields
 from .codegen import Generator, Leaf, compiled

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.time import Time, TVal
+from rosmini.core.time import Time, TVal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

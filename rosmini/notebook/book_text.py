@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 if TYPE_CHECKING:
     from collections.abc import Callable

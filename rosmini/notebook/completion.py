@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosmini.errors import RosminiError
-from rosmini.packages import PackageIndex
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import PackageIndex
 
 
 def complete(_shell: Any, event: Any) -> list[str]:

@@ -7,9 +7,9 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from rosmini.cli import magics
-from rosmini.errors import UsageError
-from rosmini.rospy.importer import install, ros_is_installed, uninstall
+from rosmini.core.errors import UsageError
+from rosmini.ros.rospy.importer import install, ros_is_installed, uninstall
+from rosmini.tools import magics
 
 from . import file_cells, logo_cell, node_cell
 from .completion import complete

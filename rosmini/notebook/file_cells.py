@@ -9,11 +9,11 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rosmini.errors import UsageError
-from rosmini.launch.errors import LaunchError
-from rosmini.launch.reader import TEXT, read
+from rosmini.core.errors import UsageError
 from rosmini.msgs.importer import forget
 from rosmini.msgs.registry import Registry, registry
+from rosmini.ros.launch.errors import LaunchError
+from rosmini.ros.launch.reader import TEXT, read
 
 if TYPE_CHECKING:
     from rosmini.msgs.sources import Source

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.cli.magics import words as words_of
-from rosmini.errors import UsageError
-from rosmini.logo import Logo, LogoError
+from rosmini.core.errors import UsageError
+from rosmini.sim.logo import Logo, LogoError
+from rosmini.tools.magics import words as words_of
 
 if TYPE_CHECKING:
     from .session import Session

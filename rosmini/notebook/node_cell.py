@@ -8,20 +8,20 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rosmini.cli.magics import run
-from rosmini.cli.magics import words as words_of
-from rosmini.errors import ScriptError, UsageError
-from rosmini.scripts import Console, ScriptHandle, ScriptSpec, find
-from rosmini.scripts.node_handle import NodeHandle, NodeSpec
-from rosmini.scripts.source import compile_script
+from rosmini.core.errors import ScriptError, UsageError
+from rosmini.ros.scripts import Console, ScriptHandle, ScriptSpec, find
+from rosmini.ros.scripts.node_handle import NodeHandle, NodeSpec
+from rosmini.ros.scripts.source import compile_script
+from rosmini.tools.magics import run
+from rosmini.tools.magics import words as words_of
 
 from .runs import RunKey
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from rosmini.cli.verbs import Result
-    from rosmini.launch import Launch
+    from rosmini.ros.launch import Launch
+    from rosmini.tools.verbs import Result
 
     from .session import Session
 

@@ -9,15 +9,15 @@ import sys
 import threading
 from typing import TYPE_CHECKING, TextIO, cast
 
-from rosmini.errors import ScriptError
-from rosmini.scripts.stdin import Feed
-from rosmini.scripts.streams import OutputSink
+from rosmini.core.errors import ScriptError
+from rosmini.ros.scripts.stdin import Feed
+from rosmini.ros.scripts.streams import OutputSink
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.scripts.stdin import Blocker
-    from rosmini.scripts.streams import ScriptOutput
+    from rosmini.ros.scripts.stdin import Blocker
+    from rosmini.ros.scripts.streams import ScriptOutput
 
 MAX_LINES = 2_000
 """The largest number of lines that scripts may print in one cell: a loop without a pause prints a million a second."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from rosmini.errors import UsageError
+from rosmini.core.errors import UsageError
 
 from .folder import TemporaryFolder
 

@@ -12,8 +12,8 @@ import re
 from pathlib import Path
 from typing import Any, TextIO
 
-from rosmini.errors import RosminiError
-from rosmini.packages import own_dirs
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import own_dirs
 
 HOME = "~"
 ROS = "/opt/ros/noetic"

@@ -6,16 +6,16 @@ import signal
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from rosmini.names import Remappings
-from rosmini.scripts import ScriptHandle, StillRunning
+from rosmini.core.names import Remappings
+from rosmini.ros.scripts import ScriptHandle, StillRunning
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from rosmini.graph import Graph
-    from rosmini.launch import Launch
-    from rosmini.scripts import NodeHandle
-    from rosmini.scripts.streams import ScriptOutput
+    from rosmini.core.graph import Graph
+    from rosmini.ros.launch import Launch
+    from rosmini.ros.scripts import NodeHandle
+    from rosmini.ros.scripts.streams import ScriptOutput
 
 GRACE_S = 3.0
 """How many seconds of graph time a run has to end after Ctrl-C."""

@@ -9,12 +9,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rosmini import files
-from rosmini.catkin import NewPackage
-from rosmini.catkin.creation import manifest
-from rosmini.errors import RosminiError, UsageError
+from rosmini.core import files
+from rosmini.core.errors import RosminiError, UsageError
+from rosmini.core.packages import BUILT_IN, MANIFEST, PackageIndex
 from rosmini.msgs.registry import registry
-from rosmini.packages import BUILT_IN, MANIFEST, PackageIndex
+from rosmini.ros.catkin import NewPackage
+from rosmini.ros.catkin.creation import manifest
 
 from .package import FOLDERS
 

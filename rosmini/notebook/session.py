@@ -10,9 +10,9 @@ import threading
 from contextlib import nullcontext, redirect_stderr, redirect_stdout
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph, default_graph, set_default_graph
-from rosmini.scripts import current_script
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph, default_graph, set_default_graph
+from rosmini.ros.scripts import current_script
 from rosmini.viz.book_form import book_form
 
 from .book_text import BookErrors, book_text
@@ -25,8 +25,8 @@ from .terminal import Terminals
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.logo import Logo
-    from rosmini.scripts.streams import ScriptOutput
+    from rosmini.ros.scripts.streams import ScriptOutput
+    from rosmini.sim.logo import Logo
 
 _ATTRIBUTE = "rosmini_session"
 

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from rosmini.errors import UsageError
+from rosmini.core.errors import UsageError
 
 OPERATORS = ("&&", "||", ";", "|", ">", ">>", "&")
 """The operators that are understood; a ``&`` only at the end of a command, where it means nothing in a cell."""

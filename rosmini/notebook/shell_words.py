@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rosmini import files
-from rosmini.errors import RosminiError, UsageError
+from rosmini.core import files
+from rosmini.core.errors import RosminiError, UsageError
 
 from .prompt import Prompt
 from .waiting import wait

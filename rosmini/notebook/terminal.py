@@ -26,16 +26,16 @@ from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, cast
 
-from rosmini import files
-from rosmini.catkin.setup_files import folders_in
-from rosmini.cli.aliases import names as ros_names
-from rosmini.cli.magics import tool
-from rosmini.cli.main import COMMANDS, NO_COMMANDS, main
-from rosmini.cli.roscd import located, workspace
-from rosmini.cli.verbs import VerbError
-from rosmini.errors import RosminiError, UsageError, nearest
-from rosmini.graph import default_graph
-from rosmini.net.addresses import MASTER_URI, host_and_port, is_loopback
+from rosmini.core import files
+from rosmini.core.errors import RosminiError, UsageError, nearest
+from rosmini.core.graph import default_graph
+from rosmini.ros.catkin.setup_files import folders_in
+from rosmini.ros.net.addresses import MASTER_URI, host_and_port, is_loopback
+from rosmini.tools.aliases import names as ros_names
+from rosmini.tools.magics import tool
+from rosmini.tools.main import COMMANDS, NO_COMMANDS, main
+from rosmini.tools.roscd import located, workspace
+from rosmini.tools.verbs import VerbError
 
 from . import shell_lines, shell_words
 from .folder import TemporaryFolder

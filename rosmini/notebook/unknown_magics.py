@@ -31,8 +31,8 @@ def advise(result: Any) -> None:
 
 def advice_on(message: str, shell: Any) -> str:
     """Return what to do about IPython's error message; empty if it names no magic like one of rosmini's."""
-    from rosmini.cli.main import COMMANDS
-    from rosmini.errors import nearest
+    from rosmini.core.errors import nearest
+    from rosmini.tools.main import COMMANDS
 
     from .extension import OWN_MAGICS, is_loaded
 

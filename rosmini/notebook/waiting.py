@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from rosmini.graph import running_graph
-from rosmini.graph.event_queue import span_ns
+from rosmini.core.graph import running_graph
+from rosmini.core.graph.event_queue import span_ns
 
 
 def wait(seconds: float) -> None:

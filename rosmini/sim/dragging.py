@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from rosmini.errors import nearest
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import nearest
+from rosmini.core.geometry.poses import Pose
 
 from .engine.engine import Engine, RobotGone
 from .shapes import ROUND, outline_at, simple_parts

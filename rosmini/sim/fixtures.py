@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.overlaps import Outline, Overlaps
-from rosmini.geometry.polygons import inside
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.geometry.overlaps import Outline, Overlaps
+from rosmini.core.geometry.polygons import inside
+from rosmini.core.geometry.poses import Pose, transform_points
 
 from .shapes import ROUND, Simple, outline_at
 

@@ -13,9 +13,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.graph.clock import GraphClock
-from rosmini.time import Time
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.graph.clock import GraphClock
+from rosmini.core.time import Time
 
 from .device_group import DeviceGroup, Stamp
 from .engine.engine import Engine
@@ -23,7 +23,7 @@ from .engine.engine import Engine
 if TYPE_CHECKING:
     import numpy as np
 
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 SECOND = 1_000_000_000
 

@@ -10,9 +10,9 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.angles import yaw_from_quaternion
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.angles import yaw_from_quaternion
+from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.msgs import message_class
 
 from .sensors.scene import rgb

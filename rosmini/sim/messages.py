@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.msgs import message_class
 from rosmini.msgs.template import template
 

@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, get_args
 
-from rosmini.errors import RosminiError, nearest
+from rosmini.core.errors import RosminiError, nearest
 
 from .shapes import Box, Cylinder, Part, is_finite, reach_of
 

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
-from rosmini.geometry.angles import shortest_angular_distance
-from rosmini.geometry.poses import Pose, compose
+from rosmini.core.geometry.angles import shortest_angular_distance
+from rosmini.core.geometry.poses import Pose, compose
 
 from .shapes import WorldError, is_finite
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.angles import yaw_from_quaternion
-from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.graph import running_graph
+from rosmini.core.geometry.angles import yaw_from_quaternion
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.graph import running_graph
 from rosmini.msgs import message_class
 
 from .markers import first_poses, obstacles_of
@@ -22,7 +22,7 @@ from .simulation import Simulation
 from .world import Obstacle, World
 
 if TYPE_CHECKING:
-    from rosmini.graph import Graph
+    from rosmini.core.graph import Graph
 
 Floats = NDArray[np.float64]
 

@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import compose, inverse
-from rosmini.geometry.products import norms
-from rosmini.graph.show import show
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import compose, inverse
+from rosmini.core.geometry.products import norms
+from rosmini.core.graph.show import show
 
 from .models import RobotModel
 from .world import Obstacle, World

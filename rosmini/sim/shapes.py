@@ -13,10 +13,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.geometry import polygons
-from rosmini.geometry.poses import Pose, compose
-from rosmini.geometry.products import matrix_product
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.geometry import polygons
+from rosmini.core.geometry.poses import Pose, compose
+from rosmini.core.geometry.products import matrix_product
 
 Colour = str
 """One of `COLOURS`, or any "#rrggbb"."""

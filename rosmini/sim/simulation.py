@@ -13,10 +13,10 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose
-from rosmini.graph import Node
-from rosmini.graph.show import show
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph import Node
+from rosmini.core.graph.show import show
 
 from .devices import DifferentialDrive, RangeDevice
 from .dragging import drag

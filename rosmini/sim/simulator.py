@@ -22,10 +22,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from rosmini.geometry.poses import Pose
-from rosmini.graph import Node
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph import Node
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import service_class
-from rosmini.parameters import Parameters, parameter
 
 from .devices.obstacles import ObstacleMarkers
 from .engine.engine import Engine

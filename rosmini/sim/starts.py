@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ParameterError, RosminiError, nearest, shown
-from rosmini.geometry.poses import Pose
-from rosmini.names import check_name
+from rosmini.core.errors import ParameterError, RosminiError, nearest, shown
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.names import check_name
 
 from .models import RobotModel
 from .models import model as model_called
 from .world import World, WorldError
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
     from .engine.engine import Engine
     from .engine.robot import Robot

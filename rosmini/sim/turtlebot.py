@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 
 from .devices import (
     BatteryDevice,

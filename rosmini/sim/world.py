@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry import polygons
-from rosmini.geometry.poses import Pose
-from rosmini.geometry.raycast import raycast
-from rosmini.graph.show import show
+from rosmini.core.geometry import polygons
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.geometry.raycast import raycast
+from rosmini.core.graph.show import show
 
 from .fixtures import Fixtures, Footprint
 from .motion import Door, Motion, Walk

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.costmap_2d.publisher import published_values
 from rosmini.sim.models import BURGER, RobotModel

@@ -29,7 +29,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
 from rosmini.viz.book_form import book_form
 from rosmini.viz.svg import element, escape
 from rosmini.viz.view import ViewError

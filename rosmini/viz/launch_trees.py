@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from rosmini.launch import LaunchFile, NodePlan, Plan, Setting
+from rosmini.ros.launch import LaunchFile, NodePlan, Plan, Setting
 from rosmini.viz.outline import HEAD, KIND, NAME, VALUE, Row, outline
 from rosmini.viz.view import Picture
 from rosmini.viz.words import plural
@@ -20,7 +20,7 @@ def launch_tree(plan: Plan, *, parameters: bool = True, title: str | None = None
     """Draw what launch files mean, as a tree.
 
     Args:
-        plan: the plan, of `rosmini.launch.read` for instance.
+        plan: the plan, of `rosmini.ros.launch.read` for instance.
         parameters: whether parameters are shown.
         title: a caption under the picture.
 

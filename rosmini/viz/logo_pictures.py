@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rosmini.logo.turtles import BACKGROUND, Drawing
-from rosmini.logo.values import write
+from rosmini.sim.logo.turtles import BACKGROUND, Drawing
+from rosmini.sim.logo.values import write
 from rosmini.viz.replay.layers import Layer, Strokes
 from rosmini.viz.replay.layers import Stroke as Line
 from rosmini.viz.replay.player import ReplayView, Shown
@@ -20,7 +20,7 @@ from rosmini.viz.words import plural
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from rosmini.logo.turtles import Pose, Stroke
+    from rosmini.sim.logo.turtles import Pose, Stroke
 
     Floats = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
 from rosmini.viz.view import ViewError
 
 Colours = NDArray[np.uint8]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.navigation.map_server import GridMap
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.viz.figures import WIDTH, house_style, legend, legend_width

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from rosmini.packages import DEVEL_MARKER, MANIFEST, PackageIndex, read_package
+from rosmini.core.packages import DEVEL_MARKER, MANIFEST, PackageIndex, read_package
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import arrow, box, drawing, name, rule
 from rosmini.viz.layout import Edge, Vertex, layered

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.recording import Drift, Moved, Recording
 from rosmini.viz.beams import beams_of
 from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, mark, place, step_of

@@ -12,7 +12,7 @@ from decimal import ROUND_HALF_UP, Decimal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.geometry.polygons import needed
+from rosmini.core.geometry.polygons import needed
 
 MILLIMETRE = 1e-3
 """To what pictures of a world are rounded [m]: a tenth of a pixel, at most."""
@@ -47,7 +47,7 @@ def snap(values: ArrayLike, quantum: float = MILLIMETRE) -> NDArray[np.float64]:
 def kept(points: NDArray[np.float64], tolerance: float) -> list[int]:
     """Which points of a line (n, 2) are enough to draw it: none of the others is further away than `tolerance`.
 
-    The ends stay; see `rosmini.geometry.polygons.needed`.
+    The ends stay; see `rosmini.core.geometry.polygons.needed`.
     """
 
     def gaps(first: int, last: int) -> NDArray[np.float64]:

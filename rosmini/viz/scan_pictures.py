@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from rosmini.geometry.poses import compose
+from rosmini.core.geometry.poses import compose
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.viz.beams import Beams, Floats, beams_of
 from rosmini.viz.figures import WIDTH, blank_figure, house_style, mark, place, say, step_of, ticks

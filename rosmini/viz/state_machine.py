@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import Literal
 
-from rosmini.actionlib import CLIENT_TRANSITIONS, SERVER_TRANSITIONS, CommState, GoalEvent, Status
-from rosmini.actionlib.client_machine import CANCELLABLE
-from rosmini.errors import nearest
+from rosmini.core.actionlib import CLIENT_TRANSITIONS, SERVER_TRANSITIONS, CommState, GoalEvent, Status
+from rosmini.core.actionlib.client_machine import CANCELLABLE
+from rosmini.core.errors import nearest
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import LINE_HEIGHT, arrow, drawing, rule, text
 from rosmini.viz.graph_drawing import name as label_of

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.geometry.poses import Pose, transform_points
-from rosmini.geometry.products import matrix_product, scalar_product
+from rosmini.core.geometry.poses import Pose, transform_points
+from rosmini.core.geometry.products import matrix_product, scalar_product
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.costmap_2d.costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
 from rosmini.navigation.costmap_2d.inflation import cell_distance, cost_at, inflated

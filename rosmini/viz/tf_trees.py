@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosmini.tf import FrameTree
-from rosmini.tf.history import History
+from rosmini.core.tf import FrameTree
+from rosmini.core.tf.history import History
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import arrow, drawing, ellipse, facts, name, room_for, rule, text
 from rosmini.viz.layout import Edge, Layout, Vertex, layered

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rosmini.turtlesim.drawings import DRAWINGS
-from rosmini.turtlesim.frame import Frame
-from rosmini.turtlesim.paper import SIZE, Colour, Pen, Stroke
-from rosmini.turtlesim.turtle import Turtle
+from rosmini.sim.turtlesim.drawings import DRAWINGS
+from rosmini.sim.turtlesim.frame import Frame
+from rosmini.sim.turtlesim.paper import SIZE, Colour, Pen, Stroke
+from rosmini.sim.turtlesim.turtle import Turtle
 from rosmini.viz.rounding import degrees, fixed, kept, snap
 from rosmini.viz.svg import document, element, number
 from rosmini.viz.view import Picture, ViewError

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from rosmini.turtlesim.drawings import DRAWINGS
-from rosmini.turtlesim.tape import Line, Tape, Track
-from rosmini.turtlesim.turtle import LIMIT
+from rosmini.sim.turtlesim.drawings import DRAWINGS
+from rosmini.sim.turtlesim.tape import Line, Tape, Track
+from rosmini.sim.turtlesim.turtle import LIMIT
 from rosmini.viz.replay import Body, ReplayView, Run, Stroke, Strokes, replay
 
 THINNER = 0.7

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rosmini.urdf import Joint, Robot
+from rosmini.sim.urdf import Joint, Robot
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import arrow, box, drawing, ellipse, facts, name, room_for, rule
 from rosmini.viz.layout import Edge, Layout, Vertex, layered
@@ -24,7 +24,7 @@ def urdf_tree(robot: Robot, *, title: str | None = None) -> Picture:
     Links with a mass are filled; the root is round. A joint that moves has a thick line, with its type and limits.
 
     Args:
-        robot: as `rosmini.urdf.load` gives it.
+        robot: as `rosmini.sim.urdf.load` gives it.
         title: a caption under the picture, and the first words of its text form.
 
     """

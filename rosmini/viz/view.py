@@ -20,7 +20,7 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.viz.svg import element, escape
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rosmini.introspection.why import Step, Why
+from rosmini.ros.introspection.why import Step, Why
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import LINE_HEIGHT, MARGIN, arrow, box, rule, text
 from rosmini.viz.layout import Rect, Route

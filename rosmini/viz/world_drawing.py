@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.sim.models import RobotModel
 from rosmini.sim.shapes import Box, Polygon, Simple, outline_at
 from rosmini.sim.world import Obstacle, Walk, World

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.geometry.products import norms
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.geometry.products import norms
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.sim.world import Obstacle, World
 from rosmini.viz.beams import Beams, beams_of

@@ -7,7 +7,7 @@ import io
 import pytest
 
 from rosmini import Graph
-from rosmini.scripts import rosrun
+from rosmini.ros.scripts import rosrun
 
 
 @pytest.fixture

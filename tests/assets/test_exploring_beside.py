@@ -8,11 +8,11 @@ import math
 import pytest
 
 from rosmini import Graph
-from rosmini.geometry.poses import compose, inverse
-from rosmini.launch import roslaunch
+from rosmini.core.geometry.poses import compose, inverse
+from rosmini.core.packages import PackageIndex
 from rosmini.msgs import message_class
-from rosmini.packages import PackageIndex
-from rosmini.scripts import ScriptSpec, run_scripts
+from rosmini.ros.launch import roslaunch
+from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 
 def quiet():

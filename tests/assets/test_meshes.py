@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from assets.generate.meshes.turtlebot3 import HOLE, MESHES
-from rosmini.packages import assets_dir
-from rosmini.urdf.meshes import read
+from rosmini.core.packages import assets_dir
+from rosmini.sim.urdf.meshes import read
 from rosmini.viz.meshcat.scene3d import TINY
 
 FOLDER = assets_dir() / "ros" / "turtlebot3_description" / "meshes"

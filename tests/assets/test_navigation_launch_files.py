@@ -6,12 +6,12 @@ import math
 
 import pytest
 
-from rosmini.graph import Graph
-from rosmini.introspection.nodes import kill
-from rosmini.launch import LaunchError, plan_of, roslaunch
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import pose_stamped
-from rosmini.time import Time
+from rosmini.ros.introspection.nodes import kill
+from rosmini.ros.launch import LaunchError, plan_of, roslaunch
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.cli.main import main
+from rosmini.tools.main import main
 
 
 @pytest.mark.parametrize(

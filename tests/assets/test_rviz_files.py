@@ -7,7 +7,7 @@ import yaml
 
 from assets.generate.rviz_files import FILES
 from rosmini import Graph
-from rosmini.packages import PackageIndex
+from rosmini.core.packages import PackageIndex
 from rosmini.viz.rviz import Config, Scene
 
 

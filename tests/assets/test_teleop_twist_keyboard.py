@@ -7,9 +7,9 @@ import io
 import pytest
 
 from rosmini import Graph
+from rosmini.core.packages import PackageIndex
 from rosmini.msgs.geometry_msgs.msg import Twist, TwistStamped
-from rosmini.packages import PackageIndex
-from rosmini.scripts import ScriptSpec, run_scripts
+from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 END = "\x03"
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.catkin import Workspace, make
-from rosmini.cli.main import main
+from rosmini.ros.catkin import Workspace, make
+from rosmini.tools.main import main
 
 from ..processes import run
 

@@ -28,8 +28,8 @@ from rosmini_bench import (
     wire,
 )
 
-from rosmini.cli.main import main
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
+from rosmini.tools.main import main
 
 if TYPE_CHECKING:
     from pathlib import Path

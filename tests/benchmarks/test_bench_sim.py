@@ -24,9 +24,9 @@ from rosmini_bench import (
     sim_run,
 )
 
-from rosmini.cli.main import main
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.sim.models import BURGER
+from rosmini.tools.main import main
 
 if TYPE_CHECKING:
     from collections.abc import Callable

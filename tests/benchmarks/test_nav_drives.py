@@ -6,7 +6,7 @@ import numpy as np
 from rosmini_bench import nav_drives
 from rosmini_bench.nav_drives import terrain
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.models import BURGER
 from rosmini.sim.simulator import Simulator

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from rosmini_bench.nav_goals import APART, CLEARANCE, DISC, Terrain, errands, turning, unmapped, wilson
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.navigation.map_server import GridMap
 from rosmini.sim.motion import Door
 from rosmini.sim.world import Box, Obstacle, World

@@ -10,7 +10,7 @@ from rosmini_bench.nav_goals import Errand
 from rosmini_bench.nav_study import Line
 from rosmini_bench.nav_trial import FIELD, Outcome, Setup
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 ERRAND = Errand(3, (1.0, 2.0, 0.5), (4.0, 2.0, -1.0), 3.25, 2.0)
 OUTCOME = Outcome(ERRAND, "ABORTED", "no", 20.0, 0.5, 3.0, 0.1, ("wall",), (), 1.5, ("rotate_recovery",))

@@ -9,7 +9,7 @@ from rosmini_bench import nav_trial
 from rosmini_bench.nav_goals import DISC, Errand, Terrain
 from rosmini_bench.nav_trial import Setup, drawn, place
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.sim.models import model
 
 

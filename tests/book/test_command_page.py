@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.cli.main import COMMANDS, main
 from rosmini.notebook import extension
+from rosmini.tools.main import COMMANDS, main
 
 PAGE = (Path(__file__).parents[2] / "book" / "commands.md").read_text(encoding="utf-8")
 ROWS = [line.split("|")[1:-1] for line in PAGE.splitlines() if line.startswith("|") and "`rosmini " in line]

@@ -18,8 +18,8 @@ from nbformat.sign import NotebookNotary
 
 from book.tools import book, build, lab, notebooks
 from book.tools.build import BookError, build_book, has_display
-from rosmini.cli import checkout, main
-from rosmini.cli.checkout import NoCheckout, find_checkout
+from rosmini.tools import checkout, main
+from rosmini.tools.checkout import NoCheckout, find_checkout
 
 from ..conftest import tool
 from ..processes import PATIENCE, free_port, listens, run, start, wait_until
@@ -35,7 +35,7 @@ def test_the_checkout_is_found_from_below(monkeypatch):
 def test_outside_of_a_checkout_the_command_says_where_it_looked(monkeypatch, tmp_path, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(
-        checkout, "__file__", str(tmp_path / "site-packages" / "rosmini" / "cli" / "checkout.py")
+        checkout, "__file__", str(tmp_path / "site-packages" / "rosmini" / "tools" / "checkout.py")
     )
     with pytest.raises(NoCheckout):
         find_checkout()

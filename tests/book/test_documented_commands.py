@@ -16,7 +16,7 @@ from typing import NamedTuple
 import pytest
 
 from book.tools import notebooks
-from rosmini.cli.main import COMMANDS, main
+from rosmini.tools.main import COMMANDS, main
 
 from ..notebook.conftest import notebook, shell  # noqa: F401 - fixtures
 
@@ -94,8 +94,8 @@ rospy.spin()
 DRIVER = """
 from dataclasses import dataclass
 from rosmini import default_graph
-from rosmini.dynamic_reconfigure import Server
-from rosmini.parameters import Parameters, parameter
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.parameters import Parameters, parameter
 
 @dataclass(frozen=True)
 class Knobs(Parameters):
@@ -153,8 +153,8 @@ GRAPHS: dict[str, tuple[str, ...]] = {
 INSTALLS = "installs uv; CI runs it"
 ROBOTS_OWN = "a program of the robot itself, or of ROS packages that rosmini does not have"
 READERS_OWN = "a package or script that the reader wrote in the chapter"
-BY_HAND = "a page or a prompt that waits for the reader; tested in tests/widgets and tests/browser"
-PROCESSES = "needs nodes in processes of their own; tested in tests/cli"
+BY_HAND = "a page or a prompt that waits for the reader; tested in tests/viz/live and tests/browser"
+PROCESSES = "needs nodes in processes of their own; tested in tests/tools"
 
 SKIPPED = {
     "pip install uv && uv run rosmini book": INSTALLS,

@@ -8,14 +8,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from rosmini import Graph
+from rosmini.core.tf import FrameTree
+from rosmini.core.tf.rigid import rigid
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid, Path
+from rosmini.sim.turtlesim import Frame
+from rosmini.sim.turtlesim.turtle import STEP_S
+from rosmini.sim.urdf import load
 from rosmini.sim.worlds import world
-from rosmini.tf import FrameTree
-from rosmini.tf.rigid import rigid
-from rosmini.turtlesim import Frame
-from rosmini.turtlesim.turtle import STEP_S
-from rosmini.urdf import load
 from rosmini.viz import (
     action_states,
     byte_map,

@@ -15,15 +15,15 @@ from PIL import Image
 pytest.importorskip("meshcat")
 
 from rosmini import Graph
+from rosmini.core.tf import StaticTransformBroadcaster
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.models import BURGER
 from rosmini.sim.recording import Recording
+from rosmini.sim.urdf import load
+from rosmini.sim.urdf.xacro import expand
 from rosmini.sim.worlds import world
-from rosmini.tf import StaticTransformBroadcaster
-from rosmini.urdf import load
-from rosmini.urdf.xacro import expand
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d, world_3d
 from rosmini.viz.replay import Body, Grid, Grids, Run, Shape, Shapes

@@ -9,12 +9,12 @@ from xmlrpc.client import ServerProxy, dumps
 
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs.geometry_msgs.msg import Twist
-from rosmini.net.addresses import addresses
-from rosmini.net.master_server import MasterServer
-from rosmini.net.network import network_of, tcp
-from rosmini.widgets.loopback import PageServer
+from rosmini.ros.net.addresses import addresses
+from rosmini.ros.net.master_server import MasterServer
+from rosmini.ros.net.network import network_of, tcp
+from rosmini.viz.live.loopback import PageServer
 
 from .conftest import FLAGS, launched
 

@@ -12,15 +12,15 @@ import numpy as np
 import pytest
 
 from rosmini import Graph, rosrun
-from rosmini.geometry.angles import normalize_angle
+from rosmini.core.geometry.angles import normalize_angle
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
 from rosmini.viz.embed import STATIC
-from rosmini.widgets import Limits, TeleopPad
-from rosmini.widgets.key_maps import NAMES
-from rosmini.widgets.page import SCRIPTS, pad_data
-from rosmini.widgets.teleop import PERIOD, Teleop, key_map, table
+from rosmini.viz.live import Limits, TeleopPad
+from rosmini.viz.live.key_maps import NAMES
+from rosmini.viz.live.page import SCRIPTS, pad_data
+from rosmini.viz.live.teleop import PERIOD, Teleop, key_map, table
 
 pytestmark = pytest.mark.browser
 

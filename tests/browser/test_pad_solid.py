@@ -9,7 +9,7 @@ import pytest
 from rosmini import Graph
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.worlds import world
-from rosmini.widgets.pad import TeleopPad
+from rosmini.viz.live.pad import TeleopPad
 
 pytestmark = pytest.mark.browser
 

@@ -11,10 +11,10 @@ import pytest
 
 from rosmini import Graph, rosrun
 from rosmini.msgs.turtlesim.msg import Pose
-from rosmini.turtlesim import Frame
-from rosmini.turtlesim.turtle import START, STEP_S, single
+from rosmini.sim.turtlesim import Frame
+from rosmini.sim.turtlesim.turtle import START, STEP_S, single
 from rosmini.viz.embed import STATIC
-from rosmini.widgets.page import pad_data
+from rosmini.viz.live.page import pad_data
 
 from ..processes import PATIENCE
 from .test_pad import Pad, document

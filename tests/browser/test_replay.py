@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.models import model
 from rosmini.sim.recorder import Recorder
@@ -441,7 +441,7 @@ def test_in_print_and_without_scripts_the_still_picture_is_there(write, opened, 
 def test_in_jupyterlab_its_keys_are_its_own(start_lab, chromium, shared_tmp):
     cells = [
         """
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.sim.models import model
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.recording import Moved
@@ -579,7 +579,7 @@ def test_each_beam_is_drawn_from_where_the_recording_puts_it(write, opened, turn
 def test_a_drawing_of_logo_is_there_before_it_is_played(write, opened):
     from types import SimpleNamespace
 
-    from rosmini.logo import Logo
+    from rosmini.sim.logo import Logo
 
     logo = Logo()
     logo.run('setpencolor "yellow setpensize 20 repeat 4 [forward 100 right 90]')

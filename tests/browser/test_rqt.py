@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import pytest
 
 from rosmini import Graph
-from rosmini.dynamic_reconfigure import Description, ParameterGroup, ReconfigurableParameter, Server
-from rosmini.errors import RosminiError
+from rosmini.core.dynamic_reconfigure import Description, ParameterGroup, ReconfigurableParameter, Server
+from rosmini.core.errors import RosminiError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 from rosmini.viz.embed import STATIC
-from rosmini.widgets.rqt import (
+from rosmini.viz.live.rqt import (
     DynamicReconfigure,
     LogConsole,
     LoggerLevel,
@@ -21,7 +21,7 @@ from rosmini.widgets.rqt import (
     NodeGraph,
     ServiceCaller,
 )
-from rosmini.widgets.rqt.panel_link import SCRIPTS, PanelLink
+from rosmini.viz.live.rqt.panel_link import SCRIPTS, PanelLink
 
 pytestmark = pytest.mark.browser
 

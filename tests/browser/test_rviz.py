@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from rosmini import Graph
-from rosmini.interactive_markers import InteractiveMarkerServer
 from rosmini.msgs.geometry_msgs.msg import PointStamped, PoseStamped, PoseWithCovarianceStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl
-from rosmini.widgets.loopback import PageServer
-from rosmini.widgets.rqt.panel_link import PanelLink
-from rosmini.widgets.rviz import RVizWindow
+from rosmini.ros.interactive_markers import InteractiveMarkerServer
+from rosmini.viz.live.loopback import PageServer
+from rosmini.viz.live.rqt.panel_link import PanelLink
+from rosmini.viz.live.rviz import RVizWindow
 
 from ..processes import PATIENCE
 

@@ -47,10 +47,10 @@ graph.run()
 
 PAGES = """
 from rosmini import rosrun
-from rosmini.net import connect
-from rosmini.widgets import TeleopPad
-from rosmini.widgets.loopback import PageServer
-from rosmini.widgets.rqt import MessagePublisher
+from rosmini.ros.net import connect
+from rosmini.viz.live import TeleopPad
+from rosmini.viz.live.loopback import PageServer
+from rosmini.viz.live.rqt import MessagePublisher
 
 with connect() as graph:
     simulator = rosrun("rosmini_sim", "simulator", "_world:=room", graph=graph).instance()

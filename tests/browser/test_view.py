@@ -12,8 +12,8 @@ import pytest
 from rosmini import Graph, rosrun
 from rosmini.sim.simulator import Simulator
 from rosmini.viz.embed import STATIC
-from rosmini.widgets import SimulationView
-from rosmini.widgets.view_link import SCRIPTS, ViewLink
+from rosmini.viz.live import SimulationView
+from rosmini.viz.live.view_link import SCRIPTS, ViewLink
 
 from ..processes import wait_until
 

@@ -1,6 +1,7 @@
 """What steers a robot or draws a picture calls no BLAS or LAPACK, and no power of numpy's but the square and the root.
 
-Their last bit depends on the processor. Use the products, inverses and eigenvectors of `rosmini.geometry.products`. A
+Their last bit depends on the processor. Use the products, inverses and eigenvectors of
+`rosmini.core.geometry.products`. A
 line may say why the last bit cannot matter there: `# BLAS: the numbers are integers`.
 """
 

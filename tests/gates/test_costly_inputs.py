@@ -16,17 +16,18 @@ from typing import NamedTuple
 
 import pytest
 
-from rosmini import launch, rosparam, urdf
-from rosmini.bag.mcap import from_mcap
-from rosmini.bag.reader import Reader, read_index
-from rosmini.bag.records import MAGIC, OP_CHUNK, OP_CHUNK_INFO, bag_header, pack_record, u32, u64
-from rosmini.catkin.project import CMAKE, read_project
-from rosmini.errors import RosminiError
-from rosmini.expressions import Expression
+from rosmini.core import rosparam
+from rosmini.core.errors import RosminiError
+from rosmini.core.expressions import Expression
+from rosmini.core.packages import PackageIndex, read_package
 from rosmini.msgs.full_text import class_from
-from rosmini.packages import PackageIndex, read_package
-from rosmini.sim import worlds
-from rosmini.urdf import meshes
+from rosmini.ros import launch
+from rosmini.ros.bag.mcap import from_mcap
+from rosmini.ros.bag.reader import Reader, read_index
+from rosmini.ros.bag.records import MAGIC, OP_CHUNK, OP_CHUNK_INFO, bag_header, pack_record, u32, u64
+from rosmini.ros.catkin.project import CMAKE, read_project
+from rosmini.sim import urdf, worlds
+from rosmini.sim.urdf import meshes
 
 AT_LEAST = 20_000
 """Fewer calls are not compared."""

@@ -19,19 +19,20 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rosmini import launch, rosparam, urdf
-from rosmini.catkin.project import read_project
-from rosmini.dynamic_reconfigure.cfg_file import read_cfg
-from rosmini.dynamic_reconfigure.description import Description
-from rosmini.errors import RosminiError
+from rosmini.core import rosparam
+from rosmini.core.dynamic_reconfigure.cfg_file import read_cfg
+from rosmini.core.dynamic_reconfigure.description import Description
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.navigation.costmap_2d.footprint import footprint_from_text
 from rosmini.navigation.map_server import load_map
 from rosmini.navigation.nav_core import plugin_files
-from rosmini.packages import PackageIndex, assets_dir
-from rosmini.sim import sdf, stage
-from rosmini.urdf import meshes
+from rosmini.ros import launch
+from rosmini.ros.catkin.project import read_project
+from rosmini.sim import sdf, stage, urdf
+from rosmini.sim.urdf import meshes
+from rosmini.viz.live.rqt.perspective import Perspective
 from rosmini.viz.rviz.config import Config
-from rosmini.widgets.rqt.perspective import Perspective
 
 ROUNDS = 150
 LONGEST = 20_000

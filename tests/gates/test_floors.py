@@ -44,10 +44,10 @@ def test_the_floors_hold(checkout):
     ("module", "line"),
     [
         ("names.py", "import rosmini.msgs"),
-        ("errors.py", "from rosmini.graph import Graph"),
+        ("errors.py", "from rosmini.core.graph import Graph"),
         ("graph/__init__.py", "def f():\n    import rosmini.viz"),
-        ("msgs/__init__.py", "from rosmini.cli import main"),
-        ("graph/lanes.py", "from rosmini.graph import scheduler"),
+        ("msgs/__init__.py", "from rosmini.tools import main"),
+        ("graph/lanes.py", "from rosmini.core.graph import scheduler"),
         ("without_a_floor.py", "x = 1"),
     ],
 )

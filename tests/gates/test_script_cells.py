@@ -11,7 +11,7 @@ import pytest
 
 from book.tools import notebooks
 from book.tools.scripts import scripts
-from rosmini.cli.stubs import stub_files, write
+from rosmini.tools.stubs import stub_files, write
 
 from ..conftest import tool
 from ..processes import run

@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from rosmini.graph.graph import Graph
-from rosmini.scripts import ScriptSpec
+from rosmini.core.graph.graph import Graph
+from rosmini.ros.scripts import ScriptSpec
 
 from .test_rospy_api import differences, run_ours, run_real
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.catkin.project import read_project
-from rosmini.packages import read_package
+from rosmini.core.packages import read_package
+from rosmini.ros.catkin.project import read_project
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

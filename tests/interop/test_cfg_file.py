@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from rosmini.dynamic_reconfigure.cfg_file import read_cfg
+from rosmini.core.dynamic_reconfigure.cfg_file import read_cfg
 
-from ..dynamic_reconfigure.test_cfg_file import CAMERA, PLANNER
+from ..core.dynamic_reconfigure.test_cfg_file import CAMERA, PLANNER
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros
 

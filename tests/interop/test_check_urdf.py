@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from rosmini.urdf import UrdfError, load
-from rosmini.urdf.xacro import expand
+from rosmini.sim.urdf import UrdfError, load
+from rosmini.sim.urdf.xacro import expand
 
 from ..processes import run
 from .conftest import need_ros

@@ -14,7 +14,7 @@ import pytest
 
 from rosmini import Graph
 from rosmini.msgs import message_class
-from rosmini.scripts import ScriptSpec, find, rosrun, run_scripts
+from rosmini.ros.scripts import ScriptSpec, find, rosrun, run_scripts
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rosmini.errors import SerializationError
+from rosmini.core.errors import SerializationError
+from rosmini.core.packages import PackageIndex, assets_dir
+from rosmini.core.time import Duration, Time, TVal
 from rosmini.msgs.definition import INTEGER_RANGES
 from rosmini.msgs.message import Message
 from rosmini.msgs.registry import Registry, registry
 from rosmini.msgs.sources import PackageSource
-from rosmini.packages import PackageIndex, assets_dir
-from rosmini.time import Duration, Time, TVal
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

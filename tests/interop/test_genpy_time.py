@@ -3,7 +3,7 @@
 import itertools
 import json
 
-from rosmini import time as ours
+from rosmini.core import time as ours
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

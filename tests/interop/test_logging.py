@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rosmini import rospy
-from rosmini.graph.graph import Graph
-from rosmini.scripts import ScriptSpec, run_scripts
+from rosmini.core.graph.graph import Graph
+from rosmini.ros import rospy
+from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros, rosmaster

@@ -7,10 +7,10 @@ from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
-from rosmini.graph.master import Master
-from rosmini.net.addresses import addresses
-from rosmini.net.io_thread import IoThread
-from rosmini.net.master_server import MasterServer
+from rosmini.core.graph.master import Master
+from rosmini.ros.net.addresses import addresses
+from rosmini.ros.net.io_thread import IoThread
+from rosmini.ros.net.master_server import MasterServer
 
 from ..processes import wait_until
 from .conftest import need_ros, rosmaster

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.graph.graph import Graph
-from rosmini.scripts import ScriptSpec
+from rosmini.core.graph.graph import Graph
+from rosmini.ros.scripts import ScriptSpec
 
 from .test_rospy_api import differences, run_ours, run_real
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from rosmini import rosrun
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.tf import TransformListener
 from rosmini.msgs.sensor_msgs.msg import JointState
-from rosmini.tf import TransformListener
-from rosmini.urdf.xacro import expand
+from rosmini.sim.urdf.xacro import expand
 
 from ..processes import run, start
 from .conftest import SYSTEM_PYTHON, need_ros, rosmaster

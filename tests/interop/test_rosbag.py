@@ -15,11 +15,11 @@ from xmlrpc.client import ServerProxy
 
 import pytest
 
-from rosmini.bag import Bag, Player, Recorder, filter_bag, merge, recompress, reindex
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.rospy.aliases import rosbag
-from rosmini.time import Time
+from rosmini.ros.bag import Bag, Player, Recorder, filter_bag, merge, recompress, reindex
+from rosmini.ros.rospy.aliases import rosbag
 
 from ..processes import PATIENCE, run, start, wait_until
 from .conftest import SYSTEM_PYTHON, need_ros, rosmaster
@@ -113,7 +113,7 @@ def test_they_read_ours_as_we_do(theirs, tmp_path):
 
 
 def test_info_prints_the_same(theirs, capsys):
-    from rosmini.cli.main import main
+    from rosmini.tools.main import main
 
     for path in map(str, theirs.values()):
         for options in (

@@ -6,7 +6,7 @@ import random
 from collections.abc import Callable
 from typing import Any
 
-from rosmini.names import (
+from rosmini.core.names import (
     Remappings,
     canonicalize,
     is_legal_base_name,
@@ -17,7 +17,7 @@ from rosmini.names import (
     resolve,
     resolve_for,
 )
-from rosmini.rospy.aliases.rosgraph.names import load_mappings
+from rosmini.ros.rospy.aliases.rosgraph.names import load_mappings
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from rosmini.launch import NodePlan, Plan, TestPlan, read
+from rosmini.ros.launch import NodePlan, Plan, TestPlan, read
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

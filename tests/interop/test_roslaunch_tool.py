@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from ..launch.workspace import make
 from ..processes import free_port, run, start, wait_until
+from ..ros.launch.workspace import make
 from .conftest import need_ros
 
 pytestmark = pytest.mark.processes

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from ..packages.workspaces import a_workspace
+from ..core.packages.workspaces import a_workspace
 from ..processes import run
 from .conftest import need_ros
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from rosmini import rospy
-from rosmini.graph.graph import Graph
-from rosmini.rosparam import ParamClient
-from rosmini.scripts import ScriptSpec, run_scripts
+from rosmini.core.graph.graph import Graph
+from rosmini.core.rosparam import ParamClient
+from rosmini.ros import rospy
+from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 import yaml
 
-from rosmini.tf import BufferCore, FrameTree, TransformException
-from rosmini.tf.messages import to_stamped
-from rosmini.tf.rigid import from_rpy, matrix
+from rosmini.core.tf import BufferCore, FrameTree, TransformException
+from rosmini.core.tf.messages import to_stamped
+from rosmini.core.tf.rigid import from_rpy, matrix
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.graph import Graph
-from rosmini.scripts import ScriptSpec, run_scripts
+from rosmini.core.graph import Graph
+from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

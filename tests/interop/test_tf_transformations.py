@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rosmini.tf import transformations
+from rosmini.core.tf import transformations
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros

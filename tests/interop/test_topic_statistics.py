@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs.geometry_msgs.msg import PointStamped
 from rosmini.msgs.rosgraph_msgs.msg import TopicStatistics
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rosmini.cli.main import main
-from rosmini.packages import assets_dir
+from rosmini.core.packages import assets_dir
+from rosmini.tools.main import main
 
 from ..processes import run, start, wait_until
 from .conftest import SYSTEM_PYTHON, need_ros, rosmaster

@@ -71,7 +71,7 @@ def test_what_a_nodes_own_task_raises_is_shown_without_the_schedulers_frames(ker
 
 def test_an_error_inside_the_library_that_is_not_rosminis_keeps_its_place(shared_kernel):
     cell = shared_kernel.run(
-        "from rosmini.errors import nearest, short_traceback\n"
+        "from rosmini.core.errors import nearest, short_traceback\n"
         "try:\n    nearest(1, ['a'])\n"
         "except TypeError as error:\n    print(*short_traceback(error))"
     )

@@ -9,8 +9,8 @@ from types import SimpleNamespace
 import pytest
 
 from rosmini import Graph
-from rosmini.graph import live as live_module
-from rosmini.graph.live import LiveDrive
+from rosmini.core.graph import live as live_module
+from rosmini.core.graph.live import LiveDrive
 
 
 def live(kernel, code="drive = graph.live()"):
@@ -115,7 +115,7 @@ listener.sleep(0.01)
 
 def test_live_needs_an_event_loop():
     from rosmini import Graph
-    from rosmini.errors import RosminiError
+    from rosmini.core.errors import RosminiError
 
     def program():
         with Graph() as graph, pytest.raises(RosminiError, match="needs an event loop"):

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.graph import Graph
-from rosmini.graph.transport import LocalTransport
+from rosmini.core.graph import Graph
+from rosmini.core.graph.transport import LocalTransport
 from rosmini.msgs import message_class
-from rosmini.net import connect
-from rosmini.net.addresses import addresses
-from rosmini.net.master_server import MasterServer
-from rosmini.net.network import network_of, tcp
+from rosmini.ros.net import connect
+from rosmini.ros.net.addresses import addresses
+from rosmini.ros.net.master_server import MasterServer
+from rosmini.ros.net.network import network_of, tcp
 
 from ..processes import PATIENCE, free_port
 

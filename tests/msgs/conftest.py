@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs.registry import Registry
 from rosmini.msgs.sources import PackageSource
-from rosmini.packages import PackageIndex, assets_dir
 
 MANIFEST = """<package format="2"><name>{name}</name><version>0.0.1</version><description>A test.</description>
 <maintainer email="a@example.com">A</maintainer><license>Apache-2.0</license></package>

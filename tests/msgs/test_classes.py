@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rosmini.errors import SerializationError, UnknownPackage, UnknownType
+from rosmini.core.errors import SerializationError, UnknownPackage, UnknownType
+from rosmini.core.time import Duration, Time
 from rosmini.msgs import Message, action_class, message_class, service_class
-from rosmini.time import Duration, Time
 
 String = message_class("std_msgs/String")
 Twist = message_class("geometry_msgs/Twist")

@@ -7,7 +7,7 @@ from io import BytesIO
 import pytest
 
 from rosmini import Graph
-from rosmini.errors import DefinitionError, TypeMismatch
+from rosmini.core.errors import DefinitionError, TypeMismatch
 from rosmini.msgs import define_message, define_service, message_class
 
 

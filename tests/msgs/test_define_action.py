@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.errors import DefinitionError
+from rosmini.core.errors import DefinitionError
 from rosmini.msgs import message_class
 from rosmini.msgs.define import define_action
 

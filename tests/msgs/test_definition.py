@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.errors import DefinitionError
+from rosmini.core.errors import DefinitionError
 from rosmini.msgs import message_class, service_class
 from rosmini.msgs.definition import parse_message, parse_service, split_action
 from rosmini.msgs.registry import Registry, registry

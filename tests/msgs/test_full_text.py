@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.errors import DefinitionError, UnknownPackage, UnknownType
+from rosmini.core.errors import DefinitionError, UnknownPackage, UnknownType
 from rosmini.msgs import message_class
 from rosmini.msgs.full_text import class_from
 

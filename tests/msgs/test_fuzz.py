@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rosmini.bag.index import connection
-from rosmini.bag.types import recorded_class
-from rosmini.errors import DeserializationError, RosminiError
+from rosmini.core.errors import DeserializationError, RosminiError
 from rosmini.msgs import define_action, define_message, define_service, message_class
 from rosmini.msgs.registry import registry
+from rosmini.ros.bag.index import connection
+from rosmini.ros.bag.types import recorded_class
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import rosmini.msgs
-from rosmini.errors import DefinitionError, UnknownPackage, UnknownType
+from rosmini.core.errors import DefinitionError, UnknownPackage, UnknownType
 from rosmini.msgs import install, installed, message_class, uninstall
 
 from ..processes import run as run_process

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rosmini.errors import DefinitionError, DeserializationError, UnknownType
+from rosmini.core.errors import DefinitionError, DeserializationError, UnknownType
 from rosmini.msgs import define_action, define_message, define_service, message_class
 from rosmini.msgs.codegen import source
 from rosmini.msgs.definition import LONGEST_TEXT, parse_message

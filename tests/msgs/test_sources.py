@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs.sources import PackageSource
-from rosmini.packages import PackageIndex, assets_dir
 
 
 def test_a_package_with_headers_only_hides_no_messages(workspace: Callable[[dict[str, str]], Path]) -> None:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.errors import RosminiError, SerializationError
+from rosmini.core.errors import RosminiError, SerializationError
 from rosmini.msgs import message_class
 from rosmini.msgs.template import template
 

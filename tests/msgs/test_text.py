@@ -6,9 +6,9 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.msgs.text import strify_message
-from rosmini.time import Time
 
 String = message_class("std_msgs/String")
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.errors import DeserializationError
+from rosmini.core.errors import DeserializationError
 from rosmini.msgs import message_class
 from rosmini.msgs.registry import Registry
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from rosmini.actionlib import SimpleActionServer
+from rosmini.core.actionlib import SimpleActionServer
+from rosmini.core.tf import TransformBroadcaster
+from rosmini.core.tf.rigid import from_yaw
 from rosmini.msgs import message_class
-from rosmini.tf import TransformBroadcaster
-from rosmini.tf.rigid import from_yaw
 
 RESOLUTION = 0.1
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d import Costmap2D
 from rosmini.navigation.nav_core import pose_stamped
-from rosmini.time import Time
 
 
 class FakeCostmap:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.tf import Buffer
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.nav_core import BaseLocalPlanner, pose_stamped
-from rosmini.tf import Buffer
-from rosmini.time import Time
 
 
 class FakeCostmap:

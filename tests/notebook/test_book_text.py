@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from rosmini.core.packages.folders import assets_dir
 from rosmini.notebook.book_text import book_text
 from rosmini.notebook.places import Places
-from rosmini.packages.folders import assets_dir
 
 from .conftest import Notebook
 

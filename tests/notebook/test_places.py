@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.errors import UnknownPackage
+from rosmini.core.errors import UnknownPackage
+from rosmini.core.packages import PackageIndex
 from rosmini.notebook.places import OutsideHome, Places, ShownStream
-from rosmini.packages import PackageIndex
 
 
 @pytest.fixture

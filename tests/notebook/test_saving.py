@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from rosmini.catkin import Workspace, make
+from rosmini.core.packages import read_package
 from rosmini.notebook.saving import imports
-from rosmini.packages import read_package
+from rosmini.ros.catkin import Workspace, make
 
 NODE = """%%node drive.py
 import numpy, math, os.path

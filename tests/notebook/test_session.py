@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import rosmini
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.notebook import extension
 from rosmini.notebook.session import session_of
 
@@ -58,7 +58,7 @@ def test_roscore_takes_no_arguments(notebook: Notebook) -> None:
 
 def test_imports_are_those_of_a_robot(notebook: Notebook) -> None:
     notebook.ok("import rospy\nfrom std_msgs.msg import String\nfrom geometry_msgs.msg import Twist")
-    assert notebook.ok("print(rospy.__name__, String._type)") == "rosmini.rospy std_msgs/String\n"
+    assert notebook.ok("print(rospy.__name__, String._type)") == "rosmini.ros.rospy std_msgs/String\n"
 
 
 def test_the_notebook_can_itself_be_a_node(notebook: Notebook) -> None:
@@ -120,7 +120,7 @@ def test_where_ros_is_installed_too_one_line_says_whose_rospy_it_is(
     assert (
         written == "rosmini: `import rospy` is rosmini's in this notebook, not that of the installed ROS.\n"
     )
-    assert notebook.ok("import rospy\nprint(rospy.__name__)") == "rosmini.rospy\n"
+    assert notebook.ok("import rospy\nprint(rospy.__name__)") == "rosmini.ros.rospy\n"
 
 
 def test_a_rospy_that_was_imported_before_is_named(

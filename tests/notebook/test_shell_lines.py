@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.errors import UsageError
+from rosmini.core.errors import UsageError
 from rosmini.notebook.shell_lines import expand, parse, unquoted
 
 

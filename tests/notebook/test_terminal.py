@@ -12,11 +12,11 @@ from typing import Any
 import pytest
 
 from rosmini import Graph, set_default_graph
-from rosmini.cli import magics
-from rosmini.cli.main import COMMANDS
-from rosmini.errors import UsageError
+from rosmini.core.errors import UsageError
+from rosmini.core.packages import PackageIndex
 from rosmini.notebook.terminal import Terminals
-from rosmini.packages import PackageIndex
+from rosmini.tools import magics
+from rosmini.tools.main import COMMANDS
 
 Cell = Callable[..., str]
 

@@ -1,7 +1,7 @@
 """Every command line that the report prints, in its order, and where the tests type it.
 
 A line is typed in a shell by what ``by`` names: a command line of `test_graph_commands`, a test or a fixture there or
-in `test_shell`, or (after ``walk:``) a line of the walk in `tests/cli/test_catkin_make.py`. ``cell`` is what a reader
+in `test_shell`, or (after ``walk:``) a line of the walk in `tests/tools/test_catkin_make.py`. ``cell`` is what a reader
 types in a cell instead, where that can be; lines that wait for something name it in ``waits``.
 """
 

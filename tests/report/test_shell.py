@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.packages import assets_dir
+from rosmini.core.packages import assets_dir
 
-from ..cli.test_catkin_make import WALK
 from ..processes import run, start, wait_until
+from ..tools.test_catkin_make import WALK
 from . import test_graph_commands, test_use_cases
 from .command_lines import LINES
 from .test_graph_commands import MEASURES, NAMES_THE_RIGHT_FORM, ROSMINI, WORKS, shell

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from rosmini.packages import assets_dir
+from rosmini.core.packages import assets_dir
 
 STAGE = "%roslaunch navigation_stage move_base_gmapping_5cm.launch"
 

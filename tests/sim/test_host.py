@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from rosmini.errors import CallbackError, RosminiError
-from rosmini.graph import Graph
+from rosmini.core.errors import CallbackError, RosminiError
+from rosmini.core.graph import Graph
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.models import BURGER

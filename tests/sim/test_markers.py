@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.engine import Engine
 from rosmini.sim.markers import ADD, DELETE, Markers, MarkersError, first_poses, obstacles_of

@@ -9,17 +9,17 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rosmini.errors import CallbackError
-from rosmini.geometry.angles import quaternion_from_yaw
-from rosmini.geometry.errors import GeometryError
-from rosmini.graph import Graph
+from rosmini.core.errors import CallbackError
+from rosmini.core.geometry.angles import quaternion_from_yaw
+from rosmini.core.geometry.errors import GeometryError
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.scripts import rosrun
+from rosmini.ros.scripts import rosrun
 from rosmini.sim.models import ImuModel, LidarModel, RobotModel
 from rosmini.sim.recorder import Recorder, aligned
 from rosmini.sim.recording import RecordingError
 from rosmini.sim.world import World
-from rosmini.time import Time
 from rosmini.viz.beams import beams_of
 
 LaserScan = message_class("sensor_msgs/LaserScan")

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.geometry.poses import arc, compose
+from rosmini.core.geometry.poses import arc, compose
 from rosmini.sim.models import ImuModel, LidarModel, RobotModel
 from rosmini.sim.recording import Recording, RecordingError, since
 from rosmini.sim.world import World

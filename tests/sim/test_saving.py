@@ -11,13 +11,13 @@ from typing import Any
 import pytest
 
 from rosmini import Graph
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
+from rosmini.core.time import Duration
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.sdf import ORIGIN
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.stage.node import Stageros
-from rosmini.time import Duration
 
 from .gazebo.conftest import DIFF_DRIVE, LASER, box, urdf
 

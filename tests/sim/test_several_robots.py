@@ -12,10 +12,10 @@ import pytest
 import yaml
 from defusedxml import ElementTree
 
-from rosmini.errors import IllegalName, ParameterError, RosminiError
-from rosmini.graph import Graph
+from rosmini.core.errors import IllegalName, ParameterError, RosminiError
+from rosmini.core.graph import Graph
+from rosmini.core.packages import assets_dir
 from rosmini.msgs import message_class
-from rosmini.packages import assets_dir
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.models import BURGER, WAFFLE, UnknownModel
 from rosmini.sim.simulator import Simulator

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from rosmini import Graph
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.msgs import message_class
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.gazebo import GazeboServer

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError
-from rosmini.geometry.angles import yaw_from_quaternion
-from rosmini.graph import Graph
-from rosmini.graph.byte_transport import ByteTransport
+from rosmini.core.errors import ParameterError
+from rosmini.core.geometry.angles import yaw_from_quaternion
+from rosmini.core.graph import Graph
+from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.msgs import message_class, service_class
-from rosmini.scripts import run_source
+from rosmini.ros.scripts import run_source
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.models import BURGER, GRAVITY, UnknownModel
 from rosmini.sim.simulator import Simulator

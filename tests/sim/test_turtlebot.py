@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError
-from rosmini.geometry.angles import normalize_angle, yaw_from_quaternion
-from rosmini.graph import Graph
+from rosmini.core.errors import ParameterError
+from rosmini.core.geometry.angles import normalize_angle, yaw_from_quaternion
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.engine.odometry import Odometry
 from rosmini.sim.models import BURGER

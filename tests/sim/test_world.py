@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError
 
 FOOTPRINT = ((-0.1, -0.08), (0.04, -0.08), (0.04, 0.08), (-0.1, 0.08))

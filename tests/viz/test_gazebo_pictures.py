@@ -13,7 +13,7 @@ from rosmini import Graph
 from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.gazebo.spawning import spawn_text
 from rosmini.sim.models import BURGER
-from rosmini.urdf.xacro import expand
+from rosmini.sim.urdf.xacro import expand
 from rosmini.viz.view import ViewError
 
 WALLS = """<sdf version="1.6"><world name="yard">

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from rosmini.launch import Plan, read
+from rosmini.ros.launch import Plan, read
 from rosmini.viz import launch_tree
 
 SHAPES = Path(__file__).parents[1] / "launch" / "data" / "shapes"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.logo import Logo
+from rosmini.sim.logo import Logo
 from rosmini.viz.logo_pictures import LONGEST, logo_picture
 from rosmini.viz.view import ViewError
 

@@ -5,9 +5,9 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
+from rosmini.ros.launch import roslaunch
 
 SVG = "{http://www.w3.org/2000/svg}"
 

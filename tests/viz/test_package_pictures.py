@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.errors import RosminiError
-from rosmini.packages import PackageIndex
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import PackageIndex
 from rosmini.viz.package_pictures import package_graph, package_tree, workspace_tree
 
 MANIFEST = """<package format="2"><name>{name}</name><version>1.0.0</version><description>d</description>

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rosmini.geometry.poses import arc, compose
+from rosmini.core.geometry.poses import arc, compose
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recording import Moved, Recording
 from rosmini.sim.worlds import world

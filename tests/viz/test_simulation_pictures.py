@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.recorder import Recorder

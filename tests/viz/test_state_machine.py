@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from rosmini.actionlib import CommState, Status
+from rosmini.core.actionlib import CommState, Status
 from rosmini.viz import ViewError, action_states
 from rosmini.viz.state_machine import client_transitions, server_transitions, state_machine
 

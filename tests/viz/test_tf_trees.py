@@ -4,8 +4,8 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from rosmini.tf import FrameTree
-from rosmini.tf.rigid import rigid
+from rosmini.core.tf import FrameTree
+from rosmini.core.tf.rigid import rigid
 from rosmini.viz.tf_trees import tf_tree
 from rosmini.viz.view import ViewError
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rosmini import Graph, rosrun
-from rosmini.turtlesim import TurtleSim
+from rosmini.sim.turtlesim import TurtleSim
 from rosmini.viz.replay import ReplayView
 
 

@@ -2,7 +2,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from rosmini.urdf import load
+from rosmini.sim.urdf import load
 from rosmini.viz.urdf_trees import urdf_tree
 
 ARM = """<robot name="arm &amp; co"><link name="base"/><link name="upper"><inertial><mass value="2"/>

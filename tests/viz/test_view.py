@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rosmini.graph import show as show_module
+from rosmini.core.graph import show as show_module
 from rosmini.viz import Picture, View, ViewError, matplotlib_picture, rqt_graph, style
 from rosmini.viz.alt_text import AltText
 from rosmini.viz.svg import clean, element, escape, number

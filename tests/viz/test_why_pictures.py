@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 
-from rosmini.introspection.why import Step, Why
+from rosmini.ros.introspection.why import Step, Why
 from rosmini.viz.why_pictures import LONGEST, why_picture
 
 SVG = "{http://www.w3.org/2000/svg}"

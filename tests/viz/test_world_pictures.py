@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rosmini.geometry.poses import arc
-from rosmini.geometry.raycast import raycast
+from rosmini.core.geometry.poses import arc
+from rosmini.core.geometry.raycast import raycast
 from rosmini.msgs import message_class
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, Walk, World

@@ -10,8 +10,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rosmini.geometry.products import inverse_matrix, matrix_product, norm, norms
-from rosmini.urdf.meshes.surface import Floats, Surface
+from rosmini.core.geometry.products import inverse_matrix, matrix_product, norm, norms
+from rosmini.sim.urdf.meshes.surface import Floats, Surface
 
 
 @dataclass(frozen=True, kw_only=True)

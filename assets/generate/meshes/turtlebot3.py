@@ -16,7 +16,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from rosmini.urdf.meshes.surface import Floats
+from rosmini.sim.urdf.meshes.surface import Floats
 
 from . import collada_writer
 from .shapes import Shape, box, join, lathe, polygon, prism, rod

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry import polygons
+from rosmini.core.geometry import polygons
 from rosmini.navigation.map_server import GridMap
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, Pose, edges
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from rosmini.geometry.poses import compose
+from rosmini.core.geometry.poses import compose
 from rosmini.sim.shapes import Box, Colour, Cylinder, Polygon, Shape
 from rosmini.sim.world import Obstacle, Pose
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from xml.sax.saxutils import quoteattr
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.motion import Door, Walk
 from rosmini.sim.sdf.doors import PLUGIN
 from rosmini.sim.sdf.material_colours import HOUSE

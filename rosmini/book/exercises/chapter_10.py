@@ -8,10 +8,10 @@ from typing import Any
 
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_fields, expect_type
 from rosmini.book.trials import Trial
-from rosmini.errors import RosminiError
-from rosmini.launch import read
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import Package, read_package
 from rosmini.msgs import define_message
-from rosmini.packages import Package, read_package
+from rosmini.ros.launch import read
 
 OTHERS = ("turtlebot3_bringup", "turtlebot3_gazebo", "turtlebot3_navigation", "turtlebot3_slam")
 """The packages that need turtlebot3_description."""

@@ -7,8 +7,8 @@ from itertools import pairwise
 from typing import Any
 
 from rosmini.book.checks import exercise, expect, expect_fields, expect_heard, expect_node, expect_type
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
 from rosmini.msgs import define_message
 from rosmini.msgs.std_msgs.msg import String
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from rosmini.book.checks import exercise, expect, expect_fields, expect_heard, expect_type
-from rosmini.errors import RosminiError, ServiceException
-from rosmini.graph import Graph, Node
+from rosmini.core.errors import RosminiError, ServiceException
+from rosmini.core.graph import Graph, Node
 from rosmini.msgs import define_service
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import Empty, Trigger

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs.std_msgs.msg import Float32
 
 # ---- 14.1: resolving names ----

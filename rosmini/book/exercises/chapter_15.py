@@ -6,13 +6,13 @@ import math
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from rosmini.bag import Bag, FilterError
-from rosmini.bag.expressions import compile_expression
 from rosmini.book.checks import exercise, expect, expect_type
+from rosmini.core.time import Time
 from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
 from rosmini.msgs.nav_msgs.msg import Odometry
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.time import Time
+from rosmini.ros.bag import Bag, FilterError
+from rosmini.ros.bag.expressions import compile_expression
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

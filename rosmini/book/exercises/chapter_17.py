@@ -7,11 +7,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from rosmini import names
 from rosmini.book.checks import exercise, expect, expect_type
-from rosmini.graph import Graph
+from rosmini.core import names
+from rosmini.core.graph import Graph
 from rosmini.msgs.std_msgs.msg import Float32, String
-from rosmini.scripts import run_source
+from rosmini.ros.scripts import run_source
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
 from rosmini.book.trials import Trial
-from rosmini.catkin import Workspace, make
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.std_msgs.msg import String
+from rosmini.ros.catkin import Workspace, make
 
 if TYPE_CHECKING:
-    from rosmini.graph import Publisher
+    from rosmini.core.graph import Publisher
 
 # ---- 18.1: which command mends it ----
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
-from rosmini.geometry.poses import arc
-from rosmini.geometry.raycast import raycast
+from rosmini.core.geometry.poses import arc
+from rosmini.core.geometry.raycast import raycast
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 
 if TYPE_CHECKING:

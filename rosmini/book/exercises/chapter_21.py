@@ -8,11 +8,11 @@ from typing import Any
 
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
 from rosmini.book.trials import Trial
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf import StaticTransformBroadcaster
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.nav_msgs.msg import Odometry
 from rosmini.msgs.visualization_msgs.msg import Marker
-from rosmini.tf import StaticTransformBroadcaster
 from rosmini.viz.rviz import Level, Scene, still
 
 RED = (255, 0, 0)

@@ -6,14 +6,14 @@ from typing import Any
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
 from rosmini.book.trials import Trial
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import Float32
+from rosmini.viz.live.rqt import MessagePublisher
 from rosmini.viz.rqt import rqt_graph
 from rosmini.viz.rqt.plot import rqt_plot
 from rosmini.viz.view import ViewError
-from rosmini.widgets.rqt import MessagePublisher
 
 MEASURED = ("/odom/twist/twist/angular/z", "/imu/angular_velocity/z")
 """The fields in which the robot says how fast it turns."""

@@ -6,14 +6,14 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_number, expect_type
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
 from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.scripts import rosrun
+from rosmini.ros.scripts import rosrun
 from rosmini.sim import sdf
 from rosmini.sim.gazebo import GazeboServer, ModelPlugin
 from rosmini.sim.gazebo.spawning import spawn_text
-from rosmini.urdf import xacro
+from rosmini.sim.urdf import xacro
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,11 +6,11 @@ import math
 from typing import Any
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
+from rosmini.core.tf import Buffer
+from rosmini.core.tf.messages import to_stamped
+from rosmini.core.tf.rigid import Rigid, compose, from_yaw
+from rosmini.core.time import Time
 from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.tf import Buffer
-from rosmini.tf.messages import to_stamped
-from rosmini.tf.rigid import Rigid, compose, from_yaw
-from rosmini.time import Time
 
 SECOND = 1_000_000_000
 

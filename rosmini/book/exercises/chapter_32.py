@@ -13,7 +13,7 @@ from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.navigation.map_server import GridMap
 from rosmini.navigation.map_server.node import MapServer
-from rosmini.scripts import rosrun
+from rosmini.ros.scripts import rosrun
 
 # ---- 32.1: cells ----
 

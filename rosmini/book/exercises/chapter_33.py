@@ -11,15 +11,15 @@ import yaml
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
 from rosmini.book.trials import Trial
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf import StaticTransformBroadcaster
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.navigation.costmap_2d import Costmap2D
 from rosmini.navigation.costmap_2d.explanation import CellCosts
 from rosmini.navigation.costmap_2d.footprint import footprint_from_radius, padded, radii
 from rosmini.navigation.costmap_2d.inflation import cost_at, inflated
 from rosmini.navigation.navfn import NavfnSearch
-from rosmini.scripts import rosrun
-from rosmini.tf import StaticTransformBroadcaster
+from rosmini.ros.scripts import rosrun
 
 # ---- 33.1: a cost by its distance ----
 

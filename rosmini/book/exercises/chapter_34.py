@@ -13,6 +13,7 @@ import numpy as np
 
 from rosmini.book.checks import Script, exercise, expect, expect_number, expect_type
 from rosmini.book.trials import TurtleTrial
+from rosmini.core.packages import assets_dir
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.srv import GetPlan
 from rosmini.msgs.std_msgs.msg import Float64
@@ -21,7 +22,6 @@ from rosmini.navigation.costmap_2d.inflation import cell_distance, cost_table, i
 from rosmini.navigation.costmap_2d.layer import Window
 from rosmini.navigation.global_planner import GlobalDijkstra
 from rosmini.navigation.map_server import load_map
-from rosmini.packages import assets_dir
 
 Cell = tuple[int, int]
 

@@ -11,11 +11,11 @@ import numpy as np
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_number, expect_type
 from rosmini.book.trials import TurtleTrial
-from rosmini.dynamic_reconfigure import Client
-from rosmini.errors import RosminiError
-from rosmini.launch import roslaunch
+from rosmini.core.dynamic_reconfigure import Client
+from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.navigation.dwa_local_planner.dwa_planner import DWAPlannerParameters
+from rosmini.ros.launch import roslaunch
 
 # ---- 35.1: the window ----
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from rosmini.book.checks import Script, exercise, expect
 from rosmini.book.trials import Trial
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.graph import Graph
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
-from rosmini.scripts import rosrun
+from rosmini.ros.launch import roslaunch
+from rosmini.ros.scripts import rosrun
 
 
 @exercise("37.1", praise="One passer-by kills no particle.")

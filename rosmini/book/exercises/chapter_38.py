@@ -9,14 +9,14 @@ import numpy as np
 
 from rosmini.book.checks import Script, exercise, expect
 from rosmini.book.trials import Trial, TurtleTrial
+from rosmini.core.tf import Buffer, TransformListener
+from rosmini.core.tf.messages import transform_of
+from rosmini.core.tf.rigid import from_rpy, rpy
+from rosmini.core.time import Time
 from rosmini.msgs.sensor_msgs.msg import Imu
 from rosmini.navigation.hector_mapping import surface
 from rosmini.navigation.hector_mapping.node import HectorMapping
-from rosmini.scripts import rosrun
-from rosmini.tf import Buffer, TransformListener
-from rosmini.tf.messages import transform_of
-from rosmini.tf.rigid import from_rpy, rpy
-from rosmini.time import Time
+from rosmini.ros.scripts import rosrun
 
 MAPPER = ("_use_tf_scan_transformation:=false", "_pub_map_odom_transform:=false", "_map_size:=200")
 

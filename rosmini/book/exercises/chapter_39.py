@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.actionlib import SimpleActionServer
 from rosmini.book.checks import Script, exercise, expect, expect_type
 from rosmini.book.trials import TurtleTrial
-from rosmini.graph import Graph
+from rosmini.core.actionlib import SimpleActionServer
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.move_base_msgs.msg import MoveBaseAction
 from rosmini.msgs.std_msgs.msg import String
@@ -19,7 +20,6 @@ from rosmini.navigation.costmap_2d import Costmap2D
 from rosmini.navigation.move_base.recoveries import BadList, checked
 from rosmini.navigation.nav_core import BadGoal, pose_stamped
 from rosmini.navigation.nav_core.poses import checked_goal
-from rosmini.time import Time
 
 Point = tuple[float, float]
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_number
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.scripts import rosrun
+from rosmini.ros.scripts import rosrun
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
@@ -231,7 +231,7 @@ BURGER_URDF = "package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacr
 
 def _looks(robot: Any, link: str, kind: type, **sizes: float) -> Any:
     """The one visual of a link, which has to be of this kind and of these sizes [m]."""
-    from rosmini.urdf import Cylinder
+    from rosmini.sim.urdf import Cylinder
 
     word = "cylinder" if kind is Cylinder else "sphere"
     visuals = robot.links[link].visuals
@@ -257,7 +257,7 @@ def _looks(robot: Any, link: str, kind: type, **sizes: float) -> Any:
 )
 def mast(answer: Any) -> None:
     """A piece of URDF: a mast with a ball on top, for a TurtleBot3 Burger."""
-    from rosmini.urdf import Cylinder, Sphere, UrdfError, load, xacro
+    from rosmini.sim.urdf import Cylinder, Sphere, UrdfError, load, xacro
 
     burger = xacro.expand(BURGER_URDF)
     for height in (0.3, 0.12):

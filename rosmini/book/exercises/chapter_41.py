@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_heard, expect_node
-from rosmini.geometry.poses import Pose, arc
-from rosmini.graph import Graph
+from rosmini.core.geometry.poses import Pose, arc
+from rosmini.core.graph import Graph
 from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
 from rosmini.msgs.sensor_msgs.msg import Joy
 from rosmini.msgs.std_msgs.msg import Bool
-from rosmini.widgets.teleop import Limits, Teleop, key_map
+from rosmini.viz.live.teleop import Limits, Teleop, key_map
 
 Velocity = tuple[float, float]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
 from rosmini.book.trials import TurtleTrial
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 
 START = ["rosrun", "turtlesim", "turtlesim_node"]

@@ -10,7 +10,7 @@ from rosmini.book.trials import TurtleTrial
 from rosmini.msgs.geometry_msgs.msg import Twist
 
 if TYPE_CHECKING:
-    from rosmini.turtlesim import Turtle
+    from rosmini.sim.turtlesim import Turtle
 
 CORNERS = ((8.0, 2.0), (8.0, 8.0), (2.0, 8.0))
 EDGE = 499 / 45

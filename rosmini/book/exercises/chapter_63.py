@@ -10,8 +10,8 @@ from urllib.parse import urlsplit
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
 from rosmini.book.trials import TurtleTrial
 from rosmini.msgs.geometry_msgs.msg import Twist
-from rosmini.scripts import rosrun
-from rosmini.turtlesim import window
+from rosmini.ros.scripts import rosrun
+from rosmini.sim.turtlesim import window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

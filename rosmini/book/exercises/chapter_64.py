@@ -11,14 +11,14 @@ from io import StringIO
 from typing import Any
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
-from rosmini.graph import Graph
-from rosmini.graph.headers import encode_header
-from rosmini.graph.transport import LocalTransport
+from rosmini.core.graph import Graph
+from rosmini.core.graph.headers import encode_header
+from rosmini.core.graph.transport import LocalTransport
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.net.network import tcp
-from rosmini.scripts import rosrun
+from rosmini.ros.net.network import tcp
+from rosmini.ros.scripts import rosrun
 
 # ---- 64.1: a header ----
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from rosmini import rosrun
-from rosmini.actionlib import SimpleActionServer
 from rosmini.book.checks import Script, exercise, expect
 from rosmini.book.trials import TurtleTrial
-from rosmini.geometry.polygons import area, crossing_sides
+from rosmini.core.actionlib import SimpleActionServer
+from rosmini.core.geometry.polygons import area, crossing_sides
 from rosmini.msgs.frontier_exploration.msg import ExploreTaskAction
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.std_msgs.msg import Float64

@@ -8,15 +8,15 @@ from io import StringIO
 from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Wrong, exercise, expect
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.packages import PackageIndex
+from rosmini.core.tf import Buffer
+from rosmini.core.tf.messages import to_stamped
+from rosmini.core.tf.rigid import Rigid, from_yaw
 from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
-from rosmini.packages import PackageIndex
-from rosmini.scripts import rosrun
+from rosmini.ros.scripts import rosrun
 from rosmini.sim.simulator import Simulator
-from rosmini.tf import Buffer
-from rosmini.tf.messages import to_stamped
-from rosmini.tf.rigid import Rigid, from_yaw
-from rosmini.urdf import xacro
+from rosmini.sim.urdf import xacro
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.book.checks import Script, exercise, expect
 from rosmini.book.trials import Trial
-from rosmini.graph import Graph
-from rosmini.logo import Limits, Logo
-from rosmini.logo.turtles import Drawing
+from rosmini.core.graph import Graph
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.scripts import Console, ScriptHandle, ScriptSpec, rosrun
+from rosmini.ros.scripts import Console, ScriptHandle, ScriptSpec, rosrun
+from rosmini.sim.logo import Limits, Logo
+from rosmini.sim.logo.turtles import Drawing
 
 if TYPE_CHECKING:
-    from rosmini.turtlesim.node import TurtleSim
+    from rosmini.sim.turtlesim.node import TurtleSim
 
 LIMITS = Limits(steps=200_000, moves=5_000, depth=5_000)
 

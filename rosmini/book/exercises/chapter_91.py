@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosmini.actionlib import (
+from rosmini.book.checks import exercise, expect, expect_node, expect_type
+from rosmini.core.actionlib import (
     SERVER_TRANSITIONS,
     ActionClient,
     CommState,
@@ -12,8 +13,7 @@ from rosmini.actionlib import (
     SimpleActionServer,
     Status,
 )
-from rosmini.book.checks import exercise, expect, expect_node, expect_type
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs.actionlib.msg import (
     TestAction,
     TestFeedback,

@@ -7,7 +7,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from rosmini.book.checks import Wrong, call_bounded, exercise, expect, expect_type
-from rosmini.catkin import CatkinError, Report, Workspace, make
+from rosmini.ros.catkin import CatkinError, Report, Workspace, make
 
 # ---- 92.1: in which order ----
 

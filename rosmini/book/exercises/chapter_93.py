@@ -7,7 +7,7 @@ from io import StringIO
 from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs.std_msgs.msg import Float32, Int32, String
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 from typing import Any, ClassVar, Sequence, overload
 from rosmini.msgs.message import Message as _Message
 from rosmini.msgs.std_msgs import msg as _std_msgs
-from rosmini.time import Time as _Time
+from rosmini.core.time import Time as _Time
 
 class GoalID(_Message):
     stamp: _Time

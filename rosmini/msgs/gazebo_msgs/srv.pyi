@@ -6,7 +6,7 @@ from rosmini.msgs.message import Message as _Message
 from rosmini.msgs.registry import Service as _Service
 from rosmini.msgs.std_msgs import msg as _std_msgs
 from rosmini.msgs.trajectory_msgs import msg as _trajectory_msgs
-from rosmini.time import Duration as _Duration, Time as _Time
+from rosmini.core.time import Duration as _Duration, Time as _Time
 
 class ApplyBodyWrenchRequest(_Message):
     body_name: str

@@ -7,8 +7,8 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.time import Time
 
 from .parameters import AmclParameters
 

@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import Pose
-from rosmini.geometry.products import eigen, matrix_product, scalar_product
-from rosmini.graph.show import show
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.geometry.products import eigen, matrix_product, scalar_product
+from rosmini.core.graph.show import show
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -9,8 +9,8 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.poses import Pose, compose, transform_points
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.geometry.poses import Pose, compose, transform_points
 
 from .field import BeamMixture, LikelihoodField
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.map_server.grid_map import GridMap
 
 from .field import BeamMixture, LikelihoodField

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import Pose, compose, inverse
 
 Floats = NDArray[np.float64]
 

@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.errors import RosminiError, ServiceException
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.errors import RosminiError, ServiceException
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
+from rosmini.core.tf.messages import set_pose
+from rosmini.core.tf.rigid import from_yaw
+from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.map_server.grid_map import GridMap
 from rosmini.navigation.nav_core.poses import planar_pose, planar_transform
-from rosmini.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
-from rosmini.tf.messages import set_pose
-from rosmini.tf.rigid import from_yaw
-from rosmini.time import Duration, Time
 
 from .diagnostics import deviations
 from .laser import Scan
@@ -31,7 +31,7 @@ from .motion import MODELS
 from .parameters import LASERS, AmclConfig, AmclParameters
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 PATIENCE = 0.5
 """So long a scan waits for its transforms [s]."""

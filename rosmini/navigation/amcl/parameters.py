@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rosmini.parameters import Parameters, parameter
+from rosmini.core.parameters import Parameters, parameter
 
 from .motion import MODELS
 

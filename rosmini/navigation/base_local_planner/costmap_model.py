@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.kernels import kernel
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import ParameterError
-from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.graph import Node
+from rosmini.core.errors import ParameterError
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.graph import Node
+from rosmini.core.tf import Buffer, TransformException
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap import INSCRIBED_INFLATED_OBSTACLE
 from rosmini.navigation.nav_core import ControlFailure, NoValidCommand, TransformMissing, pose_stamped
 from rosmini.navigation.nav_core.clouds import point_cloud
-from rosmini.tf import Buffer, TransformException
 
 from .goal_functions import behind, part_in_reach
 from .map_grid import MapGrid

@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.angles import shortest_angular_distance
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.angles import shortest_angular_distance
+from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 
 Floats = NDArray[np.float64]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.parameters import Parameters, parameter
+from rosmini.core.parameters import Parameters, parameter
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.machine_code import machine_code
+from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.costmap_2d.costmap import NO_INFORMATION, Costmap2D, Ints
 from rosmini.navigation.kernels import kernel
 

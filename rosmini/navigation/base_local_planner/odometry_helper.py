@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.graph import Node
+from rosmini.core.graph import Node
 from rosmini.msgs import message_class
 
 

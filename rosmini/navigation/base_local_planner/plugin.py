@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.geometry.poses import Pose
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.parameters import parameter
+from rosmini.core.tf import Buffer
 from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
-from rosmini.parameters import parameter
-from rosmini.tf import Buffer
 
 from .following import Following, Publications, ignore, no_command, rename, sim_period, twist
 from .goal_functions import distance_to, stands, turn_to

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.machine_code import machine_code
+from rosmini.core.geometry.machine_code import machine_code
 
 Costs = NDArray[np.uint8]
 Floats = NDArray[np.float64]

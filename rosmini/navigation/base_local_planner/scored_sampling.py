@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import ParameterError
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import ParameterError
+from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.kernels import kernel
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.graph.show import show
+from rosmini.core.graph.show import show
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

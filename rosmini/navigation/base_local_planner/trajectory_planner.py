@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import ParameterError
-from rosmini.geometry.angles import shortest_angular_distance
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import ParameterError
+from rosmini.core.geometry.angles import shortest_angular_distance
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
-from rosmini.parameters import Parameters, parameter
 
 from .costmap_model import footprint_cells, line_cells
 from .map_grid import MapGrid, plan_cells, spread

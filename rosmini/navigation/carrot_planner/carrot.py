@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import Pose
 
 STEPS = 100
 """Steps of the whole way back."""

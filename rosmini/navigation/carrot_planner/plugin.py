@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from rosmini.core.parameters import Parameters, parameter
+from rosmini.core.time import Time
 from rosmini.navigation.base_local_planner.costmap_model import footprint_cost
 from rosmini.navigation.nav_core import (
     BaseGlobalPlanner,
@@ -14,8 +16,6 @@ from rosmini.navigation.nav_core import (
     planar_pose,
     pose_stamped,
 )
-from rosmini.parameters import Parameters, parameter
-from rosmini.time import Time
 
 from .carrot import carrot
 

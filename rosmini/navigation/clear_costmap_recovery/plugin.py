@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, planar_pose
-from rosmini.parameters import Parameters, parameter
 
 MAPS = ("local", "global", "both")
 

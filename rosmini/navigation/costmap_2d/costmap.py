@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 FREE_SPACE = 0
 INSCRIBED_INFLATED_OBSTACLE = 253
@@ -178,7 +178,7 @@ class Costmap2D:
             name="costmap": of what it is, for the text form
             title=None: a caption under the picture, and the first words of its text form
         """
-        from rosmini.graph.show import show
+        from rosmini.core.graph.show import show
 
         return show("costmap", self, **options)
 
@@ -192,6 +192,6 @@ class Costmap2D:
             window=None: only these cells are shown: first column, first row, and those behind the last
             title=None: a caption, and the first words of its text form
         """
-        from rosmini.graph.show import show
+        from rosmini.core.graph.show import show
 
         return show("inflation", self, **options)

@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.errors import ParameterError
-from rosmini.geometry.poses import Pose
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.errors import ParameterError
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import compose, from_yaw, rpy
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core.failures import TransformMissing
 from rosmini.navigation.nav_core.poses import planar_pose, pose_stamped
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import compose, from_yaw, rpy
-from rosmini.time import Time
 
 from . import footprint as outlines
 from .costmap import Costmap2D
@@ -35,8 +35,8 @@ from .polygons import fill
 from .publisher import Costmap2DPublisher
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
-    from rosmini.tf import Buffer
+    from rosmini.core.graph import Node
+    from rosmini.core.tf import Buffer
 
 PATIENCE = 5.0
 """After so many seconds without the robot's transform it is said what is missing [s]."""

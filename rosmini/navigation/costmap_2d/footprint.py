@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import ParameterError, shown
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.errors import ParameterError, shown
+from rosmini.core.geometry.poses import Pose, transform_points
 
 Footprint = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.geometry.poses import Pose
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.geometry.poses import Pose
 
 from .costmap import LETHAL_OBSTACLE, Costmap2D
 from .inflation import cell_distance, cost_at, cost_table, inflate

@@ -19,15 +19,15 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose
-from rosmini.plugins import Plugin
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.plugins import Plugin
 
 from .costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, Costs
 from .footprint import Footprint
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
-    from rosmini.tf import Buffer
+    from rosmini.core.graph import Node
+    from rosmini.core.tf import Buffer
 
 FAR = 1e30
 """The bounds of nothing, and of everything."""

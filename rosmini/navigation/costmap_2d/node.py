@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.core.tf import Buffer, TransformListener
 from rosmini.msgs import message_class
-from rosmini.tf import Buffer, TransformListener
 
 from .costmap_ros import Costmap2DROS
 from .voxels import BITS
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 CUBE_LIST = 6
 """The type of the marker."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 Floats = NDArray[np.float64]
 
@@ -127,7 +127,7 @@ def cloud_points(cloud: Any) -> Floats:
 
 def cloud2_points(cloud: Any) -> Floats:
     """The same of a `sensor_msgs/PointCloud2`. Raises `TransformException` if it has no x, y and z as floats."""
-    from rosmini.tf.messages import cloud_view
+    from rosmini.core.tf.messages import cloud_view
 
     columns = cloud_view(cloud, bytearray(cloud.data))
     points = np.stack([column.ravel() for column in columns], axis=-1).astype(np.float64)

@@ -6,8 +6,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.geometry.poses import Pose
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.kernels import kernel
 
 from .costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D

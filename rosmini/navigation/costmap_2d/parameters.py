@@ -9,12 +9,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from rosmini.parameters import Parameters, parameter
+from rosmini.core.parameters import Parameters, parameter
 
 from .migration import INHERITED, OLD
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 OVERWRITE, MAXIMUM = 0, 1
 """Of `combination_method`; with any other value a layer writes nothing."""

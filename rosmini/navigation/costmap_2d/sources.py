@@ -6,18 +6,18 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.message_filter import MessageFilter
+from rosmini.core.tf.rigid import transform_points
 from rosmini.msgs import message_class
-from rosmini.tf import TransformException
-from rosmini.tf.message_filter import MessageFilter
-from rosmini.tf.rigid import transform_points
 
 from .observations import Floats, Observation, ObservationBuffer, cloud2_points, cloud_points, scan_cloud
 from .parameters import SourceParameters, found_above
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
-    from rosmini.tf import Buffer
+    from rosmini.core.graph import Node
+    from rosmini.core.tf import Buffer
 
 QUEUE = 50
 """Messages that may wait for their transform."""

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.geometry.poses import Pose
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import matrix
 from rosmini.msgs import message_class
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import matrix
 
 from .costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, Costs
 from .layer import Bounds, CostmapLayer, Window

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.msgs import message_class
 from rosmini.navigation.kernels import kernel
 

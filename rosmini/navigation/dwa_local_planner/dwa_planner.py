@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.parameters import parameter
 from rosmini.navigation.base_local_planner.critics import Oscillation, together, twirling
 from rosmini.navigation.base_local_planner.limits import LocalPlannerLimits
 from rosmini.navigation.base_local_planner.map_grid import MapGrid, plan_cells, spread
 from rosmini.navigation.base_local_planner.scored_sampling import Sampling, footprint_scales, roll_out
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
-from rosmini.parameters import parameter
 
 Floats = NDArray[np.float64]
 

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.geometry.poses import Pose
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.parameters import parameter
+from rosmini.core.tf import Buffer
 from rosmini.msgs import message_class
 from rosmini.navigation.base_local_planner.following import (
     Following,
@@ -25,8 +27,6 @@ from rosmini.navigation.base_local_planner.odometry_helper import OdometryHelper
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.base_local_planner.trajectory_planner import TrajectoryPlannerParameters
 from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
-from rosmini.parameters import parameter
-from rosmini.tf import Buffer
 
 from .dwa_planner import DWAPlanner, DWAPlannerParameters
 

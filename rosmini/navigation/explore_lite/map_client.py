@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rosmini.core.tf import TransformException, TransformListener
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d import (
     INSCRIBED_INFLATED_OBSTACLE,
@@ -18,11 +20,9 @@ from rosmini.navigation.costmap_2d.costmap import Costs
 from rosmini.navigation.costmap_2d.layer import Window
 from rosmini.navigation.nav_core import TransformMissing
 from rosmini.navigation.nav_core.poses import planar_transform
-from rosmini.tf import TransformException, TransformListener
-from rosmini.time import Time
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
     from .parameters import ExploreParameters
 

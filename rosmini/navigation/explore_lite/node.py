@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from rosmini.actionlib import SimpleActionClient, Status
+from rosmini.core.actionlib import SimpleActionClient, Status
 from rosmini.msgs import message_class
 from rosmini.navigation.frontier_exploration import Blacklist, Frontier, find_frontiers, places
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
@@ -22,7 +22,7 @@ from .map_client import PATIENCE, MapClient
 from .parameters import ExploreParameters
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 Ranked = Sequence[tuple[float, Frontier]]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rosmini.tf.rigid import Rigid, compose, from_yaw, inverse
+from rosmini.core.tf.rigid import Rigid, compose, from_yaw, inverse
 
 
 def offset(delta_x: float, delta_y: float, delta_yaw: float) -> Rigid:

@@ -11,18 +11,18 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.parameters import Parameters, parameter
+from rosmini.core.tf import TransformBroadcaster, TransformException, TransformListener
+from rosmini.core.tf.broadcaster import resolve, tf_prefix
+from rosmini.core.tf.messages import from_pose, set_pose
+from rosmini.core.tf.rigid import Rigid, compose
+from rosmini.core.time import Duration
 from rosmini.msgs import message_class
-from rosmini.parameters import Parameters, parameter
-from rosmini.tf import TransformBroadcaster, TransformException, TransformListener
-from rosmini.tf.broadcaster import resolve, tf_prefix
-from rosmini.tf.messages import from_pose, set_pose
-from rosmini.tf.rigid import Rigid, compose
-from rosmini.time import Duration
 
 from .localization import moved_offset, odom_in_map, offset
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 WAITING = 100
 """The number of true poses that wait for the odometry's transform at their time."""

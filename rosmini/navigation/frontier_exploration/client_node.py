@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.actionlib import SimpleActionClient
+from rosmini.core.actionlib import SimpleActionClient
 from rosmini.msgs import message_class
 
 from .polygon import Selection, Step
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 PERIOD = 0.1
 """Between two pictures of the polygon [s]."""

@@ -19,13 +19,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.actionlib import SimpleActionClient, SimpleActionServer, Status
-from rosmini.errors import ROSException, ServiceException
+from rosmini.core.actionlib import SimpleActionClient, SimpleActionServer, Status
+from rosmini.core.errors import ROSException, ServiceException
+from rosmini.core.tf import TransformException, TransformListener
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.costmap_2d.footprint import points_of
 from rosmini.navigation.nav_core import TransformMissing, planar_pose, pose_stamped
-from rosmini.tf import TransformException, TransformListener
 
 from .parameters import ExploreServerParameters
 from .plugin import BoundedExploreLayer, moved
@@ -33,7 +33,7 @@ from .polygon import has_inside
 from .search import Blacklist
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 ATTEMPTS = 5
 """So many further times it is asked whether there is a frontier before there is none."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.navigation.costmap_2d.parameters import LayerConfig
-from rosmini.parameters import Parameters, parameter
 
 CLOSEST, MIDDLE, CENTROID = "closest", "middle", "centroid"
 

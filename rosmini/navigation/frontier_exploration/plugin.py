@@ -12,10 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.errors import ServiceRefused
-from rosmini.geometry.polygons import Floats
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.errors import ServiceRefused
+from rosmini.core.geometry.polygons import Floats
+from rosmini.core.geometry.poses import Pose, transform_points
+from rosmini.core.tf import Buffer, TransformException
+from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
 from rosmini.navigation.costmap_2d.footprint import points_of
@@ -24,8 +26,6 @@ from rosmini.navigation.costmap_2d.parameters import LayerConfig
 from rosmini.navigation.costmap_2d.rays import line_cells
 from rosmini.navigation.nav_core.clouds import point_cloud
 from rosmini.navigation.nav_core.poses import planar_transform, pose_stamped
-from rosmini.tf import Buffer, TransformException
-from rosmini.time import Time
 
 from .parameters import CENTROID, CLOSEST, MIDDLE, BoundedExploreParameters
 from .polygon import fault

@@ -7,7 +7,7 @@ from enum import Enum
 
 import numpy as np
 
-from rosmini.geometry.polygons import Floats, crossing_sides, inside, sides_of
+from rosmini.core.geometry.polygons import Floats, crossing_sides, inside, sides_of
 
 Point = tuple[float, float]
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.geometry.angles import quaternion_from_yaw, yaw_from_quaternion
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.geometry.angles import quaternion_from_yaw, yaw_from_quaternion
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import PlanningFailure
 from rosmini.navigation.navfn.planning import GridPlanner, Poses
 from rosmini.navigation.navfn.search import Search, cell_of
-from rosmini.parameters import Parameters, parameter
 
 from .orientations import orient
 from .search import COST_FACTOR, LETHAL_COST, NEUTRAL_COST, GlobalAStar, GlobalDijkstra

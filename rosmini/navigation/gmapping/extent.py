@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import ParameterError
+from rosmini.core.errors import ParameterError
 
 from .maps import SIDE
 from .slam import GridSlam

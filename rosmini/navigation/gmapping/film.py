@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
-from rosmini.graph.show import show
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph.show import show
 
 from .extent import known
 from .slam import GridSlam, Report

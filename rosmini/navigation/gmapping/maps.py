@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.machine_code import machine_code
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 Floats = NDArray[np.float64]

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.machine_code import machine_code
+from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 from .maps import SharedMaps

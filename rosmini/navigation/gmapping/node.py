@@ -11,20 +11,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
+from rosmini.core.tf.rigid import from_yaw
+from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.nav_core.poses import planar_transform
-from rosmini.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
-from rosmini.tf.rigid import from_yaw
-from rosmini.time import Duration, Time
 
 from .extent import first_extent, published
 from .parameters import GmappingParameters
 from .slam import JUMP, GridSlam
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 PATIENCE = 0.5
 """So long a scan waits for its transforms [s]."""

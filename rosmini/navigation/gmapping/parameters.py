@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rosmini.parameters import Parameters, parameter
+from rosmini.core.parameters import Parameters, parameter
 
 from .matching import Matcher
 from .slam import Settings

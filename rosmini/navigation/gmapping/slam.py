@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.graph.show import show
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.graph.show import show
 
 from .maps import SharedMaps
 from .matching import Matcher

@@ -9,13 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.parameters import Parameters, parameter
+from rosmini.core.tf import TransformBroadcaster, TransformException
+from rosmini.core.tf.rigid import Rigid, from_rpy, rigid, rpy
 from rosmini.msgs import message_class
-from rosmini.parameters import Parameters, parameter
-from rosmini.tf import TransformBroadcaster, TransformException
-from rosmini.tf.rigid import Rigid, from_rpy, rigid, rpy
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.navigation.map_server.grid_map import FREE, OCCUPIED, UNKNOWN, GridMap
 
 Floats = NDArray[np.float64]

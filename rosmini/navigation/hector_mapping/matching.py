@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.machine_code import machine_code
-from rosmini.geometry.poses import Pose
-from rosmini.geometry.products import inverse_matrix
+from rosmini.core.geometry.machine_code import machine_code
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.geometry.products import inverse_matrix
 from rosmini.navigation.kernels import kernel
 
 from .grid import OccupancyGrid

@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
+from rosmini.core.tf.messages import set_pose, transform_of
+from rosmini.core.tf.rigid import IDENTITY, Rigid, compose, from_yaw, inverse, rpy
+from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.nav_core.poses import planar_pose, pose_stamped
-from rosmini.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
-from rosmini.tf.messages import set_pose, transform_of
-from rosmini.tf.rigid import IDENTITY, Rigid, compose, from_yaw, inverse, rpy
-from rosmini.time import Time
 
 from .matching import NOTHING_KNOWN
 from .parameters import HectorMappingParameters
@@ -30,7 +30,7 @@ from .scans import plain_ends, scan_ends
 from .slam import HectorSlam
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 PATIENCE = 0.5
 """So long a scan waits for a transform [s]."""

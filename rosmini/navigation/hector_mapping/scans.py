@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.tf.rigid import Rigid, transform_points
+from rosmini.core.tf.rigid import Rigid, transform_points
 
 Floats = NDArray[np.float64]
 

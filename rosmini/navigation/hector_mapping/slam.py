@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose, transform_points
 
 from .grid import OccupancyGrid
 from .matching import Matched, match

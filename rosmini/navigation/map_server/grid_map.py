@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.angles import quaternion_from_yaw, yaw_from_quaternion
-from rosmini.geometry.poses import compose, inverse
-from rosmini.graph.show import show
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.angles import quaternion_from_yaw, yaw_from_quaternion
+from rosmini.core.geometry.poses import compose, inverse
+from rosmini.core.graph.show import show
 from rosmini.msgs import message_class
 
 if TYPE_CHECKING:
-    from rosmini.time import Time
+    from rosmini.core.time import Time
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 

@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini import files, images
-from rosmini.errors import nearest, shown
-from rosmini.graph.show import show
+from rosmini.core import files, images
+from rosmini.core.errors import nearest, shown
+from rosmini.core.graph.show import show
 
 from .grid_map import FREE, OCCUPIED, UNKNOWN, GridMap, MapDataError, MapMetadataError, MapMissing
 
@@ -198,7 +198,7 @@ def _odd_thresholds(fields: Fields) -> str:
 def _document(path: Path) -> _Document:
     import yaml
 
-    from rosmini.yaml_text import documents
+    from rosmini.core.yaml_text import documents
 
     try:
         text = files.read(path, LARGEST_TEXT).decode("utf-8-sig", errors="replace")

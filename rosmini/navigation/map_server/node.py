@@ -13,18 +13,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError, UsageError
-from rosmini.files import path_of
-from rosmini.graph.clock import TopicClock
+from rosmini.core.errors import RosminiError, UsageError
+from rosmini.core.files import path_of
+from rosmini.core.graph.clock import TopicClock
+from rosmini.core.packages import PackageIndex, address_of
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class, service_class
-from rosmini.packages import PackageIndex, address_of
-from rosmini.parameters import Parameters, parameter
 
 from .grid_map import GridMap, MapError, MapMetadataError, MapMissing
 from .map_io import MapFile, image_file, map_file
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 USAGE = """USAGE: map_server <map.yaml>
   map.yaml: map description file

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import UsageError
+from rosmini.core.errors import UsageError
 from rosmini.msgs import message_class
 
 from .grid_map import GridMap, MapError
@@ -20,7 +20,7 @@ from .map_saving import FREE_TO, OCCUPIED_FROM, save_map
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 USAGE = """Usage:
   map_saver -h

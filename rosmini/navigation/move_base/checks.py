@@ -5,13 +5,13 @@ from __future__ import annotations
 from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
+from rosmini.core.plugins import GROUP
 from rosmini.navigation.costmap_2d.inflation_layer import InflationLayer
 from rosmini.navigation.nav_core.plugin_files import short_name
-from rosmini.plugins import GROUP
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 SLACK = 0.01
 """By so much [m] the footprint may be narrower than it is long before it counts as not round."""

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.geometry.polygons import distances, inside
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.geometry.polygons import distances, inside
+from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.navigation.costmap_2d import LETHAL_OBSTACLE, Costmap2D
 
 Floats = NDArray[np.float64]

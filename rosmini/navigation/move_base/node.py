@@ -16,16 +16,16 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from rosmini.actionlib import SimpleActionServer
-from rosmini.dynamic_reconfigure import Server
-from rosmini.errors import ROSInterruptException, RosminiError
-from rosmini.graph.show import show
+from rosmini.core.actionlib import SimpleActionServer
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.errors import ROSInterruptException, RosminiError
+from rosmini.core.graph.show import show
+from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d import FREE_SPACE
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.nav_core import BadGoal, NavigationFailure, TransformMissing, planar_pose
 from rosmini.navigation.nav_core.poses import checked_goal
-from rosmini.tf import TransformListener
 
 from .checks import check_setup
 from .explanation import Explanation, explain
@@ -38,7 +38,7 @@ from .recoveries import Recoveries
 from .state_machine import Abort, Follow, Plan, Recover, State, StateMachine
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 BAD_QUATERNION = "Aborting on goal because it was sent with an invalid quaternion"
 RECOVERY_BUDGET = 120.0

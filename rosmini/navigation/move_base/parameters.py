@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rosmini.parameters import Parameters, parameter
+from rosmini.core.parameters import Parameters, parameter
 
 from .state_machine import Limits
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from rosmini.graph import Publisher
+from rosmini.core.graph import Publisher
 
 from .plugins import GLOBAL, LOCAL
 from .state_machine import State

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from .state_machine import StateMachine
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node, Waiter
+    from rosmini.core.graph import Node, Waiter
 
 STEP_CELLS = 3.0
 """How many cells the goals lie apart that `make_plan` tries instead of its own."""

@@ -16,11 +16,11 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ROSInterruptException
+from rosmini.core.errors import ROSInterruptException
 from rosmini.navigation.nav_core import NavigationFailure
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 TURNS_PER_SECOND = 1_000_000
 """The number of turns of loops that count as a second."""

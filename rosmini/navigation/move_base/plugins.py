@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ROSInterruptException
-from rosmini.graph import Subscriber
+from rosmini.core.errors import ROSInterruptException
+from rosmini.core.graph import Subscriber
+from rosmini.core.plugins import PluginError
 from rosmini.navigation.nav_core import BaseGlobalPlanner, BaseLocalPlanner
 from rosmini.navigation.nav_core.plugin_files import create, short_name
-from rosmini.plugins import PluginError
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
-    from rosmini.tf import Buffer
+    from rosmini.core.graph import Node
+    from rosmini.core.tf import Buffer
 
 GLOBAL, LOCAL = "global", "local"
 

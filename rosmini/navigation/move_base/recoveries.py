@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from rosmini.core.plugins import PluginError
 from rosmini.navigation.nav_core import RecoveryBehavior
 from rosmini.navigation.nav_core.plugin_files import create, short_name
-from rosmini.plugins import PluginError
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
-    from rosmini.tf import Buffer
+    from rosmini.core.graph import Node
+    from rosmini.core.tf import Buffer
 
 CLEAR, ROTATE = "clear_costmap_recovery/ClearCostmapRecovery", "rotate_recovery/RotateRecovery"
 

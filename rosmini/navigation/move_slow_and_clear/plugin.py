@@ -13,13 +13,13 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ServiceException
+from rosmini.core.errors import ServiceException
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, planar_pose
-from rosmini.parameters import Parameters, parameter
 
 if TYPE_CHECKING:
-    from rosmini.graph.clock import Timer
+    from rosmini.core.graph.clock import Timer
 
 CHECK_PERIOD = 0.1
 """How often it looks how far the robot has driven [s]."""

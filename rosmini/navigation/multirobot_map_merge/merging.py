@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.navigation.map_server import GridMap
 from rosmini.navigation.map_server.grid_map import UNKNOWN, MapError
 

@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.errors import ParameterError
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import ParameterError
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.names import join
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
-from rosmini.names import join
 from rosmini.navigation.map_server import GridMap, MapError
-from rosmini.parameters import Parameters, parameter
 
 from .merging import merge
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 GRID = "nav_msgs/OccupancyGrid"
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.time import Time
 
 
 def point_cloud(frame_id: str, stamp: Time, names: Sequence[str], rows: ArrayLike) -> Any:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 
 class NavigationFailure(RosminiError):

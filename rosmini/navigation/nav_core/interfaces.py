@@ -15,11 +15,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from rosmini.plugins import Plugin
+from rosmini.core.plugins import Plugin
 
 if TYPE_CHECKING:
+    from rosmini.core.tf import Buffer
     from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
-    from rosmini.tf import Buffer
 
 
 class BaseGlobalPlanner(Plugin, ABC):

@@ -25,11 +25,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from rosmini.errors import RosminiError
-from rosmini.markup import Element, parse_file
-from rosmini.packages import Package, PackageIndex
-from rosmini.plugins import Plugin, PluginError
-from rosmini.rospy import importer
+from rosmini.core.errors import RosminiError
+from rosmini.core.markup import Element, parse_file
+from rosmini.core.packages import Package, PackageIndex
+from rosmini.core.plugins import Plugin, PluginError
+from rosmini.ros.rospy import importer
 
 T = TypeVar("T", bound=Plugin)
 
@@ -112,7 +112,7 @@ def declared_plugins(name: str, unread: list[str]) -> Iterator[Declared]:
 
 def _is_ours(folder: Path) -> bool:
     """Whether a package is one that rosmini brings: its plugins are registered."""
-    from rosmini.packages import assets_dir
+    from rosmini.core.packages import assets_dir
 
     return folder.is_relative_to(assets_dir())
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from rosmini.geometry.angles import quaternion_from_yaw, yaw_from_quaternion
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.angles import quaternion_from_yaw, yaw_from_quaternion
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.time import Time
 
 from .failures import BadGoal
 

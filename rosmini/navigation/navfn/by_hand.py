@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.navigation.costmap_2d.costmap import LETHAL_OBSTACLE
 
 from .search import Point, Points, Search, cell_of

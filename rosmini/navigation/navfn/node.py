@@ -11,13 +11,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.nav_core import BaseGlobalPlanner, NavigationFailure
-from rosmini.tf import TransformListener
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 
 class PlannerNode:

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.nav_core import BaseGlobalPlanner, OutsideMap, PlanningFailure
-from rosmini.time import Time
 
 from .search import Search
 

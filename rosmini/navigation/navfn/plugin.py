@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import OutsideMap
 from rosmini.navigation.nav_core.clouds import point_cloud
-from rosmini.parameters import Parameters, parameter
 
 from .planning import GridPlanner, Poses
 from .search import NavfnSearch, cell_of

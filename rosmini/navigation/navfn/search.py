@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.graph.show import show
+from rosmini.core.graph.show import show
 from rosmini.navigation.costmap_2d.costmap import LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
 from rosmini.navigation.kernels import kernel
 from rosmini.navigation.nav_core.failures import OutsideMap, PlanningFailure

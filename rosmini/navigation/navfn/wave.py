@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.machine_code import machine_code
+from rosmini.core.geometry.machine_code import machine_code
 
 HIGH = 1e10
 """The potential of a cell that the wave has not reached."""

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
 from rosmini.navigation.base_local_planner.costmap_model import footprint_cost
 from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, planar_pose
-from rosmini.parameters import Parameters, parameter
 
 from .rotation import FullTurn, first_collision, turn_speed
 

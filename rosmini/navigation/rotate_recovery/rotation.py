@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from rosmini.geometry.angles import shortest_angular_distance
+from rosmini.core.geometry.angles import shortest_angular_distance
 
 
 class FullTurn:

@@ -10,9 +10,9 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.msgs import message_class
 from rosmini.sim.engine.odometry import Odometry
 from rosmini.sim.engine.robot import HolonomicRobot

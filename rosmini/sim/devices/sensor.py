@@ -11,7 +11,7 @@ from rosmini.msgs.template import template
 from rosmini.sim.host import Device, Host, Stamp
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 STAMP = ("header.stamp.secs", "header.stamp.nsecs")
 

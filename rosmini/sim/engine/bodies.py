@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.polygons import area, convex_parts
-from rosmini.geometry.poses import Pose
-from rosmini.geometry.products import scalar_product
+from rosmini.core.geometry.polygons import area, convex_parts
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.geometry.products import scalar_product
 from rosmini.sim.models import GRAVITY, RobotModel
 from rosmini.sim.shapes import ROUND, Compound, Shape, outline_at, reach_of, simple_parts
 from rosmini.sim.world import Obstacle

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Obstacle, World
 

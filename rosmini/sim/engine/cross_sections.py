@@ -1,6 +1,6 @@
 """Cross-sections of obstacles and robots at one height: what a laser there can hit.
 
-Straight edges are segments (n, 4), round shapes discs (m, 3), as `rosmini.geometry.raycast` takes them.
+Straight edges are segments (n, 4), round shapes discs (m, 3), as `rosmini.core.geometry.raycast` takes them.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.angles import cos_sin
-from rosmini.geometry.poses import Pose, compose
-from rosmini.geometry.products import matrix_product
+from rosmini.core.geometry.angles import cos_sin
+from rosmini.core.geometry.poses import Pose, compose
+from rosmini.core.geometry.products import matrix_product
 from rosmini.sim.models import RobotModel
 from rosmini.sim.shapes import Part, Simple, Sphere, simple_parts
 from rosmini.sim.world import Box, Obstacle, Polygon, edges

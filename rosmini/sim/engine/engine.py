@@ -24,8 +24,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.sensors.lidar import scan as measure
 from rosmini.sim.shapes import Part

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 
-from rosmini.geometry.poses import Pose, arc
+from rosmini.core.geometry.poses import Pose, arc
 
 Phase = tuple[float, float, float]
 """How long it lasts [s], and at which rates the left and the right rim change their speeds meanwhile [m/s2]."""

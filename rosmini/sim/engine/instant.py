@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 
 SECOND = 1_000_000_000
 """[ns]"""

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.machine_code import machine_code
+from rosmini.core.geometry.machine_code import machine_code
 
 from .outlines import NONE, Contact, contact, contact_disc, facing, gap, height, nearest_side, parting
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.world import Obstacle, World
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.motion import Door, Walk
 from rosmini.sim.shapes import reach_of
 from rosmini.sim.world import Obstacle

@@ -28,7 +28,7 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import RobotModel
 
 SLIP_PERIOD = 1.0

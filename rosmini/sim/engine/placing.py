@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import World, WorldError
 

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.sim.models import RobotModel
 from rosmini.sim.sensors.imu import Motion
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 
 from .bodies import Body, Surface
 from .ground import FixedPiece, Ground

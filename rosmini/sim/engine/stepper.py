@@ -34,7 +34,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 
 from .bodies import AT_REST, Body, Crate
 from .instant import SECOND, STEP, STEP_NS

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry import raycast
-from rosmini.geometry.angles import cos_sin
+from rosmini.core.geometry import raycast
+from rosmini.core.geometry.angles import cos_sin
 from rosmini.sim.models import LidarModel
 from rosmini.sim.sensors.lidar import measured
 
@@ -34,7 +34,7 @@ from .trails import Later, between
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from rosmini.geometry.poses import Pose
+    from rosmini.core.geometry.poses import Pose
 
     from .bodies import Crate
     from .movers import Mover

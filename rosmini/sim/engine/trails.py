@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.angles import cos_sin
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.angles import cos_sin
+from rosmini.core.geometry.poses import Pose
 
 Floats = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ import math
 from abc import ABC, abstractmethod
 from typing import NamedTuple
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import RobotModel
 from rosmini.sim.sensors.imu import Motion
 

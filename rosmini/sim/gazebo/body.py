@@ -11,9 +11,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rosmini.errors import nearest
-from rosmini.geometry.poses import Pose, compose, inverse, transform_points
-from rosmini.geometry.products import matrix_product, scalar_product
+from rosmini.core.errors import nearest
+from rosmini.core.geometry.poses import Pose, compose, inverse, transform_points
+from rosmini.core.geometry.products import matrix_product, scalar_product
 from rosmini.sim.models import Drive, RobotModel, WheelErrors, hull
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfModel, SdfPlugin, placed_links, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from rosmini.errors import ScriptError
-from rosmini.graph import Node
+from rosmini.core.errors import ScriptError
+from rosmini.core.graph import Node
 
 from .snapshot import Pictured, Snapshot
 from .topics import GazeboMaster, Poses, WorldStatistics, address, find_master

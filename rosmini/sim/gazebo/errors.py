@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 
 class GazeboError(RosminiError):

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini import urdf
-from rosmini.geometry.products import inverse_matrix, matrix_product, scalar_product
-from rosmini.markup import Element
+from rosmini.core.geometry.products import inverse_matrix, matrix_product, scalar_product
+from rosmini.core.markup import Element
+from rosmini.sim import urdf
 from rosmini.sim.sdf import (
     ORIGIN,
     Pose6,

@@ -15,11 +15,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rosmini.errors import nearest
-from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.geometry.products import matrix_product
-from rosmini.graph import Node
-from rosmini.markup import Element
+from rosmini.core.errors import nearest
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.geometry.products import matrix_product
+from rosmini.core.graph import Node
+from rosmini.core.markup import Element
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.robot import Robot
 from rosmini.sim.host import Host

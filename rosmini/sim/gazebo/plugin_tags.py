@@ -1,6 +1,6 @@
 """What is inside a plugin's tag, declared once: tag, type, default and meaning.
 
->>> from rosmini.markup import parse
+>>> from rosmini.core.markup import parse
 >>> @dataclass(frozen=True)
 ... class PushTags(Tags):
 ...     speed: float = tag("speed", 0.1, "how fast to push", unit="m/s")
@@ -17,8 +17,8 @@ from collections.abc import Callable
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, ClassVar, Self, get_args, get_type_hints
 
-from rosmini.errors import nearest
-from rosmini.markup import Element
+from rosmini.core.errors import nearest
+from rosmini.core.markup import Element
 
 COMMON = ("robotNamespace", "alwaysOn", "rosDebugLevel", "debug", "enableDebug")
 """Tags that any plugin of gazebo_ros may have."""

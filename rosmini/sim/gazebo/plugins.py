@@ -21,8 +21,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-from rosmini.errors import nearest
-from rosmini.markup import Element
+from rosmini.core.errors import nearest
+from rosmini.core.markup import Element
 from rosmini.sim.host import Device, Host, Stamp
 
 from .absent import ABSENT

@@ -12,10 +12,10 @@ from contextlib import ExitStack
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import compose
-from rosmini.graph import Node
-from rosmini.markup import Element
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import compose
+from rosmini.core.graph import Node
+from rosmini.core.markup import Element
 from rosmini.sim.dragging import check_room
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host

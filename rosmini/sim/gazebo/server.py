@@ -16,10 +16,10 @@ import math
 from dataclasses import asdict, replace
 from typing import Any, NoReturn
 
-from rosmini.dynamic_reconfigure import Server as ReconfigureServer
-from rosmini.errors import ParameterError, ScriptError
-from rosmini.geometry.poses import Pose
-from rosmini.graph import Node
+from rosmini.core.dynamic_reconfigure import Server as ReconfigureServer
+from rosmini.core.errors import ParameterError, ScriptError
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph import Node
 from rosmini.sim.devices import ClockDevice
 from rosmini.sim.sdf import SdfModel, SdfWorld
 from rosmini.sim.simulation import Simulation

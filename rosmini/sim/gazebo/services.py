@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.products import matrix_product
-from rosmini.markup import parse
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.products import matrix_product
+from rosmini.core.markup import parse
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.sdf import Pose6, placed_links
 from rosmini.sim.sdf.poses import compose, from_quaternion, inverse, matrix, quaternion

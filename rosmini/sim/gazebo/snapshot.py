@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import compose
-from rosmini.graph.show import show
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import compose
+from rosmini.core.graph.show import show
 from rosmini.sim.models import RobotModel
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfCollision, SdfVisual, placed_links, to_obstacles
 from rosmini.sim.world import Obstacle, World

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from rosmini import urdf
-from rosmini.markup import MarkupError, parse
-from rosmini.sim import sdf
+from rosmini.core.markup import MarkupError, parse
+from rosmini.sim import sdf, urdf
 from rosmini.sim.sdf import Pose6
 
 from .from_urdf import Converted, from_urdf

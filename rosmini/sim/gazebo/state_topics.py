@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from types import SimpleNamespace
 from typing import Any
 
-from rosmini.graph import Node
+from rosmini.core.graph import Node
 from rosmini.msgs import message_class
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.sdf import Pose6

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rosmini.markup import Element
+from rosmini.core.markup import Element
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfGeometry, SdfJoint, SdfLink, SdfModel
 
 VERSION = "1.7"

@@ -15,8 +15,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rosmini.errors import nearest
-from rosmini.graph.graph_core import GraphCore
+from rosmini.core.errors import nearest
+from rosmini.core.graph.graph_core import GraphCore
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.sdf import Pose6
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from rosmini.errors import nearest
-from rosmini.packages import PackageIndex, assets_dir
+from rosmini.core.errors import nearest
+from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.sim import sdf, worlds
 from rosmini.sim.sdf import SdfWorld
 from rosmini.sim.world import World

@@ -15,12 +15,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from rosmini.geometry.errors import GeometryError
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.errors import GeometryError
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.motion import Motion, Walk
 from rosmini.sim.shapes import Compound, Cylinder, Shape, Sphere
+from rosmini.sim.urdf.meshes import MeshError
 from rosmini.sim.world import Obstacle, World, WorldError
-from rosmini.urdf.meshes import MeshError
 
 from .document import Note, Pose6, SdfActor, SdfCollision, SdfJoint, SdfLink, SdfModel, SdfWorld
 from .doors import door_of

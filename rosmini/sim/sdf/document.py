@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from rosmini.markup import Element
+from rosmini.core.markup import Element
 
 Pose6 = tuple[float, float, float, float, float, float]
 """x, y, z [m], roll, pitch, yaw [rad]: the rotation is yaw after pitch after roll, about fixed axes."""

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
 from rosmini.sim.motion import Door
 from rosmini.sim.shapes import WorldError
 

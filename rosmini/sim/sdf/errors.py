@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rosmini.markup import MarkupError
+from rosmini.core.markup import MarkupError
 
 
 class SdfError(MarkupError):

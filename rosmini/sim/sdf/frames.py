@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rosmini.errors import nearest
-from rosmini.markup import FARTHEST, Element
+from rosmini.core.errors import nearest
+from rosmini.core.markup import FARTHEST, Element
 
 from .document import ORIGIN, Pose6
 from .poses import compose, from_quaternion, inverse

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from rosmini.markup import Element
+from rosmini.core.markup import Element
 
 GAZEBO: Mapping[str, str] = MappingProxyType(
     {

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import get_args
 
-from rosmini.errors import Hints, nearest
-from rosmini.markup import FARTHEST, HEAVIEST, Element
-from rosmini.urdf import meshes
+from rosmini.core.errors import Hints, nearest
+from rosmini.core.markup import FARTHEST, HEAVIEST, Element
+from rosmini.sim.urdf import meshes
 
 from .document import (
     GeometryKind,

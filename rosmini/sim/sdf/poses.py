@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.products import matrix_product
-from rosmini.tf.rigid import from_rpy
+from rosmini.core.geometry.products import matrix_product
+from rosmini.core.tf.rigid import from_rpy
 
 from .document import ORIGIN, Pose6, SdfLink, SdfModel
 

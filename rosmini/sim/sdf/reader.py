@@ -6,8 +6,8 @@ import os
 from collections.abc import Iterable
 from dataclasses import replace
 
-from rosmini.errors import shown
-from rosmini.markup import Element, parse
+from rosmini.core.errors import shown
+from rosmini.core.markup import Element, parse
 
 from .document import Pose6, Sdf, SdfActor, SdfModel, SdfPhysics, SdfWorld
 from .errors import MissingError, SdfError
@@ -40,7 +40,7 @@ def load(source: str | os.PathLike[str], *, models: Iterable[str | os.PathLike[s
     if isinstance(source, str) and source.lstrip().startswith("<"):
         root = parse(source, failure=SdfError, late_declaration=True)
     elif isinstance(source, str) and source.startswith("package://"):
-        from rosmini.packages import PackageIndex
+        from rosmini.core.packages import PackageIndex
 
         root = read_file(PackageIndex().resolve(source))
     else:
@@ -50,7 +50,7 @@ def load(source: str | os.PathLike[str], *, models: Iterable[str | os.PathLike[s
 
 def _document(root: Element, reading: Reading) -> Sdf:
     if root.tag not in ("sdf", "gazebo"):
-        hint = "; this is a URDF, read it with rosmini.urdf.load" if root.tag == "robot" else ""
+        hint = "; this is a URDF, read it with rosmini.sim.urdf.load" if root.tag == "robot" else ""
         raise root.error(f"an SDF file begins with <sdf version=...>, not with <{root.tag}>{hint}")
     reading.unknown(root, ("world", "model", "actor", "light", "include"))
     for light in root.all("light"):

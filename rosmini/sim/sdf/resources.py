@@ -12,10 +12,10 @@ from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
 
-from rosmini import files
-from rosmini.errors import RosminiError, nearest, shown
-from rosmini.markup import Element, parse_file
-from rosmini.packages import PackageIndex, assets_dir
+from rosmini.core import files
+from rosmini.core.errors import RosminiError, nearest, shown
+from rosmini.core.markup import Element, parse_file
+from rosmini.core.packages import PackageIndex, assets_dir
 
 from .errors import MissingError, SdfError
 

@@ -14,12 +14,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry import polygons
-from rosmini.geometry.poses import Pose
-from rosmini.geometry.products import matrix_product, norm
-from rosmini.geometry.slices import convex_hull, cut, loops, pieces, thinned
+from rosmini.core.geometry import polygons
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.geometry.products import matrix_product, norm
+from rosmini.core.geometry.slices import convex_hull, cut, loops, pieces, thinned
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Simple, Sphere
-from rosmini.urdf.meshes import MeshError, read
+from rosmini.sim.urdf.meshes import MeshError, read
 
 from .document import Pose6, SdfGeometry
 from .poses import matrix, upright

@@ -27,7 +27,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 CURVE = (
     (0.0, 3.27), (0.05, 3.61), (0.10, 3.69), (0.20, 3.73), (0.30, 3.77), (0.40, 3.80), (0.50, 3.84),

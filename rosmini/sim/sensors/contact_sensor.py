@@ -10,8 +10,8 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import Pose
 
 Contact = tuple[tuple[float, float], float]
 """Where a robot touches something, in the frame of the world [m], and how hard that presses [N]."""

@@ -23,8 +23,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
-from rosmini.geometry.raycast import raycast
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.geometry.raycast import raycast
 from rosmini.sim.models import LidarModel
 
 Floats = NDArray[np.float64]

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.products import matrix_product, norms
+from rosmini.core.geometry.products import matrix_product, norms
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import CameraModel
 from rosmini.sim.shapes import Part
 from rosmini.sim.world import World

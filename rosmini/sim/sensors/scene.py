@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import compose
-from rosmini.geometry.products import norms
+from rosmini.core.geometry.poses import compose
+from rosmini.core.geometry.products import norms
 from rosmini.sim.shapes import Cylinder, Part, Sphere, outline_at, simple_parts
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.products import matrix_product, norm
+from rosmini.core.geometry.products import matrix_product, norm
 
 from .raster import GROUND, Eye
 from .scene import Floats, Rgb, Scene

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import LidarModel, RobotModel, WheelErrors, hull
 from rosmini.sim.shapes import Part, outline_at
 

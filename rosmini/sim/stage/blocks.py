@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini import images
-from rosmini.geometry.contours import outlines
-from rosmini.geometry.polygons import area, crossing_sides
+from rosmini.core import images
+from rosmini.core.geometry.contours import outlines
+from rosmini.core.geometry.polygons import area, crossing_sides
 from rosmini.sim.models import hull
 
 from .errors import Place, StageError

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import compose
+from rosmini.core.geometry.poses import compose
 from rosmini.sim.devices.camera import CameraDevice, heard, image_message, info_message
 from rosmini.sim.devices.sensor import Outlet
 from rosmini.sim.host import Host, Stamp

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.angles import normalize_angle
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.angles import normalize_angle
+from rosmini.core.geometry.poses import Pose
 from rosmini.msgs import message_class
 from rosmini.sim.devices import DifferentialDrive, GroundTruth, OdometryTransforms, RangeDevice
 from rosmini.sim.devices.drive import Reckoned

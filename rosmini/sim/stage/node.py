@@ -22,12 +22,12 @@ import os
 from dataclasses import dataclass
 from typing import Any
 
-from rosmini.errors import IllegalName, RosminiError, ScriptError, nearest
-from rosmini.geometry.angles import quaternion_from_yaw
-from rosmini.geometry.poses import Pose
-from rosmini.graph import Node
+from rosmini.core.errors import IllegalName, RosminiError, ScriptError, nearest
+from rosmini.core.geometry.angles import quaternion_from_yaw
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph import Node
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import service_class
-from rosmini.parameters import Parameters, parameter
 from rosmini.sim.devices.clock import ClockDevice
 from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.host import Host

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.sim.engine.free_motion import glide
 
 from .robots import StageRobot

@@ -20,7 +20,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
 
 from .errors import Place, StageError
 from .tokens import Token, read

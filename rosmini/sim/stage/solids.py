@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.polygons import area, inside, sides_of
-from rosmini.geometry.poses import Pose, compose, inverse, transform_points
+from rosmini.core.geometry.polygons import area, inside, sides_of
+from rosmini.core.geometry.poses import Pose, compose, inverse, transform_points
 from rosmini.sim.shapes import Box, Polygon, Shape
 
 from .blocks import Block

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from rosmini import files
+from rosmini.core import files
 
 from .errors import Place, StageError
 

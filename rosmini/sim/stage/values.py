@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from rosmini.errors import Hints, nearest
+from rosmini.core.errors import Hints, nearest
 
 from .errors import Place, StageError
 from .parse import Entity, Property, Value, leading_number

@@ -17,9 +17,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.files import exists, is_file
-from rosmini.geometry.polygons import sides_of
-from rosmini.packages import PackageIndex
+from rosmini.core.files import exists, is_file
+from rosmini.core.geometry.polygons import sides_of
+from rosmini.core.packages import PackageIndex
 from rosmini.sim.shapes import Compound
 from rosmini.sim.world import Obstacle, World, WorldError
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from rosmini.errors import Hints
+from rosmini.core.errors import Hints
 
 DIFFERENT = {"gray": "#bebebe", "green": "#00ff00", "maroon": "#b03060", "purple": "#a020f0"}
 """What X11 means by a name that means something else on the web; grey is gray."""

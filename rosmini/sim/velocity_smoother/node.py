@@ -11,14 +11,14 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.dynamic_reconfigure import Server
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
-from rosmini.parameters import Parameters, parameter
 
 from .smoother import FEEDBACK, Limits, VelocitySmoother
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
+    from rosmini.core.graph import Node
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from collections import deque
 from dataclasses import dataclass
 from statistics import median
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 Velocity = tuple[float, float]
 """The speed ahead [m/s] and the turn to the left [rad/s]."""

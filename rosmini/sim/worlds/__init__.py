@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from rosmini.errors import nearest
-from rosmini.packages import assets_dir
+from rosmini.core.errors import nearest
+from rosmini.core.packages import assets_dir
 from rosmini.sim.world import Pose, World, WorldError
 
 from . import rooms
@@ -99,7 +99,7 @@ def world(name: str | os.PathLike[str]) -> World:
             return world_from_map(file, title=what, starts=_FLOOR_STARTS)
         return world_from_sdf(file, name=text, title=what)
     if text.startswith(SCHEME):
-        from rosmini.packages import PackageIndex
+        from rosmini.core.packages import PackageIndex
 
         return world_from_file(PackageIndex().resolve(text))
     if isinstance(name, os.PathLike) or Path(text).suffix or os.sep in text or "/" in text:

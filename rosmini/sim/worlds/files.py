@@ -10,8 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
-from rosmini.files import read
-from rosmini.packages import PackageIndex
+from rosmini.core.files import read
+from rosmini.core.packages import PackageIndex
 from rosmini.sim.sdf import SdfError, converted, load
 from rosmini.sim.sdf.document import Note
 from rosmini.sim.world import World

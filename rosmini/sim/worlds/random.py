@@ -13,8 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import shown
-from rosmini.geometry import polygons
+from rosmini.core.errors import shown
+from rosmini.core.geometry import polygons
 from rosmini.sim.motion import Walk
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Shape, is_finite
 from rosmini.sim.world import Obstacle, Pose, World, WorldError

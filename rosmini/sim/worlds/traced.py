@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rosmini.geometry.contours import trace
-from rosmini.geometry.poses import inverse, transform_points
+from rosmini.core.geometry.contours import trace
+from rosmini.core.geometry.poses import inverse, transform_points
 from rosmini.navigation.map_server import GridMap, load_map
 from rosmini.sim.world import Pose, World
 

@@ -7,8 +7,8 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry import polygons
-from rosmini.geometry.slices import within
+from rosmini.core.geometry import polygons
+from rosmini.core.geometry.slices import within
 from rosmini.navigation.map_server import GridMap
 from rosmini.sim.shapes import ROUND, Simple, outline_at
 from rosmini.sim.world import Pose, World, WorldError

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.products import matrix_product, norm, scalar_product
+from rosmini.core.geometry.products import matrix_product, norm, scalar_product
 from rosmini.viz import style
 from rosmini.viz.rounding import snap
 from rosmini.viz.svg import document, element

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from rosmini.errors import nearest
-from rosmini.geometry.products import matrix_product, norm
+from rosmini.core.errors import nearest
+from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.sim.gazebo.snapshot import ShownModel, Snapshot
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Sphere, outline_at

@@ -10,8 +10,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from rosmini.urdf import Box, Cylinder, Geometry, Material, Mesh, Robot, Sphere, Visual, load
-from rosmini.urdf.meshes import Surface, read
+from rosmini.sim.urdf import Box, Cylinder, Geometry, Material, Mesh, Robot, Sphere, Visual, load
+from rosmini.sim.urdf.meshes import Surface, read
 from rosmini.viz.view import ViewError
 
 from .solids import Facets, Floats, LinkPart, Prism, mesh, regular, triangulate

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.polygons import inside, sides_of
-from rosmini.geometry.products import matrix_product
+from rosmini.core.geometry.polygons import inside, sides_of
+from rosmini.core.geometry.products import matrix_product
 from rosmini.viz.rounding import snap
 
 Floats = NDArray[np.float64]

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.polygons import needed
-from rosmini.geometry.poses import compose, inverse
-from rosmini.geometry.products import inverse_matrix, matrix_product
+from rosmini.core.geometry.polygons import needed
+from rosmini.core.geometry.poses import compose, inverse
+from rosmini.core.geometry.products import inverse_matrix, matrix_product
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.models import Part as SimplePart
 from rosmini.sim.sensors.scene import trapezia

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.urdf.meshes import Surface
+from rosmini.sim.urdf.meshes import Surface
 from rosmini.viz.rounding import snap
 
 Floats = NDArray[np.float64]

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from rosmini.geometry.products import norm
-from rosmini.urdf import Robot
+from rosmini.core.geometry.products import norm
+from rosmini.sim.urdf import Robot
 from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from rosmini.geometry.polygons import area
-from rosmini.geometry.products import matrix_product, norm
+from rosmini.core.geometry.polygons import area
+from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.sim.gazebo.snapshot import ShownLink, ShownModel
 from rosmini.sim.sdf import SdfCollision, SdfGeometry, SdfVisual
 from rosmini.sim.sdf.poses import matrix
-from rosmini.urdf import Box, Cylinder, Sphere
-from rosmini.urdf.meshes import Surface, read
+from rosmini.sim.urdf import Box, Cylinder, Sphere
+from rosmini.sim.urdf.meshes import Surface, read
 
 from .links import hex_colour, merged, surfaces_of, upright
 from .solids import Floats

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rosmini.geometry.polygons import area
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.polygons import area
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.shapes import ROUND, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, World

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose, compose, inverse, transform_points
+from rosmini.core.geometry.poses import Pose, compose, inverse, transform_points
 from rosmini.viz.image_pictures import pixels_of
 from rosmini.viz.replay.grids import Grid, Grids, grid
 from rosmini.viz.replay.images import Images, small

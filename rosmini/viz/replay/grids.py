@@ -9,8 +9,8 @@ from typing import Any, ClassVar, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
-from rosmini.geometry.products import matrix_product
+from rosmini.core.geometry.poses import Pose
+from rosmini.core.geometry.products import matrix_product
 from rosmini.viz.map_colours import UNKNOWN, colours_of, scheme_of
 from rosmini.viz.replay.layers import Bounds, Frames, around
 from rosmini.viz.replay.packing import ANGLE, LENGTH, pack, pack_columns, pack_natural

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.products import norms
+from rosmini.core.geometry.products import norms
 from rosmini.viz.replay.packing import ANGLE, LENGTH, TIME, pack, pack_columns, whole
 from rosmini.viz.rounding import fixed, kept
 from rosmini.viz.view import ViewError

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from rosmini.bag import Bag
-from rosmini.errors import DeserializationError, RosminiError, nearest
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.errors import DeserializationError, RosminiError, nearest
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.ros.bag import Bag
 from rosmini.viz.replay.collectors import COLLECTORS, TRANSFORMS, UPDATE, Collector, TrackCollector, laid_on
 from rosmini.viz.replay.layers import Layer
 from rosmini.viz.replay.run import MOST_POSES, Body, Run

@@ -10,8 +10,8 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from rosmini.bag import Bag
-from rosmini.bag.mcap import from_mcap
+from rosmini.ros.bag import Bag
+from rosmini.ros.bag.mcap import from_mcap
 from rosmini.sim.models import RobotModel, model
 from rosmini.sim.recording import Recording
 from rosmini.viz.moving_view import MovingView

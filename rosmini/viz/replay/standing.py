@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.angles import yaw_from_quaternion
-from rosmini.geometry.poses import Pose, compose
-from rosmini.tf.errors import TransformException
-from rosmini.tf.messages import from_transform
-from rosmini.tf.tree import FrameTree
+from rosmini.core.geometry.angles import yaw_from_quaternion
+from rosmini.core.geometry.poses import Pose, compose
+from rosmini.core.tf.errors import TransformException
+from rosmini.core.tf.messages import from_transform
+from rosmini.core.tf.tree import FrameTree
 from rosmini.viz.view import ViewError
 
 Floats = NDArray[np.float64]

@@ -18,13 +18,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rosmini.bag import Bag, RecordOptions
-from rosmini.bag import Recorder as BagRecorder
-from rosmini.dynamic_reconfigure.client import Client
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
-from rosmini.graph.show import GROUP, find_extension
-from rosmini.launch import roslaunch
+from rosmini.core.dynamic_reconfigure.client import Client
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
+from rosmini.core.graph.show import GROUP, find_extension
+from rosmini.ros.bag import Bag, RecordOptions
+from rosmini.ros.bag import Recorder as BagRecorder
+from rosmini.ros.launch import roslaunch
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.recording import Recording, RecordingError
 from rosmini.viz.replay.player import ReplayView, replay

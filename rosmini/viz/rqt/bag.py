@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rosmini.bag import Bag
+from rosmini.ros.bag import Bag
 from rosmini.viz.figures import WIDTH, say, step_of, ticks
 from rosmini.viz.metrics import text_width
 from rosmini.viz.rounding import fixed

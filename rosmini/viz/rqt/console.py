@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any, Literal, get_args
 
-from rosmini.errors import nearest
-from rosmini.graph.rosout import LEVELS, NAMES
+from rosmini.core.errors import nearest
+from rosmini.core.graph.rosout import LEVELS, NAMES
 from rosmini.viz.rqt.selection import matches
 from rosmini.viz.rqt.table import heading, table_figure
 from rosmini.viz.svg import element, escape

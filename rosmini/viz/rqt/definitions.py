@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rosmini.errors import DefinitionError, IllegalName, UnknownPackage, UnknownType
+from rosmini.core.errors import DefinitionError, IllegalName, UnknownPackage, UnknownType
 from rosmini.msgs.registry import registry
 from rosmini.viz.rqt.table import Table
 from rosmini.viz.view import ViewError

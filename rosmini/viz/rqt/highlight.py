@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
 from rosmini.viz.rqt.selection import Selection
 from rosmini.viz.view import ViewError
 

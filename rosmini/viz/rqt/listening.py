@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.introspection.fields import class_of
-from rosmini.introspection.topics import Found, look_up, what_next
+from rosmini.ros.introspection.fields import class_of
+from rosmini.ros.introspection.topics import Found, look_up, what_next
 from rosmini.viz.view import ViewError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.graph import Graph
+    from rosmini.core.graph import Graph
 
 
 def find_topic(graph: Graph, name: str) -> Found:

@@ -6,15 +6,15 @@ from bisect import bisect_left
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-from rosmini.introspection.fields import FieldError, class_of, reader
+from rosmini.ros.introspection.fields import FieldError, class_of, reader
 from rosmini.viz.rqt.listening import find_topic, listen
 from rosmini.viz.view import Picture, ViewError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from rosmini.bag import Bag
-    from rosmini.graph import Graph
+    from rosmini.core.graph import Graph
+    from rosmini.ros.bag import Bag
 
 Samples = dict[str, tuple[list[float], list[float]]]
 """By the name of a field: times [s] and values."""

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
 from rosmini.viz.rqt.graph_state import Connection, GraphState
 from rosmini.viz.view import ViewError
 

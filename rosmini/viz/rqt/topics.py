@@ -5,10 +5,10 @@ from __future__ import annotations
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from rosmini.introspection.fields import class_of
-from rosmini.introspection.rates import Arrivals, Sizes
-from rosmini.introspection.topics import types
 from rosmini.msgs.message import Message
+from rosmini.ros.introspection.fields import class_of
+from rosmini.ros.introspection.rates import Arrivals, Sizes
+from rosmini.ros.introspection.topics import types
 from rosmini.viz.rqt.listening import listen
 from rosmini.viz.rqt.table import Table
 from rosmini.viz.words import plural
@@ -16,7 +16,7 @@ from rosmini.viz.words import plural
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from rosmini.graph import Graph
+    from rosmini.core.graph import Graph
 
 COLUMNS = ("Topic", "Type", "Bandwidth", "Hz", "Value")
 LONGEST = 60

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.products import matrix_product
+from rosmini.core.geometry.products import matrix_product
 
 from .primitives import Floats, Lines, Mesh, Pixels, Points, Primitive, Texture
 from .projection import Perspective

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from rosmini import files
-from rosmini.errors import RosminiError
-from rosmini.packages import SCHEME, PackageIndex
+from rosmini.core import files
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import SCHEME, PackageIndex
+from rosmini.core.yaml_text import documents
 from rosmini.viz.view import ViewError
-from rosmini.yaml_text import documents
 
 from .properties import Colour, Properties, Property
 

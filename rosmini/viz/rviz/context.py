@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosmini.errors import RosminiError
-from rosmini.tf import Buffer, ExtrapolationException, TransformException
-from rosmini.tf.rigid import IDENTITY, Rigid
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf import Buffer, ExtrapolationException, TransformException
+from rosmini.core.tf.rigid import IDENTITY, Rigid
 
 if TYPE_CHECKING:
-    from rosmini.graph import Node
-    from rosmini.tf import FrameTree
+    from rosmini.core.graph import Node
+    from rosmini.core.tf import FrameTree
 
 TF_CACHE_S = 600.0
 """How much of the past RViz keeps of tf [s]."""

@@ -19,7 +19,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple
 
-from rosmini.plugins import Plugin
+from rosmini.core.plugins import Plugin
 
 from .context import Context
 from .primitives import DisplayError, Pane, Primitive

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rosmini.geometry.products import matrix_product, scalar_product
+from rosmini.core.geometry.products import matrix_product, scalar_product
 
 from .primitives import Floats, Mesh
 

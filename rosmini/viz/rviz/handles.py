@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.geometry.products import inverse_matrix, matrix_product, norm, scalar_product
-from rosmini.interactive_markers import auto_complete, title_control
+from rosmini.core.geometry.products import inverse_matrix, matrix_product, norm, scalar_product
+from rosmini.core.tf.rigid import matrix, rigid
+from rosmini.core.tf.transformations import quaternion_from_matrix
 from rosmini.msgs import message_class
-from rosmini.tf.rigid import matrix, rigid
-from rosmini.tf.transformations import quaternion_from_matrix
+from rosmini.ros.interactive_markers import auto_complete, title_control
 
 from .context import Context
 from .display import Level

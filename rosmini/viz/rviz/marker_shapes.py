@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from rosmini import files
-from rosmini.errors import RosminiError
-from rosmini.geometry.products import matrix_product, norm
-from rosmini.packages import SCHEME, PackageIndex
-from rosmini.urdf.meshes import read
+from rosmini.core import files
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.products import matrix_product, norm
+from rosmini.core.packages import SCHEME, PackageIndex
+from rosmini.sim.urdf.meshes import read
 
 from .marker_checks import LINES, SOLIDS, Marker
 from .primitives import MOST_POINTS, DisplayError, Floats, Lines, Mesh, Points, Primitive, Text, finite

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.geometry.products import inverse_matrix, matrix_product, norms
-from rosmini.tf.rigid import Floats
+from rosmini.core.geometry.products import inverse_matrix, matrix_product, norms
+from rosmini.core.tf.rigid import Floats
 
 from .camera_images import PinHole
 from .primitives import Lines, Mesh, Pixels, Points, Primitive, Texture

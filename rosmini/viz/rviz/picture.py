@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rosmini.plugins import PluginError
+from rosmini.core.plugins import PluginError
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.meshcat import MeshcatView
 from rosmini.viz.view import Picture, View, ViewError
@@ -27,7 +27,7 @@ from .suggestions import suggested
 from .views import Sight, view_like
 
 if TYPE_CHECKING:
-    from rosmini.graph import Graph
+    from rosmini.core.graph import Graph
 
 BACKDROP = ("rviz/Grid",)
 """Displays that a picture is not made larger for, if there is anything else."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.geometry.products import matrix_product
+from rosmini.core.geometry.products import matrix_product
 
 from .primitives import DisplayError, Floats, Points
 from .properties import Colour, Property

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rosmini.geometry.products import determinant, eigen, matrix_product
+from rosmini.core.geometry.products import determinant, eigen, matrix_product
 
 from .primitives import INVALID, DisplayError, Floats, Mesh, Primitive
 from .properties import Colour, Property

@@ -12,8 +12,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.products import matrix_product
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.products import matrix_product
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

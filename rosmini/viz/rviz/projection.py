@@ -13,7 +13,7 @@ from typing import Protocol
 
 import numpy as np
 
-from rosmini.geometry.products import matrix_product, norm
+from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.viz.rounding import snap
 
 from .gaze import HIGH, Gaze

@@ -12,7 +12,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from rosmini.errors import nearest
+from rosmini.core.errors import nearest
 
 from .primitives import DisplayError, Floats
 

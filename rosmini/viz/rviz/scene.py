@@ -15,9 +15,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
-from rosmini.errors import nearest
-from rosmini.plugins import PluginError
-from rosmini.tf import TransformListener
+from rosmini.core.errors import nearest
+from rosmini.core.plugins import PluginError
+from rosmini.core.tf import TransformListener
 from rosmini.viz.view import ViewError
 
 from .config import Config
@@ -28,7 +28,7 @@ from .primitives import Pane, Primitive
 from .views import ViewController, view_controller
 
 if TYPE_CHECKING:
-    from rosmini.graph import Graph, Node
+    from rosmini.core.graph import Graph, Node
 
 
 class Layer(NamedTuple):

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rosmini.geometry.products import matrix_product, norms, scalar_product
+from rosmini.core.geometry.products import matrix_product, norms, scalar_product
 
 from .display import Display
 from .gaze import Gaze, depths

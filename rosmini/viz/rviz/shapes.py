@@ -9,9 +9,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from rosmini.geometry.products import matrix_product
-from rosmini.urdf import Box, Cylinder, Sphere
-from rosmini.urdf.meshes import Surface
+from rosmini.core.geometry.products import matrix_product
+from rosmini.sim.urdf import Box, Cylinder, Sphere
+from rosmini.sim.urdf.meshes import Surface
 from rosmini.viz.meshcat.links import lathe, surfaces_of
 
 from .primitives import Floats, Lines, Mesh

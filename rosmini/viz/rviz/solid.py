@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.geometry.products import matrix_product, norms
+from rosmini.core.geometry.products import matrix_product, norms
 from rosmini.viz.meshcat.command_recorder import meshcat
 from rosmini.viz.meshcat.scene3d import Camera, Scene3D
 from rosmini.viz.meshcat.solids import rounded

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.viz.map_colours import scheme_of
 
 from .config import Config
@@ -13,7 +13,7 @@ from .displays.group import display_from
 from .topic_display import TopicDisplay
 
 if TYPE_CHECKING:
-    from rosmini.graph import Graph
+    from rosmini.core.graph import Graph
 
     from .scene import Scene
 

@@ -19,11 +19,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from rosmini.errors import nearest
-from rosmini.geometry.angles import quaternion_from_yaw
-from rosmini.geometry.products import norm
-from rosmini.plugins import Plugin, PluginError
-from rosmini.time import Time
+from rosmini.core.errors import nearest
+from rosmini.core.geometry.angles import quaternion_from_yaw
+from rosmini.core.geometry.products import norm
+from rosmini.core.plugins import Plugin, PluginError
+from rosmini.core.time import Time
 from rosmini.viz.view import ViewError
 
 from .config import Config, kind_of

@@ -10,10 +10,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.products import matrix_product
-from rosmini.tf import ConnectivityException, LookupException, TransformException
-from rosmini.tf.rigid import IDENTITY, Floats, Rigid, matrix, transform_points
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.products import matrix_product
+from rosmini.core.tf import ConnectivityException, LookupException, TransformException
+from rosmini.core.tf.rigid import IDENTITY, Floats, Rigid, matrix, transform_points
 
 from .context import Context
 from .display import Display, Level

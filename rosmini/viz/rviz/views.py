@@ -13,9 +13,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from rosmini.plugins import Plugin, PluginError
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import rpy
+from rosmini.core.plugins import Plugin, PluginError
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import rpy
 
 from .context import FIXED_FRAME, Context
 from .primitives import Floats

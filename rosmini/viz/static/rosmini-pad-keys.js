@@ -1,7 +1,7 @@
 /* The controls of a teleoperation pad: the keys of a program as buttons and as words, and gamepads. A plain script that sets
    `globalThis.rosminiPadKeys`.
 
-     grid(map)              an element with the buttons of a key map (`table` of `rosmini.widgets.teleop`), and a Map of them.
+     grid(map)              an element with the buttons of a key map (`table` of `rosmini.viz.live.teleop`), and a Map of them.
      keyOf(map, event)      the key of the map that a keyboard event means, or undefined.
      buttonOf(map, buttons, key)   the button that does what a key does.
      instructions(map)      what the keys do, as elements.

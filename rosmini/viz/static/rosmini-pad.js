@@ -7,7 +7,7 @@
      new Page(host, data, driver, asset)   a pad before another driver: rosmini-pad-kernel.js has one
 
 
-   `data` is what `rosmini.widgets.page` makes: {maps, keys, hold, topic, title, scene, pose, step, scan_rate, solid?}; without a robot
+   `data` is what `rosmini.viz.live.page` makes: {maps, keys, hold, topic, title, scene, pose, step, scan_rate, solid?}; without a robot
    `scene` and `pose` are null, and only the messages are shown.
 
    A driver is what stands behind the page: press(key), steer(linear, angular), use(map), choose(name), leave(), reset(), close(), and `state`, which the page draws whenever

@@ -1,7 +1,7 @@
 /* A robot with two driven wheels and a laser, driven by keys, with no page around it: what `rosmini-pad.js` shows where
    there is no kernel. A plain script that sets `globalThis.rosminiTeleop`.
 
-   It does what `rosmini.widgets.teleop`, `rosmini.sim` and `rosmini.geometry` do in Python, with the numbers that Python
+   It does what `rosmini.viz.live.teleop`, `rosmini.sim` and `rosmini.core.geometry` do in Python, with the numbers that Python
    hands it; tests compare the two. Metres, radians, seconds; a pose is [x, y, theta].
 
      new Teleop(table)      keys to velocities: press(key), steer(linear, angular), cycle() -> [linear, angular].

@@ -1,11 +1,11 @@
 /* A turtle of turtlesim with no page around it, and the paper that turtles draw on. A plain script that sets
    `globalThis.rosminiTurtle`; it needs rosmini-teleop.js before it.
 
-   The motion is that of `rosmini.turtlesim.turtle`, with the numbers that Python hands it; tests compare the two. Metres, radians,
+   The motion is that of `rosmini.sim.turtlesim.turtle`, with the numbers that Python hands it; tests compare the two. Metres, radians,
    seconds; y is up in a pose, and down in a window, whose numbers are pixels.
 
      new Turtle(turtle)     one that is driven: command(linear, angular, sideways), step(seconds), reset(), pose, speed, blocked, and
-                            `window`, what `rosmini.turtlesim.frame.Frame.state` has. `turtle` is the data of `rosmini.widgets.page`.
+                            `window`, what `rosmini.sim.turtlesim.frame.Frame.state` has. `turtle` is the data of `rosmini.viz.live.page`.
      run(data)              a run of `rosmini-teleop.js` with it.
      new Paper(canvas, turtle)   draws a window: draw(window); message(window) is the turtlesim/Pose as `rostopic echo` prints it. */
 

@@ -4,7 +4,7 @@
 
      new Page(host, data, driver)   a view before a driver: rosmini-view-kernel.js has one
 
-   `data` is what `rosmini.widgets.view_link` makes: {title, scene, bodies, poses, time, paused, step}. A driver is what stands behind the page:
+   `data` is what `rosmini.viz.live.view_link` makes: {title, scene, bodies, poses, time, paused, step}. A driver is what stands behind the page:
    drag(name, [x, y, theta]), act("pause" | "unpause" | "step" | "reset" | "start"), close(), and `state`, which the page draws whenever the driver
    calls `changed()`: {scene, bodies, poses, scans, time, paused, mood, note, said}. It calls `put(name, accepted, text)` when a drag has been
    answered. What is dragged is a ghost until then: where a robot is, the simulation says.

@@ -14,8 +14,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rosmini.cli.collector import seldom
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
+from rosmini.tools.collector import seldom
 
 if TYPE_CHECKING:
     import argparse

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rosmini.actionlib import ActionClient, ActionServer, CommState, Status
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
+from rosmini.core.actionlib import ActionClient, ActionServer, CommState, Status
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 
 from . import Measure

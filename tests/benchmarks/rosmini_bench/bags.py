@@ -14,11 +14,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from rosmini.bag import Bag, Recorder
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.time import Time
+from rosmini.ros.bag import Bag, Recorder
 
 from . import Measure
 from .peer import SYSTEM_PYTHON

@@ -12,7 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rosmini import Graph
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import PackageIndex
+from rosmini.core.tf import StaticTransformBroadcaster
 from rosmini.msgs.geometry_msgs.msg import (
     Point,
     Point32,
@@ -25,10 +27,8 @@ from rosmini.msgs.geometry_msgs.msg import (
 )
 from rosmini.msgs.nav_msgs.msg import GridCells, OccupancyGrid, Odometry, Path
 from rosmini.msgs.sensor_msgs.msg import LaserScan, Range
-from rosmini.packages import PackageIndex
-from rosmini.tf import StaticTransformBroadcaster
-from rosmini.urdf import load
-from rosmini.urdf.xacro import expand
+from rosmini.sim.urdf import load
+from rosmini.sim.urdf.xacro import expand
 from rosmini.viz.rviz import Scene, still, turnable
 
 from . import Measure

@@ -9,8 +9,8 @@ import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph, Node, Publisher
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph, Node, Publisher
 from rosmini.msgs import message_class, service_class
 
 from . import Measure
@@ -216,9 +216,9 @@ def measures(rospy: Rospy | None, scale: float) -> Iterator[Measure]:
         more_is_better=False,
     )
     yield Measure(
-        "import rosmini.rospy; import rospy",
+        "import rosmini.ros.rospy; import rospy",
         "s",
-        lambda: import_seconds(sys.executable, "rosmini.rospy"),
+        lambda: import_seconds(sys.executable, "rosmini.ros.rospy"),
         None if rospy is None else lambda: import_seconds(rospy.python, "rospy"),
         more_is_better=False,
     )

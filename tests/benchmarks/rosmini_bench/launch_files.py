@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rosmini.errors import RosminiError
-from rosmini.launch import Plan, read
-from rosmini.packages import PackageIndex, assets_dir
+from rosmini.core.errors import RosminiError
+from rosmini.core.packages import PackageIndex, assets_dir
+from rosmini.ros.launch import Plan, read
 
 from . import Measure
 

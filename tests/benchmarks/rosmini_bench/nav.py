@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 from . import Measure, nav_amcl, nav_control, nav_costmap, nav_gmapping, nav_hector, nav_planners, nav_trial
 from .nav_trial import Setup

@@ -18,14 +18,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.launch import plan_of
+from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.navigation.amcl.field import LikelihoodField
 from rosmini.navigation.amcl.filter import ParticleFilter
 from rosmini.navigation.amcl.laser import LaserModel, Scan
 from rosmini.navigation.amcl.localizer import Localizer
 from rosmini.navigation.amcl.motion import moved
 from rosmini.navigation.amcl.parameters import LASERS, AmclParameters
+from rosmini.ros.launch import plan_of
 
 from . import Measure
 from .nav_drives import Drive, accompanied, drive, kidnapped

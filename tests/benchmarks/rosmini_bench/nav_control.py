@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.angles import shortest_angular_distance
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.geometry.angles import shortest_angular_distance
+from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.base_local_planner.trajectory_planner import (
     TrajectoryPlanner,

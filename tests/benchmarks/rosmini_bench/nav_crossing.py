@@ -18,11 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import pose_stamped
-from rosmini.time import Time
+from rosmini.ros.launch import roslaunch
 
 from .nav_goals import wilson
 

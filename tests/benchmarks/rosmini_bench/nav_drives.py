@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.graph import Graph
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core.poses import planar_pose
 from rosmini.sim.models import BURGER

@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose, inverse, transform_points
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.geometry.poses import Pose, inverse, transform_points
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
+from rosmini.ros.launch import roslaunch
 from rosmini.sim.worlds import world as world_called
 
 from . import nav_quality

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.navigation.gmapping import GridSlam, Settings, SharedMaps, known
 
 from . import Measure

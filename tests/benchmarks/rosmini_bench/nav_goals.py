@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from scipy import ndimage, sparse
 from scipy.sparse import csgraph
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.map_server import GridMap
 from rosmini.sim.motion import Door
 from rosmini.sim.world import Obstacle, World

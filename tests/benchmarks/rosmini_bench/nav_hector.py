@@ -18,11 +18,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.tf.rigid import from_yaw
 from rosmini.navigation.gmapping import GridSlam
 from rosmini.navigation.gmapping import Settings as GmappingSettings
 from rosmini.navigation.hector_mapping import HectorSlam, Limits, Settings, scan_ends
-from rosmini.tf.rigid import from_yaw
 
 from . import Measure
 from .nav_drives import Drive, drive

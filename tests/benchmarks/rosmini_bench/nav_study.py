@@ -17,7 +17,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 from . import nav_crossing, nav_explore, nav_quality, nav_trial
 from .nav_crossing import Crossing

@@ -20,18 +20,18 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.map_server import GridMap, save_map
 from rosmini.navigation.nav_core import pose_stamped
+from rosmini.ros.launch import roslaunch
 from rosmini.sim.models import model as model_called
 from rosmini.sim.shapes import Cylinder
 from rosmini.sim.world import Obstacle
 from rosmini.sim.worlds import to_map
 from rosmini.sim.worlds import world as world_called
-from rosmini.time import Time
 
 from .nav_goals import DISC, Errand, errands, turning, unmapped
 

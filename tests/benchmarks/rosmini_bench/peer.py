@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

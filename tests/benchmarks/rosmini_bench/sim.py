@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.raycast import VARIABLE, raycast
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.raycast import VARIABLE, raycast
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import World
 
@@ -45,7 +45,7 @@ def scans(cast: Cast, count: int) -> float:
 
 
 def rosmini_scan(backend: str) -> Cast:
-    """Rays of `rosmini.geometry.raycast`."""
+    """Rays of `rosmini.core.geometry.raycast`."""
     lidar = BURGER.laser
 
     def cast(world: World, x: float, y: float) -> NDArray[np.float64]:

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.angles import yaw_from_quaternion
-from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.geometry.raycast import raycast_each
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.angles import yaw_from_quaternion
+from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.geometry.raycast import raycast_each
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Cylinder, World
 

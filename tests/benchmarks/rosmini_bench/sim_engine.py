@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from rosmini.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import World

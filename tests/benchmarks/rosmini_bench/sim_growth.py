@@ -12,9 +12,9 @@ from functools import cache, partial
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.raycast import raycast
-from rosmini.graph import Graph
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.raycast import raycast
+from rosmini.core.graph import Graph
 from rosmini.sim.models import BURGER
 
 from . import Measure, sim_room

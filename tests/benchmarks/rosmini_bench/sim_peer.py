@@ -19,8 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.raycast import raycast
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.raycast import raycast
 from rosmini.sim.models import BURGER
 
 from . import sim_room

@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import arc
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import arc
 from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER, GRAVITY
 from rosmini.sim.sensors.imu import Imu

@@ -7,8 +7,8 @@ from functools import cache
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import Pose
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, edges
 

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.models import BURGER
 from rosmini.sim.simulator import Simulator

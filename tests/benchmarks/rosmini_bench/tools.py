@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini import Graph
-from rosmini.catkin import NewPackage, Workspace, create_package, make
 from rosmini.msgs.std_msgs.msg import String
+from rosmini.ros.catkin import NewPackage, Workspace, create_package, make
 from rosmini.viz.rqt import rqt_graph
 
 from . import Measure

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rosmini.errors import RosminiError
-from rosmini.tf import BufferCore
-from rosmini.tf.rigid import from_rpy
-from rosmini.tf.tree import LOOKUPS_LOADED
-from rosmini.time import Time
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf import BufferCore
+from rosmini.core.tf.rigid import from_rpy
+from rosmini.core.tf.tree import LOOKUPS_LOADED
+from rosmini.core.time import Time
 
 from . import Measure
 from .tf_node import FRAMES, SAMPLES, START_NS, STEP_NS, parent, questions

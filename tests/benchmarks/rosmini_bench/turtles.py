@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from rosmini import rosrun
-from rosmini.cli.logo import source
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
-from rosmini.logo import Logo
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
+from rosmini.sim.logo import Logo
+from rosmini.tools.logo import source
 
 from . import Measure
 

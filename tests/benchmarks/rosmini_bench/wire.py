@@ -15,9 +15,9 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.msgs import message_class, service_class
-from rosmini.net import connect
+from rosmini.ros.net import connect
 
 from . import Measure
 from .peer import SYSTEM_PYTHON, TIMEOUT_S, Core

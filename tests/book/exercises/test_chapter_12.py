@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-import rosmini.rospy
+import rosmini.ros.rospy
 from book.tools import notebooks
 from rosmini.msgs import message_class
 
@@ -55,6 +55,6 @@ def test_the_answers_of_rosmsg_are_true(prose):
 def test_rospy_has_what_the_table_names(prose):
     names = set(re.findall(r"`[^`]*?rospy\.(\w+)", prose))
     assert {"Publisher", "Subscriber", "Time", "Duration"} <= names
-    assert all(hasattr(rosmini.rospy, name) for name in names)
+    assert all(hasattr(rosmini.ros.rospy, name) for name in names)
     assert "`publisher.get_num_connections()`" in prose
-    assert hasattr(rosmini.rospy.Publisher, "get_num_connections")
+    assert hasattr(rosmini.ros.rospy.Publisher, "get_num_connections")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.rosparam import load_str
+from rosmini.core.rosparam import load_str
 
 from .conftest import assert_figures_are_numbered, prose_of, run_rosmini
 

@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 
 from book.tools import notebooks
-from rosmini.bag import Bag
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.scripts import ScriptSpec, run_scripts
-from rosmini.time import Time
+from rosmini.ros.bag import Bag
+from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 from .conftest import figure_numbers
 

@@ -54,7 +54,7 @@ def test_a_page_holds_few_moving_pictures(chapter):
 
 
 def test_the_table_of_keys_is_that_of_the_pad(prose):
-    from rosmini.widgets import teleop
+    from rosmini.viz.live import teleop
 
     keys = teleop.key_map()
     assert f"| `w`, `x` | {keys.linear} m/s more ahead, or more back |" in prose
@@ -66,7 +66,7 @@ def test_the_table_of_keys_is_that_of_the_pad(prose):
 
 
 def test_the_dead_man_s_second_is_that_of_the_pad(prose):
-    from rosmini.widgets.live import DEAD_MAN_S
+    from rosmini.viz.live.live import DEAD_MAN_S
 
     assert "If that stops for a second" in prose
     assert DEAD_MAN_S == 1.0

@@ -12,8 +12,8 @@ import pytest
 
 from book.tools import notebooks
 from rosmini.book.checks import Status, find
-from rosmini.errors import TransportInitError
-from rosmini.graph import Graph
+from rosmini.core.errors import TransportInitError
+from rosmini.core.graph import Graph
 from rosmini.msgs.sensor_msgs.msg import LaserScan, Range
 
 from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, prose_of

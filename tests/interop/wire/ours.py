@@ -10,8 +10,8 @@ from typing import Any
 
 from greenlet import greenlet
 
-from rosmini.cli.main import main
-from rosmini.graph.scheduler import Scheduler
+from rosmini.core.graph.scheduler import Scheduler
+from rosmini.tools.main import main
 
 
 def write_lanes(*_: Any) -> None:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.navigation.amcl.field import BeamMixture, LikelihoodField
 from rosmini.navigation.amcl.laser import BeamSkip, LaserModel, Scan
 
@@ -25,7 +25,7 @@ def field():
 
 
 def scan_from(field, pose, laser=(0.0, 0.0, 0.0), range_max=5.0):
-    from rosmini.geometry.poses import compose
+    from rosmini.core.geometry.poses import compose
 
     ranges = field.ranges(np.array([compose(pose, laser)]), BEARINGS, range_max)[0]
     return Scan(ranges, BEARINGS, range_max, laser)

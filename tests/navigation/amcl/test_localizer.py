@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import compose
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import compose
 from rosmini.navigation.amcl.laser import Scan
 from rosmini.navigation.amcl.localizer import FreeSpace, Localizer
 from rosmini.navigation.amcl.parameters import AmclParameters

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.navigation.base_local_planner.odometry_helper import OdometryHelper
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import yaml
 
-from rosmini.dynamic_reconfigure import Client
-from rosmini.errors import ParameterError
+from rosmini.core.dynamic_reconfigure import Client
+from rosmini.core.errors import ParameterError
+from rosmini.core.packages import assets_dir
 from rosmini.navigation.nav_core import NoValidCommand
-from rosmini.packages import assets_dir
 from tests.navigation.local_bench import LocalBench
 
 ROBOT = {

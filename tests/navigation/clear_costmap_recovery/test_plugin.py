@@ -2,10 +2,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.navigation.costmap_2d import Costmap2D
 from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, pose_stamped
-from rosmini.time import Time
 
 
 class FakeLayer:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.tf import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+from rosmini.core.tf.rigid import from_yaw
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
-from rosmini.tf import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
-from rosmini.tf.rigid import from_yaw
 
 SOURCE = {"data_type": "LaserScan", "topic": "scan", "marking": True, "clearing": True}
 

@@ -7,16 +7,16 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError
+from rosmini.core.errors import ParameterError
+from rosmini.core.plugins import PluginError
+from rosmini.core.tf.rigid import from_yaw
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap import CostmapError
 from rosmini.navigation.costmap_2d.layer import Layer
 from rosmini.navigation.costmap_2d.publisher import Costmap2DPublisher
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
-from rosmini.plugins import PluginError
-from rosmini.rospy.aliases.point_cloud2 import create_cloud_xyz32
-from rosmini.tf.rigid import from_yaw
-from rosmini.time import Time
+from rosmini.ros.rospy.aliases.point_cloud2 import create_cloud_xyz32
 
 from .conftest import SOURCE, layers
 
@@ -327,7 +327,7 @@ def test_sides_are_whole_metres_as_in_ros(stage, capfd):
 
 
 def test_what_changes_while_it_runs(stage):
-    from rosmini.dynamic_reconfigure import Client
+    from rosmini.core.dynamic_reconfigure import Client
 
     stage.publish_map(np.eye(40) * 100)
     costmap = stage.costmap(plugins=layers("static", "inflation"), update_frequency=10.0, **ROBOT)

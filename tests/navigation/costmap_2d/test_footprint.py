@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError
+from rosmini.core.errors import ParameterError
 from rosmini.navigation.costmap_2d.footprint import (
     crossing,
     footprint_from_list,

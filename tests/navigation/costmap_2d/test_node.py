@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from rosmini.core.plugins import Plugin
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.node import Costmap2DNode, VoxelCloud, VoxelMarkers, voxel_points
-from rosmini.plugins import Plugin
 
 from .conftest import layers
 

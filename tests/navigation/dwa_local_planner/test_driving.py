@@ -7,14 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.geometry.angles import shortest_angular_distance
-from rosmini.graph import Graph
+from rosmini.core.geometry.angles import shortest_angular_distance
+from rosmini.core.graph import Graph
+from rosmini.core.tf import Buffer, StaticTransformBroadcaster, TransformListener
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.nav_core import BaseLocalPlanner, pose_stamped
 from rosmini.sim.simulator import Simulator
-from rosmini.tf import Buffer, StaticTransformBroadcaster, TransformListener
-from rosmini.time import Time
 
 COSTMAP = {
     "global_frame": "odom",

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError
-from rosmini.geometry.poses import arc
+from rosmini.core.errors import ParameterError
+from rosmini.core.geometry.poses import arc
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.dwa_local_planner.dwa_planner import CRITICS, DWAPlanner, DWAPlannerParameters
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from rosmini.packages import assets_dir
+from rosmini.core.packages import assets_dir
 from tests.navigation.local_bench import LocalBench
 
 

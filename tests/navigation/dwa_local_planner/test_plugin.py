@@ -7,8 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from rosmini.dynamic_reconfigure import Client
-from rosmini.errors import ParameterError
+from rosmini.core.dynamic_reconfigure import Client
+from rosmini.core.errors import ParameterError
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import ControlFailure, NoValidCommand, TransformMissing
 from tests.navigation.local_bench import LocalBench

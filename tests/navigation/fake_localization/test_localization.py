@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rosmini.core.tf.rigid import compose, from_yaw, matrix
 from rosmini.navigation.fake_localization.localization import moved_offset, odom_in_map, offset
-from rosmini.tf.rigid import compose, from_yaw, matrix
 
 poses = st.builds(from_yaw, *[st.floats(-50, 50)] * 2, st.floats(-math.pi, math.pi))
 

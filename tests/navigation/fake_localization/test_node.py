@@ -1,11 +1,11 @@
 import pytest
 
 from rosmini import rosrun
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.tf import TransformBroadcaster, TransformListener
+from rosmini.core.tf.rigid import from_yaw
 from rosmini.msgs.geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from rosmini.msgs.nav_msgs.msg import Odometry
-from rosmini.tf import TransformBroadcaster, TransformListener
-from rosmini.tf.rigid import from_yaw
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from tests.navigation.exploring import Stage
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini import rosrun
-from rosmini.actionlib import SimpleActionServer
+from rosmini.core.actionlib import SimpleActionServer
 from rosmini.msgs import message_class
 
 CLICKS = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.05, 0.1), (3.0, 1.0)]

@@ -7,11 +7,11 @@ import io
 import numpy as np
 import pytest
 
-from rosmini.graph import Graph
-from rosmini.launch import LaunchError, find_file, roslaunch
+from rosmini.core.graph import Graph
+from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs import message_class
 from rosmini.navigation.map_server import GridMap, save_map
-from rosmini.packages import PackageIndex, assets_dir
+from rosmini.ros.launch import LaunchError, find_file, roslaunch
 
 LAUNCH = """<launch>
   <node pkg="rosmini_sim" type="simulator" name="simulator">

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini import rosrun
-from rosmini.actionlib import SimpleActionClient, Status
+from rosmini.core.actionlib import SimpleActionClient, Status
 from rosmini.msgs import message_class
 
 from .test_plugin import LAYERS

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.errors import ServiceException
+from rosmini.core.errors import ServiceException
+from rosmini.core.tf import TransformListener
+from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.nav_core import pose_stamped
-from rosmini.tf import TransformListener
-from rosmini.time import Time
 
 LAYERS = [
     {"name": "static", "type": "costmap_2d::StaticLayer"},

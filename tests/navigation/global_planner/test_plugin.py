@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.dynamic_reconfigure import Client
-from rosmini.errors import ParameterError
+from rosmini.core.dynamic_reconfigure import Client
+from rosmini.core.errors import ParameterError
 from rosmini.navigation.global_planner import GlobalAStar, GlobalDijkstra
 from rosmini.navigation.global_planner.plugin import GlobalPlanner, GlobalPlannerConfig
 from rosmini.navigation.nav_core import BaseGlobalPlanner, NoPath

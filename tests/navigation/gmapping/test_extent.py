@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.errors import ParameterError
+from rosmini.core.errors import ParameterError
 from rosmini.navigation.gmapping import GridSlam, Settings, known, published
 from rosmini.navigation.gmapping.extent import Extent, first_extent, grown
 from rosmini.navigation.gmapping.maps import SIDE

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 
 from rosmini import rosrun
-from rosmini.errors import ParameterError
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.errors import ParameterError
+from rosmini.core.graph import Graph
+from rosmini.core.tf import StaticTransformBroadcaster, TransformBroadcaster
+from rosmini.core.tf.rigid import from_yaw
+from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.map_server import load_map
+from rosmini.ros.launch import roslaunch
 from rosmini.sim.simulator import Simulator
-from rosmini.tf import StaticTransformBroadcaster, TransformBroadcaster
-from rosmini.tf.rigid import from_yaw
-from rosmini.time import Time
 
 DEFAULT = Path(__file__).resolve().parents[4] / "shared" / "data"
 BAG = Path(os.environ.get("ROSMINI_SHARED_DATA", DEFAULT)) / "real_robot.bag"

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from rosmini import rosrun
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.graph import Graph
+from rosmini.core.tf import Buffer, TransformListener
+from rosmini.core.tf.messages import transform_of
+from rosmini.core.tf.rigid import from_rpy, rpy
 from rosmini.msgs import message_class
-from rosmini.tf import Buffer, TransformListener
-from rosmini.tf.messages import transform_of
-from rosmini.tf.rigid import from_rpy, rpy
+from rosmini.ros.launch import roslaunch
 
 
 @pytest.fixture

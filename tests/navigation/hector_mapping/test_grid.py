@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.navigation.hector_mapping.grid import OccupancyGrid, log_odds, passed_cells
 
 FREE, HIT = math.log(0.4 / 0.6), math.log(0.9 / 0.1)

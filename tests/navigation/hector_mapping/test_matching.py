@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.geometry.poses import transform_points
+from rosmini.core.geometry.poses import transform_points
 from rosmini.navigation.hector_mapping.grid import OccupancyGrid
 from rosmini.navigation.hector_mapping.matching import NOTHING_KNOWN, climb, match, surface
 from rosmini.navigation.kernels import kernel

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from rosmini import rosrun
-from rosmini.errors import ServiceException
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.errors import ServiceException
+from rosmini.core.graph import Graph
+from rosmini.core.tf import StaticTransformBroadcaster, TransformBroadcaster
+from rosmini.core.tf.rigid import from_rpy, from_yaw
 from rosmini.msgs import message_class, service_class
+from rosmini.ros.launch import roslaunch
 from rosmini.sim.simulator import Simulator
-from rosmini.tf import StaticTransformBroadcaster, TransformBroadcaster
-from rosmini.tf.rigid import from_rpy, from_yaw
 
 from .test_matching import BEARINGS, room
 

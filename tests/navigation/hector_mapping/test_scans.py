@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from rosmini.core.tf.rigid import IDENTITY, from_rpy
 from rosmini.navigation.hector_mapping.scans import Limits, plain_ends, scan_ends
-from rosmini.tf.rigid import IDENTITY, from_rpy
 
 
 def test_ranges_that_are_looked_at():

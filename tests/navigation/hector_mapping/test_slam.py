@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import compose, inverse
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import compose, inverse
 from rosmini.navigation.hector_mapping import HectorSlam, Settings
 
 from .test_matching import room

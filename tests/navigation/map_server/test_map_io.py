@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.navigation.map_server import GridMap, MapError, load_map
 
 FIELDS = {

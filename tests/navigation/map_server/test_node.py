@@ -7,8 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError, ServiceException, UsageError
-from rosmini.graph import Graph
+from rosmini.core.errors import ParameterError, ServiceException, UsageError
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.map_server import (
     GridMap,

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.errors import UsageError
-from rosmini.graph import Graph
+from rosmini.core.errors import UsageError
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.navigation.map_server import GridMap, load_map, save_map
 from rosmini.navigation.map_server.node import MapServer
 from rosmini.navigation.map_server.saver_node import MapSaver, SaverOptions
-from rosmini.scripts import rosrun
+from rosmini.ros.scripts import rosrun
 
 CELLS = np.array([[0, 100, -1], [30, 0, 70]], dtype=np.int8)
 OccupancyGrid = message_class("nav_msgs/OccupancyGrid")

@@ -2,7 +2,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.navigation.costmap_2d.inflation_layer import InflationLayer
 from rosmini.navigation.move_base.checks import inflation_warnings, unread_namespaces
 

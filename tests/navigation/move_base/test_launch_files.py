@@ -4,13 +4,13 @@ import io
 
 import pytest
 
-from rosmini.actionlib import SimpleActionClient, Status
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.actionlib import SimpleActionClient, Status
+from rosmini.core.graph import Graph
+from rosmini.core.packages import assets_dir
+from rosmini.core.time import Time
 from rosmini.msgs.move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from rosmini.navigation.nav_core import pose_stamped
-from rosmini.packages import assets_dir
-from rosmini.time import Time
+from rosmini.ros.launch import roslaunch
 
 
 @pytest.fixture

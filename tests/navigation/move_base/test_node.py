@@ -7,10 +7,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from rosmini.actionlib import SimpleActionClient, Status
-from rosmini.errors import ServiceException
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.actionlib import SimpleActionClient, Status
+from rosmini.core.errors import ServiceException
+from rosmini.core.graph import Graph
+from rosmini.core.packages import assets_dir
+from rosmini.core.time import Time
 from rosmini.msgs.dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter, StrParameter
 from rosmini.msgs.dynamic_reconfigure.srv import Reconfigure
 from rosmini.msgs.geometry_msgs.msg import PoseStamped, Twist
@@ -24,10 +25,9 @@ from rosmini.navigation.nav_core import (
     NoValidCommand,
     pose_stamped,
 )
-from rosmini.packages import assets_dir
+from rosmini.ros.launch import roslaunch
 from rosmini.sim.shapes import Box
 from rosmini.sim.world import Obstacle
-from rosmini.time import Time
 
 ROOM = {
     "map_file": str(assets_dir() / "ros/rosmini_sim/maps/room.yaml"),

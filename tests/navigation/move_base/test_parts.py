@@ -4,11 +4,11 @@ import io
 
 import pytest
 
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.graph import Graph
 from rosmini.navigation.move_base.parts import RECOVERIES, STATES, TRANSFORMS, Link, inside
 from rosmini.navigation.move_base.plugins import GLOBAL
 from rosmini.navigation.nav_core import BaseGlobalPlanner
+from rosmini.ros.launch import roslaunch
 
 
 class Blind(BaseGlobalPlanner, plugin="test_parts/Blind"):

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.navigation.move_base.planning import PlannerLane, offsets_within
 from rosmini.navigation.move_base.state_machine import Limits, State, StateMachine
 

@@ -2,7 +2,7 @@ import sys
 
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.navigation.move_base.plugin_calls import PluginFault, call
 from rosmini.navigation.nav_core import NoPath
 

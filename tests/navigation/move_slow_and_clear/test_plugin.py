@@ -2,10 +2,10 @@ from dataclasses import dataclass
 
 import pytest
 
-from rosmini.dynamic_reconfigure import Server
-from rosmini.graph import Graph
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.graph import Graph
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.navigation.nav_core import RecoveryBehavior
-from rosmini.parameters import Parameters, parameter
 from tests.navigation.clear_costmap_recovery.test_plugin import FakeCostmap
 
 

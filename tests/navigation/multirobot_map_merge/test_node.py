@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from rosmini import rosrun
-from rosmini.errors import ParameterError
-from rosmini.graph import Graph
-from rosmini.launch import roslaunch
+from rosmini.core.errors import ParameterError
+from rosmini.core.graph import Graph
+from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class
 from rosmini.navigation.map_server import GridMap
+from rosmini.ros.launch import roslaunch
 from rosmini.sim.worlds import to_map, world
-from rosmini.tf import TransformListener
 
 GRID = message_class("nav_msgs/OccupancyGrid")
 RATES = ("_merging_rate:=2.0", "_discovery_rate:=2.0")

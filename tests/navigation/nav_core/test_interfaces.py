@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from rosmini.core.plugins import PluginError
 from rosmini.navigation.nav_core import BaseGlobalPlanner, NavigationFailure, NoValidCommand
-from rosmini.plugins import PluginError
 
 
 def test_a_planner_is_found_by_its_name_and_knows_its_costmap():

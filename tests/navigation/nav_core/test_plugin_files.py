@@ -3,9 +3,9 @@ from pathlib import Path
 
 import pytest
 
+from rosmini.core.plugins import PluginError
 from rosmini.navigation.nav_core import BaseGlobalPlanner, RecoveryBehavior
 from rosmini.navigation.nav_core.plugin_files import create, short_name
-from rosmini.plugins import PluginError
 
 PACKAGE = """<package format="2">
   <name>my_pkg</name><version>0.1.0</version><description>d</description>

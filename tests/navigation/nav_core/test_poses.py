@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rosmini.core.time import Time
 from rosmini.navigation.nav_core import BadGoal, planar_pose, pose_stamped
 from rosmini.navigation.nav_core.poses import checked_goal
-from rosmini.time import Time
 
 numbers = st.floats(-100, 100)
 

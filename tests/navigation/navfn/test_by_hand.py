@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.navigation.nav_core import PlanningFailure
 from rosmini.navigation.navfn import HandSearch, show_steps
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.global_planner.node import Planner
 from rosmini.navigation.navfn.node import PlannerNode

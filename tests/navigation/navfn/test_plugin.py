@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError
+from rosmini.core.errors import ParameterError
 from rosmini.msgs import service_class
 from rosmini.navigation.nav_core import BaseGlobalPlanner, GoalBlocked, OutsideMap, PlanningFailure
 from rosmini.navigation.navfn.plugin import NavfnROS

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.devices import (
     Bumper,

@@ -6,8 +6,8 @@ import pickle
 
 import pytest
 
-from rosmini.errors import RosminiError
-from rosmini.graph import Graph
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Obstacle, World

@@ -8,8 +8,8 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.geometry import polygons
-from rosmini.geometry.overlaps import Outline, Overlaps
+from rosmini.core.geometry import polygons
+from rosmini.core.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.stepper import VIEW
 from rosmini.sim.models import BURGER, WAFFLE

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.poses import arc
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import arc
 from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.free_motion import glide, limited_phases, ramps
 from rosmini.sim.models import BURGER, WAFFLE, ModelError, RobotModel

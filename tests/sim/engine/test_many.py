@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.geometry.overlaps import Outline, Overlaps
+from rosmini.core.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.engine.scene import Near
 from rosmini.sim.models import BURGER, WAFFLE

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rosmini.geometry.poses import arc
-from rosmini.geometry.raycast import raycast
+from rosmini.core.geometry.poses import arc
+from rosmini.core.geometry.raycast import raycast
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.cross_sections import robot_section
 from rosmini.sim.models import BURGER

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from rosmini import Graph
-from rosmini.graph import Node
+from rosmini.core.graph import Node
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.gazebo import GazeboServer
 

@@ -6,9 +6,9 @@ from pathlib import PurePosixPath, PureWindowsPath
 
 import pytest
 
-from rosmini import urdf as urdf_package
-from rosmini.markup import parse
+from rosmini.core.markup import parse
 from rosmini.sim import sdf
+from rosmini.sim import urdf as urdf_package
 from rosmini.sim.gazebo.body import Body
 from rosmini.sim.gazebo.from_urdf import from_urdf
 from rosmini.sim.gazebo.to_sdf import to_sdf

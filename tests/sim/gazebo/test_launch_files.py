@@ -13,10 +13,10 @@ from typing import Any
 import pytest
 
 from rosmini import Graph
-from rosmini.markup import parse_file
+from rosmini.core.markup import parse_file
+from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs import message_class
-from rosmini.packages import PackageIndex, assets_dir
-from rosmini.scripts import ScriptSpec, run_scripts
+from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 PACKAGES = ("gazebo_ros", "turtlebot3_gazebo", "turtlebot3_bringup", "turtlebot3_teleop")
 FILES = sorted(

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rosmini.markup import Element, MarkupError, parse
+from rosmini.core.markup import Element, MarkupError, parse
 from rosmini.sim.gazebo import (
     ModelPlugin,
     SensorPlugin,

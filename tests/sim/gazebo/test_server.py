@@ -9,13 +9,13 @@ from pathlib import Path
 import pytest
 
 from rosmini import Graph
-from rosmini.cli.gz import Gz
-from rosmini.errors import ParameterError, ROSException, ScriptError
+from rosmini.core.errors import ParameterError, ROSException, ScriptError
 from rosmini.msgs import message_class
-from rosmini.scripts import rosrun
+from rosmini.ros.scripts import rosrun
 from rosmini.sim.gazebo import GazeboClient, GazeboError, GazeboServer
 from rosmini.sim.sdf import SdfError
 from rosmini.sim.world import Box, Obstacle, World
+from rosmini.tools.gz import Gz
 
 from .conftest import DIFF_DRIVE, Bench, box, urdf
 
@@ -62,7 +62,7 @@ def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(
     bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     said: list[str] = []
-    monkeypatch.setattr("rosmini.graph.node.Node.logwarn", lambda node, text: said.append(text))
+    monkeypatch.setattr("rosmini.core.graph.node.Node.logwarn", lambda node, text: said.append(text))
     path = tmp_path / "yard.world"
     massless = WORLD.replace("<mass>1.5</mass>", "<mass>0</mass>")
     path.write_text(

@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from rosmini.dynamic_reconfigure import Client
-from rosmini.errors import RosminiError
+from rosmini.core.dynamic_reconfigure import Client
+from rosmini.core.errors import RosminiError
+from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class
-from rosmini.time import Duration, Time
 
 from .conftest import DIFF_DRIVE, Bench, box, urdf
 

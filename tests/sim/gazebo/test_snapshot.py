@@ -12,7 +12,7 @@ from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.gazebo.snapshot import ShownLink, Snapshot
 from rosmini.sim.gazebo.spawning import spawn_text
 from rosmini.sim.sdf.poses import matrix
-from rosmini.urdf.xacro import expand
+from rosmini.sim.urdf.xacro import expand
 
 from .conftest import Bench, box, urdf
 

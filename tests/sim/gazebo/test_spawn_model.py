@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.packages import PackageIndex
-from rosmini.scripts import ScriptSpec, run_scripts
+from rosmini.core.packages import PackageIndex
+from rosmini.ros.scripts import ScriptSpec, run_scripts
 
 from .conftest import Bench, box, urdf
 

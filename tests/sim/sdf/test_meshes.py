@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from rosmini.sim.sdf import load, to_obstacles, to_world
+from rosmini.sim.urdf.meshes import MeshError, read
 from rosmini.sim.world import World
-from rosmini.urdf.meshes import MeshError, read
 
 # A table: a top of 1 m by 0.6 m at a height from 0.7 to 0.75 m on one foot of 0.1 m by 0.1 m.
 TOP = ((-0.5, -0.3, 0.7), (0.5, 0.3, 0.75))

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.sim.sdf import SdfError, load
 from rosmini.sim.sdf.poses import compose, from_quaternion, inverse, matrix, pose6, upright
 

@@ -9,7 +9,7 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from rosmini.geometry.raycast import raycast
+from rosmini.core.geometry.raycast import raycast
 from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER
 from rosmini.sim.sensors import lidar

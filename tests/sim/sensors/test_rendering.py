@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.geometry.poses import compose
-from rosmini.geometry.raycast import raycast
+from rosmini.core.geometry.poses import compose
+from rosmini.core.geometry.raycast import raycast
 from rosmini.sim.models import CameraModel
 from rosmini.sim.sensors.rendering import (
     CameraError,

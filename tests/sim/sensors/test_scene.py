@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.geometry import polygons
+from rosmini.core.geometry import polygons
 from rosmini.sim.models import BURGER
 from rosmini.sim.sensors.scene import PAINT, Scene, parts_of, placed, rgb, trapezia
 from rosmini.sim.shapes import COLOURS, Box, Compound, Cylinder, Part, Polygon, Sphere

@@ -15,9 +15,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.polygons import inside
-from rosmini.packages import PackageIndex
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.polygons import inside
+from rosmini.core.packages import PackageIndex
 from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER
 from rosmini.sim.shapes import Box, Compound, Polygon

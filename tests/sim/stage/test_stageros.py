@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rosmini.errors import ParameterError, RosminiError, ScriptError
-from rosmini.geometry.angles import yaw_from_quaternion
-from rosmini.graph import Graph
+from rosmini.core.errors import ParameterError, RosminiError, ScriptError
+from rosmini.core.geometry.angles import yaw_from_quaternion
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class, service_class
-from rosmini.scripts import run_source
+from rosmini.ros.scripts import run_source
 from rosmini.sim.engine import RobotGone, laser_view
 from rosmini.sim.stage import StageError
 from rosmini.sim.stage.node import Stageros

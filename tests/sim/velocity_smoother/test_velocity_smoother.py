@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.errors import ParameterError, RosminiError
-from rosmini.graph import Graph
+from rosmini.core.errors import ParameterError, RosminiError
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.velocity_smoother import Limits, VelocitySmoother, limited, towards
 from rosmini.sim.velocity_smoother.node import VelocitySmootherNode

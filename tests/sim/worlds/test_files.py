@@ -12,10 +12,10 @@ import pytest
 from PIL import Image
 
 from assets.generate.worlds import floor
-from rosmini.errors import RosminiError, UnknownPackage
-from rosmini.geometry import polygons
-from rosmini.geometry.contours import edge_loops
-from rosmini.geometry.raycast import raycast
+from rosmini.core.errors import RosminiError, UnknownPackage
+from rosmini.core.geometry import polygons
+from rosmini.core.geometry.contours import edge_loops
+from rosmini.core.geometry.raycast import raycast
 from rosmini.navigation.map_server import MapError, load_map
 from rosmini.sim.world import Cylinder, World, WorldError, edges
 from rosmini.sim.worlds import names, source, world, world_from_map

@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from rosmini.geometry import polygons
-from rosmini.geometry.overlaps import Outline, Overlaps
+from rosmini.core.geometry import polygons
+from rosmini.core.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.sdf import SdfError, load
 from rosmini.sim.shapes import ROUND, outline_at
 from rosmini.sim.world import Door, Walk

@@ -8,14 +8,14 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.bag import Bag
-from rosmini.bag.mcap import to_mcap
-from rosmini.geometry.angles import quaternion_from_yaw
-from rosmini.graph import Graph
+from rosmini.core.geometry.angles import quaternion_from_yaw
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
+from rosmini.ros.bag import Bag
+from rosmini.ros.bag.mcap import to_mcap
 from rosmini.sim.recorder import SEEN, Recorder
 from rosmini.sim.simulator import Simulator
-from rosmini.time import Time
 from rosmini.viz import ViewError
 from rosmini.viz.replay import Grids, Images, Scans, Shapes, replay
 from rosmini.viz.replay.collectors import COLLECTORS, TRANSFORMS, UPDATE

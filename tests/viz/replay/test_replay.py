@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from book.tools.pages import page_problems
-from rosmini.geometry.poses import arc
-from rosmini.geometry.raycast import raycast
+from rosmini.core.geometry.poses import arc
+from rosmini.core.geometry.raycast import raycast
 from rosmini.msgs import message_class
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recording import Moved, Recording, RecordingError

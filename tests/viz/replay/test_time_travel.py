@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rosmini.bag import Bag
-from rosmini.dynamic_reconfigure import Server
+from rosmini.core.dynamic_reconfigure import Server
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
-from rosmini.parameters import Parameters, parameter
+from rosmini.ros.bag import Bag
 from rosmini.sim.simulator import Simulator
 from rosmini.viz.replay.time_travel import TimeTravelError, what_if
 

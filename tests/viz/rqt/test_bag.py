@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.bag import Bag, ROSBagException
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.time import Time
+from rosmini.ros.bag import Bag, ROSBagException
 from rosmini.viz import ViewError, rqt_bag
 from rosmini.viz.rqt.bag import bars, gaps
 
@@ -92,8 +92,8 @@ def test_topics_named_like_markup_are_text(tmp_path):
 @pytest.mark.skipif(not REAL.is_file(), reason="the recording of a real robot is not part of the project")
 def test_a_real_robots_bag():
     """What a robot recorded in 2015: it is read, played, and its laser and odometry are drawn."""
-    from rosmini.bag import Player
-    from rosmini.graph import Graph
+    from rosmini.core.graph import Graph
+    from rosmini.ros.bag import Player
     from rosmini.viz import scan_picture
     from rosmini.viz.track_pictures import track_picture
 

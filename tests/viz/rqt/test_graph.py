@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.errors import RosminiError
-from rosmini.graph.master import Master
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph.master import Master
 from rosmini.viz import GraphState, ViewError, rqt_graph
 from rosmini.viz.rqt.selection import is_debug, matches
 

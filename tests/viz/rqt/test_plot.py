@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from rosmini import Graph
-from rosmini.bag import Bag
+from rosmini.core.time import Time
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.time import Time
+from rosmini.ros.bag import Bag
 from rosmini.viz import ViewError
 from rosmini.viz.rqt.plot import expanded, rqt_plot
 

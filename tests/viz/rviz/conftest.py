@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from rosmini import Graph
-from rosmini.tf import TransformBroadcaster
+from rosmini.core.tf import TransformBroadcaster
 from rosmini.viz.rviz import Scene
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.geometry.angles import yaw_from_quaternion
+from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.msgs.geometry_msgs.msg import PointStamped, PoseStamped, PoseWithCovarianceStamped
 from rosmini.viz import ViewError
 from rosmini.viz.rviz import Config, DisplayError

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from rosmini.core.time import Duration, Time
 from rosmini.msgs.geometry_msgs.msg import Pose
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.time import Duration, Time
 from rosmini.viz.rviz.primitives import DisplayError
 from rosmini.viz.rviz.topic_display import Heard
 

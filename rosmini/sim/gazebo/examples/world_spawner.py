@@ -12,8 +12,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rosmini.errors import RosminiError
-from rosmini.markup import Element
+from rosmini.core.errors import RosminiError
+from rosmini.core.markup import Element
 from rosmini.sim.gazebo.model import GazeboWorld
 from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import WorldPlugin

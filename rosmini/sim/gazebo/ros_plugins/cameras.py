@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from rosmini.markup import Element
+from rosmini.core.markup import Element
 from rosmini.sim.devices import Bumper, CameraDevice
 from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.model import Sensor

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from rosmini.markup import Element
+from rosmini.core.markup import Element
 from rosmini.msgs import message_class
 from rosmini.sim import devices
 from rosmini.sim.devices import DifferentialDrive, JointStates, OdometryTransforms, one_of

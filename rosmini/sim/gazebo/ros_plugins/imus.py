@@ -26,7 +26,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
-from rosmini.markup import Element
+from rosmini.core.markup import Element
+from rosmini.core.tf import rigid
+from rosmini.core.tf.rigid import IDENTITY, Rigid
 from rosmini.msgs import service_class
 from rosmini.sim.devices import ImuDevice
 from rosmini.sim.gazebo.model import Model, Sensor
@@ -36,8 +38,6 @@ from rosmini.sim.messages import diagonal
 from rosmini.sim.models import ImuModel
 from rosmini.sim.sdf import ORIGIN, Pose6
 from rosmini.sim.sdf.parts import number
-from rosmini.tf import rigid
-from rosmini.tf.rigid import IDENTITY, Rigid
 
 from .drives import rate_of
 from .ros_names import RosNames

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.markup import Element
+from rosmini.core.markup import Element
 from rosmini.sim.devices import GroundTruth, JointStates, Sensor
 from rosmini.sim.gazebo.model import WORLD_FRAMES, Model
 from rosmini.sim.gazebo.plugin_tags import Tags, tag

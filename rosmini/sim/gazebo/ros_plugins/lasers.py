@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from rosmini.markup import Element
+from rosmini.core.markup import Element
 from rosmini.sim.devices import Laser
 from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.model import Sensor

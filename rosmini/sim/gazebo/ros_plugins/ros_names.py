@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from rosmini.graph import Node
-from rosmini.markup import Element
-from rosmini.names import check_name
+from rosmini.core.graph import Node
+from rosmini.core.markup import Element
+from rosmini.core.names import check_name
 from rosmini.sim.devices import prefixed, within
 from rosmini.sim.gazebo.model import Model
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import matrix
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.context import FIXED_FRAME, Context
 from rosmini.viz.rviz.display import Display, Level
 from rosmini.viz.rviz.primitives import Primitive

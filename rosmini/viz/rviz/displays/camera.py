@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import matrix
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.camera_images import (
     MOST_SHOWN,
     image_pixels,

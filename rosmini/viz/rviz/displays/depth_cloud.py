@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
+from rosmini.core.errors import RosminiError
 from rosmini.viz.rviz.camera_images import depths, image_pixels, info_topic
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.geometry.products import matrix_product
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import matrix
-from rosmini.urdf import Joint, Robot, load
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.products import matrix_product
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import matrix
+from rosmini.sim.urdf import Joint, Robot, load
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.marker_shapes import towards

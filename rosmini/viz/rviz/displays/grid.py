@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import transform_points
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import transform_points
 from rosmini.viz.rviz.context import FIXED_FRAME, Context
 from rosmini.viz.rviz.display import Display, Level
 from rosmini.viz.rviz.primitives import Lines, Primitive

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from rosmini.plugins import PluginError
+from rosmini.core.plugins import PluginError
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Display, FailedDisplay, Level
 from rosmini.viz.rviz.primitives import Primitive

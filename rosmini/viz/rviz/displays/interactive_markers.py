@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.products import inverse_matrix, matrix_product
-from rosmini.interactive_markers import InteractiveMarkerClient
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.geometry.products import inverse_matrix, matrix_product
+from rosmini.core.tf import TransformException
+from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.tf import TransformException
-from rosmini.time import Time
+from rosmini.ros.interactive_markers import InteractiveMarkerClient
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Display, Level
 from rosmini.viz.rviz.gaze import Gaze
@@ -22,7 +22,7 @@ from rosmini.viz.rviz.primitives import DisplayError, Floats, Primitive, finite
 from rosmini.viz.rviz.properties import Property
 
 if TYPE_CHECKING:
-    from rosmini.graph.publisher import Publisher
+    from rosmini.core.graph.publisher import Publisher
 
 Feedback = message_class("visualization_msgs/InteractiveMarkerFeedback")
 MenuEntry = message_class("visualization_msgs/MenuEntry")

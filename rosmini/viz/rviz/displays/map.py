@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.tf.rigid import compose, matrix
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf.rigid import compose, matrix
 from rosmini.viz.map_colours import SCHEMES, painted
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level

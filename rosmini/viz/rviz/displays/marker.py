@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, ClassVar
 
-from rosmini.errors import RosminiError
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import Rigid
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import Rigid
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.marker_checks import Marker as MarkerMessage

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rosmini.tf.rigid import Rigid
+from rosmini.core.tf.rigid import Rigid
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.pose_style import COVARIANCE_PROPERTIES, covariance_shape, pose_properties, pose_shape
 from rosmini.viz.rviz.primitives import INVALID, DisplayError, Primitive

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rosmini.geometry.products import matrix_product
-from rosmini.tf.rigid import matrix
+from rosmini.core.geometry.products import matrix_product
+from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.primitives import Floats, Lines, Primitive

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rosmini.tf.rigid import matrix
+from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.primitives import INVALID, DisplayError, Primitive

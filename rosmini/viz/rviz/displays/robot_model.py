@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.errors import RosminiError
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import matrix
-from rosmini.urdf import Robot, load
-from rosmini.urdf.meshes import Surface
+from rosmini.core.errors import RosminiError
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import matrix
+from rosmini.sim.urdf import Robot, load
+from rosmini.sim.urdf.meshes import Surface
 from rosmini.viz.meshcat.links import link_surfaces
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Display, Level

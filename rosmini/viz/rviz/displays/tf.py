@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from rosmini.geometry.products import norm
-from rosmini.tf import TransformException
-from rosmini.tf.rigid import matrix
+from rosmini.core.geometry.products import norm
+from rosmini.core.tf import TransformException
+from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Display, Level
 from rosmini.viz.rviz.primitives import Floats, Lines, Primitive, Text

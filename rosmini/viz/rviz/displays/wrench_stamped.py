@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.geometry.products import matrix_product, norm
-from rosmini.tf.rigid import matrix
+from rosmini.core.geometry.products import matrix_product, norm
+from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.marker_shapes import HEAD, SHAFT, towards
 from rosmini.viz.rviz.primitives import Floats, Lines, Primitive, finite

@@ -7,7 +7,7 @@ import struct
 from typing import TYPE_CHECKING, Any
 
 from rosmini.book.exercises.chapter_12 import WHEEL
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import define_message
 from rosmini.msgs.std_msgs.msg import String
 

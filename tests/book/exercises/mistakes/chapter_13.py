@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rosmini.book.exercises.chapter_13 import PICTURE
-from rosmini.errors import ROSException, ServiceException
-from rosmini.graph import Graph, Node
+from rosmini.core.errors import ROSException, ServiceException
+from rosmini.core.graph import Graph, Node
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import Empty, Trigger
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rosmini.book.exercises.chapter_14 import NAMES
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from rosmini.bag import Bag
+from rosmini.ros.bag import Bag
 
 # ---- 15.2: the longest silence ----
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from rosmini.tf import Buffer
-from rosmini.tf.messages import scan_points, transform_of
-from rosmini.tf.rigid import Rigid, compose, inverse, matrix
-from rosmini.time import Time
+from rosmini.core.tf import Buffer
+from rosmini.core.tf.messages import scan_points, transform_of
+from rosmini.core.tf.rigid import Rigid, compose, inverse, matrix
+from rosmini.core.time import Time
 
 
 def _points(buffer: Buffer, scan: Any) -> Any:

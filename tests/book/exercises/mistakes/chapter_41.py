@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from rosmini.book.exercises.chapter_41 import Velocity, _twist
-from rosmini.geometry.poses import Pose, arc
-from rosmini.graph import Graph
+from rosmini.core.geometry.poses import Pose, arc
+from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rosmini.book.exercises.chapter_73 import Choices, Command, _best, _drive, _ends, _twist
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
+from rosmini.core.tf import Buffer
 from rosmini.msgs import message_class
 from rosmini.sim.simulator import Simulator
-from rosmini.tf import Buffer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.actionlib import (
+from rosmini.book.exercises.chapter_91 import _ends
+from rosmini.core.actionlib import (
     SERVER_TRANSITIONS,
     ActionServer,
     SimpleActionServer,
     Status,
 )
-from rosmini.book.exercises.chapter_91 import _ends
-from rosmini.graph import Graph
+from rosmini.core.graph import Graph
 from rosmini.msgs.actionlib.msg import TestAction, TestFeedback, TestResult, TwoIntsAction, TwoIntsResult
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rosmini.core.tf import TransformBroadcaster
 from rosmini.msgs import message_class
-from rosmini.tf import TransformBroadcaster
 
 CameraInfo = message_class("sensor_msgs/CameraInfo")
 Color = message_class("std_msgs/ColorRGBA")

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rosmini.interactive_markers import InteractiveMarkerServer, MenuHandler
 from rosmini.msgs import message_class
+from rosmini.ros.interactive_markers import InteractiveMarkerServer, MenuHandler
 from rosmini.viz.rviz import DisplayError, still
 from rosmini.viz.rviz.primitives import Text
 from rosmini.viz.rviz.tools import Tools

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from rosmini.core.time import Duration
 from rosmini.msgs import message_class
-from rosmini.time import Duration
 from rosmini.viz.rviz import still, turnable
 from rosmini.viz.rviz.displays.marker import Marker as MarkerDisplay
 from rosmini.viz.rviz.primitives import Lines, Mesh, Points, Text

@@ -10,7 +10,7 @@ import pytest
 
 from rosmini.msgs import message_class
 from rosmini.msgs.std_msgs.msg import Header
-from rosmini.rospy.aliases import point_cloud2
+from rosmini.ros.rospy.aliases import point_cloud2
 from rosmini.viz.rviz import still
 
 ChannelFloat32 = message_class("sensor_msgs/ChannelFloat32")

@@ -1,0 +1,1 @@
+"""The embedded pub/sub library: names, time, messages, the computation graph, tf, actions and parameters."""

@@ -1,0 +1,352 @@
+"""Action clients with goal handles: http://wiki.ros.org/actionlib.
+
+A client talks to its server over five topics under the action's name: it publishes ``goal`` and ``cancel``, and
+subscribes to ``status``, ``feedback`` and ``result``. That is all there is to an action: no service is called.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import TransportException
+from rosmini.core.time import Time
+from rosmini.msgs import message_class
+
+from .client_machine import CANCELLABLE, ClientMachine
+from .errors import ActionException, IllegalTransition
+from .goal_id_generator import numbers_of
+from .spec import ActionTypes
+from .states import CommState, Status
+from .waiting import Timeout, wait_on
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.core.graph import Node
+
+__all__ = ["ActionClient", "ClientGoalHandle"]
+
+LOOK_NS = 10_000_000
+LOOKS = 100
+"""How often, and how many times at most, a server is asked whether it counts a client among its subscribers."""
+
+
+def new_goal_id(node: Node, now: Time) -> str:
+    """Return a goal id in rospy's form, ``/node-number-seconds``; all clients of a node share the numbers."""
+    return f"{node.name}-{next(numbers_of(node, 'goal'))}-{now.to_sec():.3f}"
+
+
+def queue_size_of(node: Node, parameter: str, default: int | None) -> int | None:
+    """Return a queue's size as actionlib's parameters set it; what is negative means the default."""
+    size = node.get_param(parameter, -1, expect=int)
+    return default if size < 0 else int(size)
+
+
+class ClientGoalHandle:
+    """What a client knows about one goal that it sent. Made by :meth:`ActionClient.send_goal`."""
+
+    def __init__(
+        self,
+        client: ActionClient,
+        action_goal: Any,
+        transition_cb: Callable[[ClientGoalHandle], object] | None,
+        feedback_cb: Callable[[ClientGoalHandle, Any], object] | None,
+    ) -> None:
+        self._client = client
+        self.action_goal = action_goal
+        self.machine = ClientMachine(self._moved)
+        self._transition_cb = transition_cb
+        self._feedback_cb = feedback_cb
+        self._result: Any = None
+        self._following = True
+
+    @property
+    def id(self) -> str:
+        """The goal's id."""
+        return str(self.action_goal.goal_id.id)
+
+    def __repr__(self) -> str:
+        return f"<goal {self.id}: {self.machine.state.name}>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ClientGoalHandle) and self.id == other.id
+
+    def __hash__(self) -> int:
+        return hash(self.id)
+
+    # -- what to ask ---------------------------------------------------------------------------------------------
+
+    def get_comm_state(self) -> CommState:
+        """Return the state of the client's machine; ``LOST`` after :meth:`reset`."""
+        return self.machine.state if self._following else CommState.LOST
+
+    def get_goal_status(self) -> Status:
+        """Return the status that the server told last; ``PENDING`` before it told any."""
+        return Status(self.machine.status) if self.machine.status in _STATUSES else Status.LOST
+
+    def get_goal_status_text(self) -> str:
+        """Return the text with which the server explains the status."""
+        return self.machine.text
+
+    def get_result(self) -> Any:
+        """Return the result, None before there is one."""
+        return self._result
+
+    def get_terminal_state(self) -> Status:
+        """Return how the goal ended; warns before it has, and answers ``LOST`` then."""
+        client, status = self._client, self.get_goal_status()
+        if self.machine.state is not CommState.DONE:
+            client.node.logwarn(f"goal {self.id} has not ended: its client is {self.machine.state.name}")
+        return status if status.is_terminal else Status.LOST
+
+    # -- what to do ----------------------------------------------------------------------------------------------
+
+    def cancel(self) -> None:
+        """Ask the server to cancel this goal; what is over, or being cancelled, stays as it is."""
+        self._client.node.scheduler.on_hub(self._cancel)
+
+    def _cancel(self) -> None:
+        client = self._client
+        if self._following and self.machine.state in CANCELLABLE:
+            client.send_cancel(Time(), self.id)
+            self.machine.cancel()
+        else:
+            client.node.logdebug(f"goal {self.id} is {self.get_comm_state().name}: cancel() has no effect")
+
+    def reset(self) -> None:
+        """Stop following this goal: no callback comes any more. The goal itself goes on."""
+        self._following = False
+        self._client.forget(self)
+
+    # -- what happens --------------------------------------------------------------------------------------------
+
+    def _moved(self, state: CommState) -> None:
+        client = self._client
+        if state is CommState.DONE:
+            client.forget(self)
+        client.node.logdebug(f"goal {self.id}: {state.name}")
+        self._tell(self._transition_cb, "transitions", self)
+
+    def _tell(self, callback: Callable[..., object] | None, what: str, *arguments: Any) -> None:
+        if callback is not None and self._following:
+            self._client.node.guarded(callback, *arguments, what=f"{what} of {self._client.ns}")
+
+    def hear(self, status: Any) -> None:
+        """Take a ``GoalStatus``, or None if the server's list lacks the goal. For the client."""
+        if status is not None:
+            self._try(self.machine.hear, status)
+        elif self.machine.miss():
+            self._client.node.logwarn(
+                f"{self._client.ns} no longer knows goal {self.id}: it is LOST. Was the server started again?"
+            )
+
+    def finish(self, action_result: Any) -> None:
+        """Take the result. For the client."""
+        if self.machine.state is not CommState.DONE:
+            self._result = action_result.result
+        self._try(self.machine.finish, action_result.status)
+
+    def _try(self, step: Callable[[int, str], None], status: Any) -> None:
+        try:
+            step(status.status, status.text)
+        except IllegalTransition as error:
+            self._client.node.logerr(f"goal {self.id}: {error}")
+
+    def feed(self, feedback: Any) -> None:
+        """Take feedback. For the client."""
+        if self.machine.state is not CommState.DONE:
+            self._tell(self._feedback_cb, "feedback", self, feedback)
+
+
+_STATUSES = frozenset(int(status) for status in Status)
+
+
+class ActionClient:
+    """Sends goals to an action server, any number at a time, and follows each with a handle.
+
+    Args:
+        node: whose client it is.
+        ns: the action's name, a graph resource name; the five topics are below it.
+        ActionSpec: the action's type, such as ``actionlib_tutorials.msg.FibonacciAction``.
+        numpy: how numeric arrays in feedback and results arrive: as numpy arrays, or as rospy's tuples.
+
+    Raises ``ActionException`` for what is no action type. Goals are followed until they are done, or until
+    ``handle.reset()``.
+
+    """
+
+    def __init__(self, node: Node, ns: str, ActionSpec: Any, *, numpy: bool = True) -> None:
+        self.node = node
+        self.types = ActionTypes.of(ActionSpec)
+        self.ActionSpec = ActionSpec
+        self.ActionGoal, self.ActionResult, self.ActionFeedback = self.types[:3]
+        self.ns = node.resolve(ns)
+        self._goals: dict[str, ClientGoalHandle] = {}
+        self._server = ""
+        node.scheduler.on_hub(lambda: self._connect(numpy))
+
+    def _connect(self, numpy: bool) -> None:
+        node, ns, types = self.node, self.ns, self.types
+        goal_id = message_class("actionlib_msgs/GoalID")
+        statuses = message_class("actionlib_msgs/GoalStatusArray")
+        out = queue_size_of(node, "actionlib_client_pub_queue_size", 10)
+        into = queue_size_of(node, "actionlib_client_sub_queue_size", None)
+        self._goal = node.publisher(f"{ns}/goal", types.action_goal, queue_size=out)
+        self._cancel = node.publisher(f"{ns}/cancel", goal_id, queue_size=out)
+        hear = partial(node.subscriber, queue_size=into, numpy=numpy)
+        self._status = hear(f"{ns}/status", statuses, self._hear, on_disconnect=self._disconnected)
+        self._result = hear(f"{ns}/result", types.action_result, self._finish)
+        self._feedback = hear(f"{ns}/feedback", types.action_feedback, self._feed)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.ns} in {self.node.name}>"
+
+    def stop(self) -> None:
+        """Leave the five topics; nothing is followed any more."""
+        self._goals.clear()
+        for end in (self._goal, self._cancel, self._status, self._result, self._feedback):
+            end.unregister()
+
+    # -- goals ---------------------------------------------------------------------------------------------------
+
+    def send_goal(
+        self,
+        goal: Any,
+        transition_cb: Callable[[ClientGoalHandle], object] | None = None,
+        feedback_cb: Callable[[ClientGoalHandle, Any], object] | None = None,
+    ) -> ClientGoalHandle:
+        """Send a goal and return its handle.
+
+        ``transition_cb(handle)`` is called in each state that the client comes through, ``feedback_cb(handle,
+        feedback)`` on feedback. Raises ``ActionException`` for a goal of another type.
+        """
+        return self.node.scheduler.on_hub(lambda: self._send(goal, transition_cb, feedback_cb))
+
+    def _send(self, goal: Any, *callbacks: Any) -> ClientGoalHandle:
+        wanted = self.types.goal
+        if not isinstance(goal, wanted):
+            given = getattr(goal, "_type", type(goal).__name__)
+            raise ActionException(f"{self.ns} takes goals of type {wanted._type}, not {given}")
+        now = self.node.now()
+        action_goal = self.types.action_goal(goal=goal)
+        action_goal.header.stamp = now
+        action_goal.goal_id.stamp = Time(now.secs, now.nsecs)
+        action_goal.goal_id.id = new_goal_id(self.node, now)
+        handle = ClientGoalHandle(self, action_goal, *callbacks)
+        self._goals[handle.id] = handle
+        self._goal.publish(action_goal)
+        return handle
+
+    def forget(self, handle: ClientGoalHandle) -> None:
+        """Follow a goal no longer. For its handle."""
+        self._goals.pop(handle.id, None)
+
+    def send_cancel(self, stamp: Time, goal_id: str) -> None:
+        """Ask the server to cancel the goal ``goal_id``, all goals sent up to ``stamp``, or with both empty all."""
+        message = self._cancel.message_class()
+        message.stamp, message.id = stamp, goal_id
+        self._cancel.publish(message)
+
+    def cancel_all_goals(self) -> None:
+        """Ask the server to cancel all its goals, also those of other clients."""
+        self.send_cancel(Time(), "")
+
+    def cancel_goals_at_and_before_time(self, time: Time) -> None:
+        """Ask the server to cancel all goals that were sent at ``time`` or before, also those of other clients."""
+        self.send_cancel(time, "")
+
+    # -- the server ----------------------------------------------------------------------------------------------
+
+    def wait_for_server(self, timeout: Timeout = None) -> bool:
+        """Block until a server is there and all five topics are connected, at both ends.
+
+        False after ``timeout`` (None or 0: no limit).
+        """
+        node = self.node
+        waiter = node.waiter(f"an action server on {self.ns}")
+        node.scheduler.on_hub(lambda: node.graph.changes.watch(self._connected, waiter))
+        try:
+            found = wait_on(node, waiter, timeout, self._connected)
+            return found and node.scheduler.on_hub(self._wait_until_counted)
+        finally:
+            waiter.wake()
+
+    wait_for_action_server_to_start = wait_for_server
+
+    def _connected(self) -> bool:
+        """Tell whether the node whose status arrived last is at the other end of all the topics."""
+        node, server = self.node, self._server
+        out = [node.publications.get(end.topic) for end in (self._goal, self._cancel)]
+        into = [node.subscriptions.get(end.topic) for end in (self._status, self._result, self._feedback)]
+        return bool(
+            server
+            and all(
+                end and any(sender.destination == server for sender in end.senders.values()) for end in out
+            )
+            and all(
+                end and any(link.is_open and link.peer == server for link in end.connections.values())
+                for end in into
+            )
+        )
+
+    def _wait_until_counted(self) -> bool:
+        """Wait until the server counts this client among its subscribers; return whether it still is connected.
+
+        rospy answers a subscriber a moment before it sends to it: what is published in between never comes, be it the
+        result of a goal that was over at once.
+        """
+        scheduler = self.node.scheduler
+        for _ in range(LOOKS):
+            if not self._connected() or self._is_counted():
+                break
+            scheduler.sleep_until(
+                scheduler.now_ns() + LOOK_NS, f"the action server of {self.ns} to count its clients"
+            )
+        return self._connected()
+
+    def _is_counted(self) -> bool:
+        """Ask the server's node whom it sends to."""
+        node = self.node
+        wanted = {end.topic for end in (self._status, self._result, self._feedback)}
+        links = node.subscriptions[self._status.topic].connections.values()
+        uri = next(link.uri for link in links if link.peer == self._server)
+        try:
+            code, _, rows = node.graph.transport.call(uri, "getBusInfo", node.name)
+        except TransportException:
+            return True  # it has gone, or tells nobody: there is nothing to wait for
+        return code != 1 or wanted <= {row[4] for row in rows if row[1:3] == [node.name, "o"]}
+
+    def _disconnected(self, peer: str) -> None:
+        if peer != self._server:
+            return
+        self._server = ""
+        ends = self.node.shutdown_reason is not None or self.node.graph.closing
+        if self._goals and not ends:
+            count = len(self._goals)
+            self.node.logwarn(
+                f"the action server {peer} of {self.ns} has gone, with {count} goal{'s' * (count > 1)} open. "
+                "As in ROS nothing tells how such a goal ends, unless a new server comes that does not know it (LOST): "
+                "wait with a time-out."
+            )
+
+    # -- what arrives --------------------------------------------------------------------------------------------
+
+    def _hear(self, statuses: Any) -> None:
+        server = (statuses._connection_header or {}).get("callerid", "")
+        if server != self._server:
+            self._server = server
+            self.node.connections_changed()
+        known = {status.goal_id.id: status for status in statuses.status_list}
+        for handle in list(self._goals.values()):
+            handle.hear(known.get(handle.id))
+
+    def _finish(self, action_result: Any) -> None:
+        handle = self._goals.get(action_result.status.goal_id.id)
+        if handle is not None:
+            handle.finish(action_result)
+
+    def _feed(self, action_feedback: Any) -> None:
+        handle = self._goals.get(action_feedback.status.goal_id.id)
+        if handle is not None:
+            handle.feed(action_feedback.feedback)

@@ -1,0 +1,181 @@
+"""What a server's author has of a goal: its message, and what to make of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from rosmini.msgs import message_class
+
+from .errors import ActionException, IllegalTransition
+from .server_machine import GoalEvent, next_status
+from .states import Status
+
+if TYPE_CHECKING:
+    from rosmini.core.graph import Node
+
+    from .status_tracker import StatusTracker
+
+__all__ = ["GoalServer", "ServerGoalHandle"]
+
+
+class GoalServer(Protocol):
+    """What a handle needs of its server."""
+
+    node: Node
+    ns: str
+
+    def complain(self, error: ActionException) -> None:
+        """Raise an error of whoever uses the server, or log it."""
+
+    def get_default_result(self) -> Any:
+        """Return an empty result."""
+
+    def publish_change(self) -> None:
+        """Publish the list of goals because one has changed."""
+
+    def end(self, tracker: StatusTracker) -> None:
+        """Note that nothing more is to be told of a goal."""
+
+    def publish_result(self, status: Any, result: Any) -> None:
+        """Publish a result."""
+
+    def publish_feedback(self, status: Any, feedback: Any) -> None:
+        """Publish feedback."""
+
+
+class ServerGoalHandle:
+    """One goal at the server: its message, its status, and what to make of it.
+
+    A step that the machine does not have (:mod:`rosmini.core.actionlib.server_machine`) raises ``IllegalTransition``,
+    and one of a handle without a goal ``ActionException``; at a server of rospy's style it is logged as an error and
+    nothing happens, as there.
+    """
+
+    def __init__(
+        self,
+        status_tracker: StatusTracker | None = None,
+        action_server: GoalServer | None = None,
+        handle_tracker: Any = None,
+    ) -> None:
+        self.status_tracker = status_tracker
+        self.action_server = action_server
+        self.handle_tracker = handle_tracker
+        self.goal: Any = None if status_tracker is None else status_tracker.goal
+        """The goal as it came, a message such as ``FibonacciActionGoal``; None for a handle without a goal."""
+
+    @property
+    def status(self) -> Any:
+        """The ``actionlib_msgs/GoalStatus``; an empty one without a goal."""
+        tracker = self.status_tracker
+        return (
+            message_class("actionlib_msgs/GoalStatus")()
+            if tracker is None or self.goal is None
+            else tracker.status
+        )
+
+    @property
+    def id(self) -> str:
+        """The goal's id."""
+        return str(self.status.goal_id.id)
+
+    def __repr__(self) -> str:
+        return f"<goal {self.id}: {self.state.name}>" if self.goal is not None else "<no goal>"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ServerGoalHandle) or self.goal is None or other.goal is None:
+            return False
+        return self.id == other.id
+
+    def __hash__(self) -> int:
+        return hash(self.id)
+
+    @property
+    def state(self) -> Status:
+        """The status as a name."""
+        return Status(self.status.status)
+
+    def get_goal(self) -> Any:
+        """Return the goal, a message such as ``FibonacciGoal``; None without a goal."""
+        return None if self.goal is None else self.goal.goal
+
+    def get_goal_id(self) -> Any:
+        """Return the ``actionlib_msgs/GoalID``; an empty one, and an error in the log, without a goal."""
+        return self.get_goal_status().goal_id
+
+    def get_goal_status(self) -> Any:
+        """Return the ``actionlib_msgs/GoalStatus``; an empty one, and an error in the log, without a goal."""
+        if self.goal is None:
+            self._complain(ActionException("this goal handle has no goal: its id and status are empty"))
+        return self.status
+
+    def get_default_result(self) -> Any:
+        """Return an empty result."""
+        return self._server().get_default_result()
+
+    # -- what the server decides ---------------------------------------------------------------------------------
+
+    def set_accepted(self, text: str = "") -> None:
+        """Begin with the goal: it is ``ACTIVE``, or ``PREEMPTING`` if its client wants it back already."""
+        self._step(GoalEvent.ACCEPT, text)
+
+    def set_rejected(self, result: Any = None, text: str = "") -> None:
+        """Refuse the goal before having begun."""
+        self._step(GoalEvent.REJECT, text, result)
+
+    def set_succeeded(self, result: Any = None, text: str = "") -> None:
+        """Say that the goal is reached."""
+        self._step(GoalEvent.SUCCEED, text, result)
+
+    def set_aborted(self, result: Any = None, text: str = "") -> None:
+        """Give the goal up."""
+        self._step(GoalEvent.ABORT, text, result)
+
+    def set_canceled(self, result: Any = None, text: str = "") -> None:
+        """Stop as asked: ``RECALLED`` if it had not begun, else ``PREEMPTED``."""
+        self._step(GoalEvent.CANCEL, text, result)
+
+    def set_cancel_requested(self) -> bool:
+        """Note that a client wants the goal cancelled; False where that changes nothing. For the server."""
+        if self.goal is None:
+            return False
+        try:
+            self.status.status = next_status(self.state, GoalEvent.CANCEL_REQUEST)
+        except IllegalTransition:
+            return False
+        self._server().publish_change()
+        return True
+
+    def publish_feedback(self, feedback: Any) -> None:
+        """Tell how far the goal has come: a message such as ``FibonacciFeedback``."""
+        if self.goal is None:
+            self._complain(ActionException("publish_feedback() was called on a goal handle that has no goal"))
+        else:
+            self._server().publish_feedback(self.status, feedback)
+
+    def _step(self, event: GoalEvent, text: str, result: Any = None) -> None:
+        if self.goal is None:
+            self._complain(ActionException(f"{event.value}() was called on a goal handle that has no goal"))
+        else:
+            self._server().node.scheduler.on_hub(self._go, event, text, result)
+
+    def _go(self, event: GoalEvent, text: str, result: Any) -> None:
+        server, status = self._server(), self.status
+        try:
+            state = next_status(self.state, event)
+        except IllegalTransition as error:
+            server.complain(IllegalTransition(f"goal {self.id} of {server.ns}: {error}"))
+            return
+        status.status, status.text = state, str(text)
+        if state.is_terminal and self.status_tracker is not None:
+            server.end(self.status_tracker)
+            server.publish_result(status, server.get_default_result() if result is None else result)
+        else:
+            server.publish_change()
+
+    def _server(self) -> GoalServer:
+        if self.action_server is None:
+            raise ActionException("this goal handle has no server: it was not made by one")
+        return self.action_server
+
+    def _complain(self, error: ActionException) -> None:
+        self._server().complain(error)

@@ -1,0 +1,89 @@
+"""The states that actionlib names: those of a goal, of a client's view of it, and of the simple client.
+
+Numbers and names are those of ``actionlib_msgs/GoalStatus`` and of actionlib's Python classes
+(http://wiki.ros.org/actionlib/DetailedDescription).
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+__all__ = ["CommState", "SimpleGoalState", "Status", "TerminalState"]
+
+
+class _Named(IntEnum):
+    """Numbers with names, as actionlib's own classes of constants have them."""
+
+    @classmethod
+    def to_string(cls, number: int) -> str:
+        """Return the name of a state, ``NO_SUCH_STATE_<number>`` for any other number."""
+        try:
+            return cls(number).name
+        except ValueError:
+            return f"NO_SUCH_STATE_{number:d}"
+
+
+class Status(_Named):
+    """How a goal is getting on: the constants of ``actionlib_msgs/GoalStatus``."""
+
+    PENDING = 0
+    ACTIVE = 1
+    PREEMPTED = 2
+    SUCCEEDED = 3
+    ABORTED = 4
+    REJECTED = 5
+    PREEMPTING = 6
+    RECALLING = 7
+    RECALLED = 8
+    LOST = 9
+
+    @property
+    def is_terminal(self) -> bool:
+        """True for a status that never changes again."""
+        return self in _TERMINAL
+
+
+_TERMINAL = frozenset(
+    {
+        Status.PREEMPTED,
+        Status.SUCCEEDED,
+        Status.ABORTED,
+        Status.REJECTED,
+        Status.RECALLED,
+        Status.LOST,
+    }
+)
+
+
+class TerminalState(_Named):
+    """How a goal can end, with the numbers of :class:`Status`."""
+
+    RECALLED = 8
+    REJECTED = 5
+    PREEMPTED = 2
+    ABORTED = 4
+    SUCCEEDED = 3
+    LOST = 9
+
+
+class CommState(_Named):
+    """What a client knows about its goal: the states of the client's machine."""
+
+    WAITING_FOR_GOAL_ACK = 0
+    PENDING = 1
+    ACTIVE = 2
+    WAITING_FOR_RESULT = 3
+    WAITING_FOR_CANCEL_ACK = 4
+    RECALLING = 5
+    PREEMPTING = 6
+    DONE = 7
+    LOST = 8
+    """Of no machine: what a handle that follows no goal any more answers."""
+
+
+class SimpleGoalState(_Named):
+    """The three states that :class:`~rosmini.core.actionlib.SimpleActionClient` makes of them."""
+
+    PENDING = 0
+    ACTIVE = 1
+    DONE = 2

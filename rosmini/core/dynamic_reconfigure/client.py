@@ -1,0 +1,225 @@
+"""The client: hears of another node's parameters, and changes them."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import ROSException, ROSInterruptException, ServiceException
+from rosmini.msgs import message_class, service_class
+
+from .description import KINDS, Description, ReconfigurableParameter
+from .encoding import Config, decode_description, decode_values, encode_values, group_tree
+from .errors import DynamicReconfigureCallbackException, DynamicReconfigureParameterException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from rosmini.core.graph import Node, Waiter
+
+_TRUE = ("yes", "true", "t", "1")
+_PATIENCE = 1.0
+"""After how many seconds a client that waits for ever says what it waits for."""
+
+
+class Client:
+    """Changes the parameters of the server ``name`` (usually the name of its node), and hears of changes.
+
+    Waits for the server, for at most ``timeout`` seconds of the node's time. ``config_callback(config)`` is called with
+    each new configuration, ``description_callback(parameters)`` with each description. Raises ``ROSException`` after
+    the timeout.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        name: str,
+        timeout: float | None = None,
+        config_callback: Callable[[Config], object] | None = None,
+        description_callback: Callable[[list[dict[str, Any]]], object] | None = None,
+    ) -> None:
+        self.node = node
+        self.name = name
+        self.config: Config | None = None
+        self.description: Description | None = None
+        self._early: Any = None
+        self._waiters: list[Waiter] = []
+        self._config_callback = config_callback
+        self._description_callback = description_callback
+        service = f"{name}/set_parameters"
+        self._wait_for_service(service, timeout or None)
+        self._set_service = node.service_client(
+            service, service_class("dynamic_reconfigure/Reconfigure"), numpy=False
+        )
+        self._subscribers = [
+            node.subscriber(
+                f"{name}/{topic}", message_class(f"dynamic_reconfigure/{kind}"), heard, numpy=False
+            )
+            for topic, kind, heard in (
+                ("parameter_descriptions", "ConfigDescription", self._described),
+                ("parameter_updates", "Config", self._updated),
+            )
+        ]
+
+    def _wait_for_service(self, service: str, timeout: float | None) -> None:
+        if timeout is None:
+            try:
+                self.node.wait_for_service(service, _PATIENCE)
+            except ROSException as error:
+                if isinstance(error, ROSInterruptException):
+                    raise
+                self.node.logwarn(f"waiting for the service {self.node.resolve(service)}")
+            else:
+                return
+        self.node.wait_for_service(service, timeout)
+
+    # -- what the server says ------------------------------------------------------------------------------------
+
+    def get_configuration(self, timeout: float | None = None) -> Config | None:
+        """Return the latest configuration; wait for the first.
+
+        None after ``timeout`` seconds, or when the node shuts down.
+        """
+        self._wait(lambda: self.config is not None, timeout, "configuration")
+        return self.config
+
+    def get_parameter_descriptions(self, timeout: float | None = None) -> list[dict[str, Any]] | None:
+        """Return a dictionary for each parameter: name, type, default, min, max, level, description, edit_method.
+
+        None as above.
+        """
+        self._wait(lambda: self.description is not None, timeout, "description")
+        return None if self.description is None else [one.as_dict() for one in self.description.parameters]
+
+    def get_group_descriptions(self, timeout: float | None = None) -> Config | None:
+        """Return the tree of groups: id, parent, name, type, state, ``parameters`` as above, and ``groups``.
+
+        None as above.
+        """
+        self._wait(lambda: self.description is not None, timeout, "description")
+        if self.description is None:
+            return None
+        tree = group_tree(self.description.root, {})
+        _describe(tree, self.description)
+        return tree
+
+    def _wait(self, holds: Callable[[], bool], timeout: float | None, what: str) -> None:
+        deadline = self.node.now().to_sec() + timeout if timeout else None
+        try:
+            while not holds():
+                waiter = self.node.waiter(f"the {what} of {self.name}")
+                self._waiters.append(waiter)
+                left = None if deadline is None else deadline - self.node.now().to_sec()
+                if left is not None and (left <= 0 or not self.node.wait(waiter, left)):
+                    return
+                if left is None:
+                    self.node.wait(waiter)
+        except ROSInterruptException:
+            return
+
+    def _described(self, message: Any) -> None:
+        self.description = decode_description(message)
+        self._wake()
+        if self._description_callback is not None:
+            self._description_callback([one.as_dict() for one in self.description.parameters])
+        early, self._early = self._early, None
+        if early is not None:
+            self._updated(early)
+
+    def _updated(self, message: Any) -> None:
+        if self.description is None:  # the two topics may overtake one another
+            self._early = message
+            return
+        self.config = self._decoded(message, self.description)
+        self._wake()
+        if self._config_callback is not None:
+            self._config_callback(self.config)
+
+    def _wake(self) -> None:
+        waiters, self._waiters = self._waiters, []
+        for waiter in waiters:
+            waiter.wake()
+
+    @staticmethod
+    def _decoded(message: Any, description: Description) -> Config:
+        values, states = decode_values(message)
+        return Config({**values, "groups": group_tree(description.root, states, values)})
+
+    # -- what is asked of it -------------------------------------------------------------------------------------
+
+    def update_configuration(self, changes: Mapping[str, Any]) -> Config:
+        """Change parameters, and states of groups (``{"groups": {name: state}}``); return what holds then.
+
+        Values become what their parameters are, if they can: the text "2.5" a double, "yes" and "true" a bool, the name
+        in an enumeration its value. Raises ``DynamicReconfigureParameterException`` for a parameter that is not there
+        and a value that cannot become one, ``DynamicReconfigureCallbackException`` if the server refuses.
+        """
+        self._wait(lambda: self.description is not None, None, "description")
+        description = self.description
+        if description is None:
+            raise DynamicReconfigureCallbackException(
+                f"{self.name} has not described its parameters, and the node shuts down"
+            )
+        values = {
+            name: _converted(description[name], value) for name, value in changes.items() if name != "groups"
+        }
+        states = {name: bool(state) for name, state in changes.get("groups", {}).items()}
+        request = encode_values(description, values, states)
+        try:
+            answer = self._set_service(request)
+        except ServiceException as error:
+            raise DynamicReconfigureCallbackException(
+                f"{self.name} did not change its parameters: {error}"
+            ) from error
+        return self._decoded(answer.config, description)
+
+    def close(self) -> None:
+        """Hear of changes no more. Harmless when repeated."""
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+
+    @property
+    def config_callback(self) -> Callable[[Config], object] | None:
+        """What is called with each new configuration; when it is set, also with the one that is known already."""
+        return self._config_callback
+
+    @config_callback.setter
+    def config_callback(self, value: Callable[[Config], object] | None) -> None:
+        self._config_callback = value
+        if value is not None and self.config is not None:
+            value(self.config)
+
+    @property
+    def description_callback(self) -> Callable[[list[dict[str, Any]]], object] | None:
+        """What is called with each description; when it is set, also with the one that is known already."""
+        return self._description_callback
+
+    @description_callback.setter
+    def description_callback(self, value: Callable[[list[dict[str, Any]]], object] | None) -> None:
+        self._description_callback = value
+        if value is not None and self.description is not None:
+            value([one.as_dict() for one in self.description.parameters])
+
+
+def _describe(tree: Config, description: Description) -> None:
+    """Put descriptions where a configuration has values."""
+    tree["parameters"] = [one.as_dict() for one in description.group(tree["name"]).parameters]
+    for inner in tree["groups"].values():
+        _describe(inner, description)
+
+
+def _converted(parameter: ReconfigurableParameter, value: Any) -> Any:
+    """Return a value as the parameter's type. Raises ``DynamicReconfigureParameterException`` if it cannot be that."""
+    kind = KINDS[parameter.type]
+    if isinstance(value, str) and kind is bool:
+        return value.lower() in _TRUE
+    if isinstance(value, str) and parameter.edit_method:
+        for constant in ast.literal_eval(parameter.edit_method)["enum"]:
+            if constant["name"].lower() == value.lower():
+                return KINDS[constant["type"]](constant["value"])
+    try:
+        return kind(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise DynamicReconfigureParameterException(
+            f"parameter {parameter.name} is of the type {parameter.type}, and {value!r} cannot become one: {error}"
+        ) from error

@@ -1,0 +1,180 @@
+"""The server: offers a node's parameters for change, and publishes every change."""
+
+from __future__ import annotations
+
+import copy
+from collections import deque
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.parameters import rounded
+from rosmini.msgs import message_class, service_class
+
+from .description import Description, cast_value
+from .encoding import Config, decode_values, encode_description, encode_values, group_states, group_tree
+from .errors import DynamicReconfigureCallbackException, DynamicReconfigureParameterException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from rosmini.core.graph import Node, Waiter
+    from rosmini.core.graph.lanes import Lane
+
+_ALL_LEVELS = -1
+"""The level of the first call: all bits are set."""
+
+
+class Server:
+    """Offers parameters of ``node`` for change, in ``namespace`` (the node's private one, if not given).
+
+    ``type`` is whatever :meth:`Description.of` takes. Values are those on the Parameter Server, else the defaults,
+    limited to their ranges with a warning; a float is rounded where an int is needed, as roscpp does.
+    ``callback(config, level)`` is called with all values, at once and then for each change, and returns the
+    configuration to hold: ``level`` is the bitwise or of the levels of the parameters that changed, 0 if none did, and
+    -1 (all bits set) in the first call. What holds is written to the Parameter Server and published on
+    ``parameter_updates``;
+    ``parameter_descriptions`` has the description, and the service ``set_parameters`` takes changes. Callbacks come one
+    after another. One that fails changes nothing.
+
+    Raises ``DynamicReconfigureParameterException`` for a wrong description and for a value of a wrong type on the
+    Parameter Server, ``DynamicReconfigureCallbackException`` if the callback returns nothing.
+    """
+
+    def __init__(
+        self, node: Node, type: Any, callback: Callable[[Config, int], Any], namespace: str = ""
+    ) -> None:
+        self.node = node
+        self.ns = _prefix(namespace)
+        self.type = type
+        self.description = Description.of(type)
+        self.callback = callback
+        self._owner: Lane | None = None
+        self._queue: deque[Waiter] = deque()
+        values = self._values_at_start()
+        self.config = self._config(values, {})
+        self.descr_topic = node.publisher(
+            self.ns + "parameter_descriptions",
+            message_class("dynamic_reconfigure/ConfigDescription"),
+            latch=True,
+        )
+        self.descr_topic.publish(encode_description(self.description))
+        self.update_topic = node.publisher(
+            self.ns + "parameter_updates", message_class("dynamic_reconfigure/Config"), latch=True
+        )
+        with self._alone():
+            self._change(values, {}, _ALL_LEVELS)
+        self.set_service = node.service(
+            self.ns + "set_parameters",
+            service_class("dynamic_reconfigure/Reconfigure"),
+            self._set,
+            numpy=False,
+        )
+
+    def update_configuration(self, changes: Mapping[str, Any]) -> Config:
+        """Change parameters, and states of groups in the item ``groups`` (as in a configuration).
+
+        Return what holds then. A value out of its range is limited. Raises ``DynamicReconfigureParameterException`` for
+        a parameter that is not there or a value of another type, what the callback raises, and
+        ``DynamicReconfigureCallbackException`` if that calls this method or returns nothing.
+        """
+        values = {name: value for name, value in changes.items() if name != "groups"}
+        return self._update(values, group_states(changes["groups"]) if "groups" in changes else {})
+
+    def _update(self, changes: Mapping[str, Any], states: Mapping[str, bool]) -> Config:
+        for name in states:
+            self.description.group(name)
+        with self._alone():
+            values = self._values_of(self.config)
+            level = 0
+            for name, value in changes.items():
+                parameter = self.description[name]
+                limited = parameter.clamp(cast_value(name, parameter.type, value))
+                if limited != values[name]:
+                    level |= parameter.level
+                values[name] = limited
+            return self._change(values, {**group_states(self.config["groups"]), **states}, level)
+
+    def _set(self, request: Any) -> Any:
+        """Answer the service."""
+        config = self._update(*decode_values(request.config))
+        return [self._encoded(config)]
+
+    def _change(self, values: Mapping[str, Any], states: Mapping[str, bool], level: int) -> Config:
+        answer = self.callback(copy.deepcopy(self._config(values, states)), level)
+        if answer is None:
+            raise DynamicReconfigureCallbackException(
+                f"the callback of the parameters of {self.node.name} returned nothing: it has to return the "
+                "configuration, changed or as it was"
+            )
+        unknown = next((name for name in answer if name != "groups" and name not in values), None)
+        if unknown is not None:
+            self.description[unknown]
+        values = {
+            one.name: cast_value(one.name, one.type, answer.get(one.name, values[one.name]))
+            for one in self.description.parameters
+        }
+        self.config = self._config(values, group_states(answer["groups"]) if "groups" in answer else states)
+        for name, value in values.items():
+            self.node.set_param(self.ns + name, value)
+        self.update_topic.publish(self._encoded(self.config))
+        return copy.deepcopy(self.config)
+
+    def _config(self, values: Mapping[str, Any], states: Mapping[str, bool]) -> Config:
+        return Config({**values, "groups": group_tree(self.description.root, states, values)})
+
+    def _values_of(self, config: Config) -> dict[str, Any]:
+        return {one.name: config[one.name] for one in self.description.parameters}
+
+    def _encoded(self, config: Config) -> Any:
+        return encode_values(self.description, self._values_of(config), group_states(config["groups"]))
+
+    def _values_at_start(self) -> dict[str, Any]:
+        values = {}
+        for parameter in self.description.parameters:
+            name = self.node.resolve_parameter(self.ns + parameter.name)
+            found = self.node.get_param(name, None)
+            if parameter.type == "int":
+                found = rounded(found)
+            try:
+                value = parameter.default if found is None else cast_value(name, parameter.type, found)
+            except DynamicReconfigureParameterException as error:
+                raise DynamicReconfigureParameterException(
+                    f"{error} on the Parameter Server: set it again, or delete it"
+                ) from None
+            values[parameter.name] = limited = parameter.clamp(value)
+            if found is not None and limited != value:
+                self.node.logwarn(
+                    f"node {self.node.name}: parameter {name} is {found!r}: {limited!r} is used, as its range is "
+                    f"{parameter.min!r} ... {parameter.max!r}"
+                )
+        return values
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """One change after another, also when a callback blocks."""
+        me = self.node.scheduler.current()
+        if self._owner is me:
+            raise DynamicReconfigureCallbackException(
+                "the callback of a server cannot call update_configuration: it returns the configuration that is to "
+                "hold"
+            )
+        while self._owner is not None:
+            waiter = self.node.waiter("another change of parameters to be done")
+            self._queue.append(waiter)
+            self.node.wait(waiter)
+        self._owner = me
+        try:
+            yield
+        finally:
+            self._owner = None
+            if self._queue:
+                self._queue.popleft().wake()
+
+
+def _prefix(namespace: str) -> str:
+    """Return what comes before the names of topics and parameters: ``~`` or a namespace with ``/`` at its end."""
+    if not namespace:
+        return "~"
+    if namespace[0] not in "/~":
+        namespace = "~" + namespace
+    return (namespace + "/").replace("//", "/")

@@ -1,0 +1,162 @@
+"""The budget of an expression, counted before it is spent, and the errors of expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from typing import Any
+
+from rosmini.core.collisions import MOST, collide
+from rosmini.core.errors import RosminiError
+
+BITS = 4096
+"""The size of the largest whole number."""
+
+LARGEST = 1_000_000
+"""How many elements and characters, all told, a value may have that an expression makes."""
+
+STEPS = 2_000_000
+"""How many turns of loops, made elements and made characters an evaluation may cost."""
+
+STEPS_OF_A_FILE = 200_000
+"""The same for all expressions of a file together, which earn `STEPS_OF_A_CHARACTER` more by their length."""
+
+STEPS_OF_A_CHARACTER = 10
+
+READ_AT_ONCE = 32
+"""How many elements one of Python's own functions reads while a loop makes one turn."""
+
+COMPARED_AT_ONCE = 1024
+"""How many characters one of Python's own searches compares while a loop makes one turn."""
+
+BITS_SQUARED = 1 << 18
+"""Arithmetic with whole numbers of so many bits, squared, takes as long as one turn of a loop."""
+
+_SHOWN = 60
+_ATOMS = frozenset({bool, float, int, type(None)})
+_VIEWS: tuple[Any, ...] = (type({}.keys()), type({}.values()), type({}.items()))
+_HOLDERS: tuple[Any, ...] = (list, tuple, dict, set, *_VIEWS)
+_NUMBERS = frozenset({bool, float, int})
+_SMALL = 1 << 256
+"""Whole numbers up to this one cost no more than others."""
+
+
+class ExpressionError(RosminiError):
+    """An expression is not valid, or it failed; ``__cause__`` is Python's error."""
+
+    has_spot = False
+    """Whether the message already names the part of the expression."""
+
+
+class NotAllowed(ExpressionError):
+    """An expression uses what a confined one may not use, or would cost more than it may."""
+
+
+class Budget:
+    """What evaluations may cost together, in steps. By default each evaluation has its own."""
+
+    __slots__ = ("left",)
+
+    def __init__(self, steps: int = STEPS) -> None:
+        self.left = steps
+
+    def earn(self, length: int) -> None:
+        """Allow more for so many characters of a file: a long file may cost more than a short one."""
+        self.left += STEPS_OF_A_CHARACTER * length
+
+    def spend(self, steps: int) -> None:
+        """Raises `NotAllowed` when nothing is left."""
+        self.left -= steps
+        if self.left < 0:
+            raise NotAllowed("this would take too many steps")
+
+    def read(self, value: Any) -> None:
+        """Pay for one of Python's own functions that looks at all of a value."""
+        kind = type(value)
+        if kind is int:
+            if not -_SMALL < value < _SMALL:
+                self.compute(value.bit_length())
+        elif kind in _ATOMS:  # most are, in loops
+            return
+        elif isinstance(value, _HOLDERS):
+            self.spend(weight(value) // READ_AT_ONCE)
+        elif isinstance(value, Collection):
+            self.spend(len(value) // READ_AT_ONCE)
+
+    def made(self, value: Any) -> Any:
+        """Pay for a value that was made, and return it. Raises `NotAllowed` if it is too large."""
+        if isinstance(value, int):
+            if not -_SMALL < value < _SMALL:
+                check_bits(value.bit_length())
+                self.compute(value.bit_length())
+        elif isinstance(value, (str, bytes, *_HOLDERS)):
+            self.room(weight(value))
+        return value
+
+    def compute(self, bits: int) -> None:
+        """Pay for arithmetic with whole numbers of so many bits, which takes the square of their length."""
+        self.spend(bits * bits // BITS_SQUARED)
+
+    def search(self, text: Any, words: Any) -> None:
+        """Pay for one of Python's searches that may compare each character with each."""
+        if isinstance(text, str | bytes) and isinstance(words, str | bytes):
+            self.spend(len(text) * len(words) // COMPARED_AT_ONCE)
+
+    def unique(self, keys: Collection[Any]) -> Collection[Any]:
+        """Return the keys of a set or dictionary. Raises `NotAllowed` if many of them have the same hash."""
+        if collide(keys):
+            raise NotAllowed(f"a set or a dictionary with more than {MOST} keys of the same hash")
+        return keys
+
+    def room(self, size: int) -> None:
+        """Pay for a value of `size` elements before it is made. Raises `NotAllowed` if it would be too large."""
+        if size > LARGEST:
+            raise NotAllowed(f"a value of more than {LARGEST} elements")
+        self.spend(size)
+
+    def collect(self, values: Iterable[Any]) -> list[Any]:
+        """Make a list of what can be looped over."""
+        if isinstance(values, Collection):
+            self.room(len(values))
+        return list(values)  # a loop of ours pays for itself
+
+
+def check_bits(bits: int) -> None:
+    """Raises `NotAllowed` for a whole number of too many bits."""
+    if bits > BITS:
+        raise NotAllowed(f"a whole number of more than {BITS} bits")
+
+
+def weight(value: Any) -> int:
+    """How many elements and characters a value has, all told; slightly more than `LARGEST` if it is more.
+
+    The digits of large whole numbers count as characters.
+    """
+    total = 0
+    waiting: list[Any] = [value]
+    while waiting and total <= LARGEST:
+        part = waiting.pop()
+        if isinstance(part, (str, bytes)):
+            total += len(part)
+        elif isinstance(part, _HOLDERS):
+            total += len(part)
+            parts: tuple[Any, ...] = (part, part.values()) if isinstance(part, dict) else (part,)
+            for items in parts:
+                kinds = set(map(type, items))
+                if not kinds <= _ATOMS:
+                    waiting += items
+                elif int in kinds and not (
+                    kinds <= _NUMBERS and min(items) > -_SMALL and max(items) < _SMALL
+                ):
+                    total += sum(map(_digits, items))
+        else:
+            total += _digits(part)
+    return total
+
+
+def _digits(value: Any) -> int:
+    return value.bit_length() // 3 if type(value) is int and not -_SMALL < value < _SMALL else 0
+
+
+def cut(text: str) -> str:
+    """A text, shortened if it is long."""
+    return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."

@@ -1,0 +1,91 @@
+"""What overlaps in the plane, found by pymunk's spatial index and its collision tests. Nothing moves here.
+
+An outline is its vertices (n, 2) in map coordinates [m], and a radius around them: a polygon is simple, goes
+counter-clockwise and has none; a segment has two vertices, a disc one. What reaches into something by less than `TOUCH`
+only touches it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.core.errors import RosminiError
+
+from .polygons import TOUCH, convex_parts, distances, sides_of
+
+Floats = NDArray[np.float64]
+
+
+class Outline(NamedTuple):
+    """A polygon, a segment or a disc."""
+
+    vertices: Floats
+    radius: float = 0.0
+
+
+@cache
+def _pymunk() -> Any:
+    """Return the package, which takes a moment to import. Raises `RosminiError` where it is not installed."""
+    try:
+        import pymunk
+    except ImportError as error:
+        msg = (
+            f"finding what overlaps needs the package pymunk, which cannot be used here ({error}). There is no wheel "
+            "of it for Windows on ARM: use Python for x64 there, or build it with a C compiler (pip install pymunk)"
+        )
+        raise RosminiError(msg) from error
+    return pymunk
+
+
+def _shapes(body: Any, outline: Outline, less: float = 0.0) -> list[Any]:
+    """Return an outline as convex shapes, whose sides are at least `less` [m] nearer to their centres."""
+    pymunk, radius = _pymunk(), outline.radius
+    found = []
+    for part in convex_parts(outline.vertices) if len(outline.vertices) > 2 else [outline.vertices]:
+        if len(part) == 1:
+            found.append(pymunk.Circle(body, max(radius - less, 0.0), part[0].tolist()))
+        elif len(part) == 2:
+            found.append(pymunk.Segment(body, *part.tolist(), max(radius - less, 0.0)))
+        else:
+            centre = part.mean(axis=0)
+            nearest = float(distances(centre[None], sides_of(part))[0])
+            factor = 1 - less / max(nearest, 2 * less) if less else 1.0
+            found.append(pymunk.Poly(body, (centre + (part - centre) * factor).tolist()))
+    return found
+
+
+class Overlaps:
+    """Outlines under labels, and which of them another one overlaps. Raises `RosminiError` without pymunk."""
+
+    def __init__(self) -> None:
+        self._space = _pymunk().Space()
+        self._shapes: dict[Hashable, list[Any]] = {}
+        self._labels: dict[Any, Hashable] = {}
+
+    def insert(self, label: Hashable, outline: Outline) -> None:
+        """Insert an outline; a label may have several."""
+        shapes = _shapes(self._space.static_body, outline)
+        self._space.add(*shapes)
+        self._shapes.setdefault(label, []).extend(shapes)
+        self._labels.update(dict.fromkeys(shapes, label))
+
+    def remove(self, label: Hashable) -> None:
+        """Remove the outlines of a label, if there are any."""
+        shapes = self._shapes.pop(label, [])
+        self._space.remove(*shapes)
+        for shape in shapes:
+            del self._labels[shape]
+            shape.body = None
+        self._space.step(0.0)  # until then it keeps what was removed
+
+    def find(self, outline: Outline) -> set[Hashable]:
+        """Return the labels of what an outline overlaps."""
+        # that shapes touch is certain; how deep is not, where their centres or sides coincide
+        body = _pymunk().Body(body_type=_pymunk().Body.STATIC)  # shapes hold no reference to theirs
+        probes = _shapes(body, outline, TOUCH)
+        return {self._labels[hit.shape] for probe in probes for hit in self._space.shape_query(probe)}

@@ -1,0 +1,80 @@
+"""The numbers and texts of small messages, cheap to keep and short to show: what a history keeps of a message."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import shown
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+MOST_FIELDS = 6
+"""Messages with more numbers and texts than that are not small."""
+
+LONGEST_TEXT = 32
+"""How many characters of a text are shown."""
+
+SCALARS = frozenset(["bool", "byte", "char", "float32", "float64", "string"])
+INTEGERS = frozenset(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64))
+
+Values = tuple[tuple[str, ...], tuple[Any, ...]]
+"""The names of the fields (``linear.x``) and their values."""
+
+
+def values(message: Any) -> Values | None:
+    """Return the values of a small message, its header left out; None for any other."""
+    cls: Any = type(message)
+    names, take = _reader(cls)
+    return None if take is None else (names, take(message))
+
+
+def brief(kept: Values | None) -> str:
+    """Return what was kept of a message, in a line; fields that are 0 or empty are left out."""
+    if kept is None:
+        return ""
+    names, found = kept
+    if not names:
+        return ""
+    if len(names) == 1:
+        return _short(found[0])
+    some = [f"{name}: {_short(value)}" for name, value in zip(names, found, strict=True) if value]
+    return ", ".join(some) or "all 0"
+
+
+def _short(value: Any) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else shown(value, LONGEST_TEXT)
+
+
+@lru_cache(maxsize=1_000)
+def _reader(cls: Any) -> tuple[tuple[str, ...], Callable[[Any], tuple[Any, ...]] | None]:
+    try:
+        names = tuple(_fields(cls))
+    except _NotSmall:
+        return (), None
+    if len(names) > MOST_FIELDS:
+        return (), None
+    if not names:
+        return (), lambda _: ()
+    take = attrgetter(*names)
+    return names, take if len(names) > 1 else lambda message: (take(message),)
+
+
+class _NotSmall(Exception):
+    """The message has an array, or something else that is not shown in a line."""
+
+
+def _fields(cls: Any) -> Iterator[str]:
+    for field in cls._spec.fields:
+        if field.size is not None or field.base != field.type:
+            raise _NotSmall
+        if field.type in SCALARS or field.type in INTEGERS:
+            yield field.name
+        elif field.type in cls._nested:
+            if field.type != "std_msgs/Header":
+                for inner in _fields(cls._nested[field.type]):
+                    yield f"{field.name}.{inner}"
+        else:
+            raise _NotSmall

@@ -1,0 +1,73 @@
+"""Users' callbacks: what they are called with, and which of them failed, where, and on which message."""
+
+from __future__ import annotations
+
+import linecache
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rosmini.core.errors import CallbackError
+
+from .rosout import OWN, source_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import FrameType
+
+STANDARD_LIBRARY = str(Path(os.__file__).parent) + os.sep
+
+SHOWN_LINES = 12
+"""So much of a message is shown."""
+
+
+class Callback(NamedTuple):
+    """A user's function, and what it gets after each message."""
+
+    function: Callable[..., object]
+    arguments: tuple[Any, ...]
+
+    def caller(self) -> Callable[[Any], object]:
+        """Return what calls the user's function with a message."""
+        function, arguments = self.function, self.arguments
+        return (lambda message: function(message, *arguments)) if arguments else function
+
+
+def describe_failure(
+    error: BaseException, callback: Callable[..., object], where: str, message: Any, node: str
+) -> CallbackError:
+    """Return a ``CallbackError`` caused by ``error``: callback, user's line, topic or service, and message."""
+    name = getattr(callback, "__qualname__", None) or type(callback).__name__
+    lines = [
+        f"{name.rpartition('<locals>.')[2]} of {node}, called for {where}, raised {type(error).__name__}: {error}"
+    ]
+    place = _users_line(error)
+    if place is not None:
+        lines.append(place)
+    if message is not None:
+        shown = str(message).splitlines()
+        lines.append(f"  The message ({message._type}):")
+        lines += [f"    {line}" for line in shown[:SHOWN_LINES]]
+        if len(shown) > SHOWN_LINES:
+            lines.append(f"    ... and {len(shown) - SHOWN_LINES} more lines")
+    problem = CallbackError("\n".join(lines))
+    problem.__cause__ = error
+    return problem
+
+
+def _users_line(error: BaseException) -> str | None:
+    """Return the last line of the traceback that is not in rosmini or the standard library."""
+    best: tuple[FrameType, int] | None = None
+    trace = error.__traceback__
+    while trace is not None:
+        filename = trace.tb_frame.f_code.co_filename
+        if not filename.startswith((OWN, STANDARD_LIBRARY)):
+            best = (trace.tb_frame, trace.tb_lineno)
+        trace = trace.tb_next
+    if best is None:
+        return None
+    frame, number = best
+    code = frame.f_code
+    text = linecache.getline(code.co_filename, number, frame.f_globals).strip()
+    source = source_of(code.co_filename)
+    return f"  {Path(source).name}, line {number}, in {code.co_name}" + (f": {text}" if text else "")

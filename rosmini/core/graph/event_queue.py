@@ -1,0 +1,175 @@
+"""The part of the scheduler that knows no lanes: the time, and events due now, later, or from another thread."""
+
+from __future__ import annotations
+
+import threading
+import time
+from _thread import get_ident
+from collections import deque
+from math import inf
+from numbers import Real
+from typing import TYPE_CHECKING
+
+from rosmini.core.errors import RosminiError, shown
+
+from .events import TimedEvents
+from .inbox import Inbox
+from .interrupts import MAIN_THREAD
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .events import Timer
+    from .inbox import Sleeper
+
+SIMULATED_START_NS = 1_000 * 10**9
+"""Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""
+
+TICK_QUANTUM_NS = 1_000_000
+"""How far simulated time goes on in the turns of a polling loop, and at an instant that has no end."""
+
+ROUNDS_PER_INSTANT = 10_000
+"""More rounds of events at one instant, each caused by the one before, are nodes that answer each other without end."""
+
+ROUNDS_PER_QUANTUM = 20
+"""From then on so many rounds cost a quantum: 0.1 ms for a message and its callback, about as on a robot."""
+
+
+def span_ns(seconds: float, what: str) -> int:
+    """Return a span of graph time in nanoseconds.
+
+    Raises ``RosminiError``, saying ``what`` it is, for no finite number from zero on.
+    """
+    if isinstance(seconds, Real) and not isinstance(seconds, bool) and 0 <= seconds < inf:
+        return int(seconds * 1e9)
+    msg = f"{what} is a number of seconds, zero or more, not {shown(seconds)}; leave it out for no limit"
+    raise RosminiError(msg)
+
+
+class EventQueue:
+    """Events in the order of their times; see :class:`~rosmini.core.graph.scheduler.Scheduler`, which runs them."""
+
+    def __init__(self, *, simulated: bool = True, rate: float = 1.0) -> None:
+        if not rate > 0:
+            msg = f"the rate of a clock must be positive, not {rate!r}"
+            raise RosminiError(msg)
+        self.simulated = simulated
+        self.rate = rate
+        self.thread = get_ident()
+        self.ready: deque[Callable[[], object]] = deque()
+        self._now = SIMULATED_START_NS
+        self._wall_start = time.time_ns()
+        self._mono_start = (
+            time.perf_counter_ns()
+        )  # on Windows monotonic() steps by 15.6 ms before Python 3.13
+        self._timed = TimedEvents()
+        self._last: list[Callable[[], object]] = []
+        self._rounds = 0
+        self._inbox: Inbox[Callable[[], object] | None] = Inbox()
+        self._holds = 0
+        self._remote_waits = 0
+        self._hold_lock = threading.Lock()
+
+    def now_ns(self) -> int:
+        """Return the graph time in nanoseconds."""
+        if self.simulated:
+            return self._now
+        return self._wall_start + int((time.perf_counter_ns() - self._mono_start) * self.rate)
+
+    def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
+        """Call ``callback`` at graph time ``when_ns`` (at once if that is past). Only from the hub's thread."""
+        return self._timed.add(when_ns, callback)
+
+    def call_soon(self, callback: Callable[[], object]) -> None:
+        """Call ``callback`` after what is already due now. It must not block: code that may goes into a lane."""
+        if get_ident() == self.thread:
+            self.ready.append(callback)
+        else:
+            self._inbox.put(callback)
+
+    def call_last(self, callback: Callable[[], object]) -> None:
+        """Call ``callback`` as soon as nothing else is due. Only from the hub's thread."""
+        self._last.append(callback)
+
+    def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
+        """Like :meth:`call_soon`, through the inbox: the only door for other threads."""
+        self._inbox.put(callback)
+
+    def sleep_in(self, sleeper: Sleeper | None) -> None:
+        """Have the hub sleep in ``sleeper`` when it has nothing to do; None: in the inbox."""
+        self._inbox.sleeper = sleeper
+
+    def is_hub_thread(self) -> bool:
+        """Tell whether the caller is in the thread that runs the queue."""
+        return get_ident() == self.thread
+
+    def is_in_main_thread(self) -> bool:
+        """Tell whether the queue runs in the main thread."""
+        return self.thread == MAIN_THREAD
+
+    def hold(self) -> None:
+        """Say that something is under way outside the queue: simulated time stands still until :meth:`release`."""
+        with self._hold_lock:
+            self._holds += 1
+
+    def release(self) -> None:
+        """Undo one :meth:`hold`, from any thread, after its result was put into the inbox."""
+
+        def let_go() -> None:
+            with self._hold_lock:
+                self._holds -= 1
+
+        self._inbox.put(let_go)
+
+    def count_remote(self, change: int) -> None:
+        """Count who waits for something outside this process, which may take what time it likes. From any thread."""
+        with self._hold_lock:
+            self._remote_waits += change
+
+    def quiet(self) -> bool:
+        """Tell whether there is nothing to do at this moment."""
+        due = self._timed.next_ns()
+        return (
+            not self.ready and not self._last and self._inbox.empty() and (due is None or due > self.now_ns())
+        )
+
+    def pending(self) -> int:
+        """Return how many events there are, due now and later."""
+        return len(self.ready) + len(self._timed)
+
+    # -- for the scheduler's loop --------------------------------------------------------------------------------
+
+    def _empty_inbox(self) -> None:
+        """Take what other threads want done."""
+        inbox = self._inbox
+        while not inbox.empty():
+            item = inbox.get()
+            if item is not None:
+                self.ready.append(item)
+
+    def _take_due(self) -> None:
+        self._timed.take_due(self.now_ns(), self.ready)
+
+    def count_rounds(self, rounds: int) -> None:
+        """Count what a lane did at this instant beside the rounds of the loop. For lanes only."""
+        self._rounds += rounds
+
+    def _take_last(self) -> None:
+        self.ready.extend(self._last)
+        self._last.clear()
+
+    def _creep(self) -> None:
+        """Let simulated time go on although this instant has no end."""
+        due, soon = self._timed.next_ns(), self._now + TICK_QUANTUM_NS
+        self._now = soon if due is None else min(soon, max(due, self._now))
+        self._rounds -= ROUNDS_PER_QUANTUM
+        self._take_due()
+
+    def _wait_for_event(self, due_ns: int | None) -> None:
+        """Wait until then, or for something from another thread, or, lest a Ctrl-C be overlooked, for a moment."""
+        timeout = 0.2  # Python on Windows notices Ctrl-C only between waits
+        if due_ns is not None and not self.simulated:
+            timeout = min(timeout, (due_ns - self.now_ns()) / 1e9 / self.rate)
+        if timeout > 0:
+            self._inbox.wait(timeout)
+            self._empty_inbox()

@@ -1,0 +1,377 @@
+"""What happened in a graph: who called whom, who sent what to whom, when, and what each of it was caused by.
+
+A graph that records (:meth:`Graph.record <rosmini.core.graph.graph.Graph.record>`) has one history. The last
+:data:`KEPT_EVENTS` events are kept; an event refers to its cause by number, so that what is forgotten is forgotten.
+Nothing is recorded, and nothing is spent, in a graph that was not asked to record.
+"""
+
+from __future__ import annotations
+
+import linecache
+import os
+import re
+import sys
+from ast import literal_eval
+from collections import Counter, deque
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from rosmini.msgs.message import Message
+
+from .brief import Values, brief, values
+from .rosout import OWN, source_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from types import CodeType, FrameType
+
+    from .lanes import Lane
+    from .scheduler import Scheduler
+
+Kind = Literal["call", "connection", "publication", "delivery", "loss", "request", "answer"]
+
+KEPT_EVENTS = 20_000
+"""How many events are kept."""
+
+KEPT_PUBLICATIONS = 50
+"""How many publications of each topic, and requests of each service, are kept, however long ago they were."""
+
+MASTER = "Master"
+"""What the Master is called, which is no node."""
+
+UNRECORDED = frozenset(["/rosout_agg", "/clock"])
+"""Topics whose messages are not recorded: they repeat what others say, and are many."""
+
+STANDARD_LIBRARY = str(Path(os.__file__).parent) + os.sep
+_MAGIC = re.compile(r"get_ipython\(\)\.run_line_magic\(('\w+', (?:'[^'\\\\]*'|\"[^\"\\\\]*\"))\)")
+
+OTHERS = ("site-packages", "dist-packages")
+
+_set_cause: Callable[[Message, int], None] = Message.__dict__["_cause"].__set__
+
+
+def _cause_of(message: Any) -> int | None:
+    found: int | None = getattr(message, "_cause", None)
+    return found
+
+
+class Place(NamedTuple):
+    """A line of somebody's program."""
+
+    file: str
+    line: int
+    function: str
+    text: str = ""
+
+    def __str__(self) -> str:
+        where = f"{self.file}, line {self.line}"
+        return where if self.function == "<module>" else f"{where}, in {self.function}"
+
+
+@dataclass(slots=True, eq=False)
+class Event:
+    """One thing that happened.
+
+    A ``call`` is one of the Master's API or of a node's slave API; a ``connection`` is made by a subscriber, for a
+    topic; a ``publication`` leads to a ``delivery`` for each subscriber, or to a ``loss`` if a fault was asked for; an
+    ``answer`` has its ``request`` as cause.
+    """
+
+    number: int
+    kind: Kind
+    time_ns: int
+    """The graph's time [ns]."""
+    who: str
+    """The node that acts, or ``"Master"``."""
+    whom: str
+    """Who is acted on; empty for a publication."""
+    about: str
+    """The topic, service or parameter."""
+    what: str = ""
+    """The method of a call."""
+    arguments: str = ""
+    """The arguments of a call, in short."""
+    answer: str | None = None
+    """The answer to a call, in short; of a failed request the reason."""
+    count: int = 0
+    """This is the count-th publication on its topic, or request of its service, since recording began."""
+    message: Values | None = None
+    place: Place | None = None
+    """The line that published or called; of a delivery the callback."""
+    lane: str = ""
+    """What ran: the name of the lane; empty for what the scheduler did by itself."""
+    cause: int | None = None
+    """The number of the event without which this one would not have happened."""
+    heard: tuple[int, ...] = ()
+    """The last delivery on each topic that the publishing node has got: the numbers of these events."""
+
+    @property
+    def time(self) -> float:
+        """The graph's time [s]."""
+        return self.time_ns / 1e9
+
+    @property
+    def text(self) -> str:
+        """The arguments, or the message, in short."""
+        return self.arguments or brief(self.message)
+
+
+class History:
+    """Records what happens in a graph. Its methods are called by the graph's own parts, in the hub's thread."""
+
+    def __init__(self, scheduler: Scheduler, nodes: Mapping[str, Any]) -> None:
+        self._scheduler = scheduler
+        self._nodes = nodes
+        self._next = 0
+        self._events: deque[Event] = deque(maxlen=KEPT_EVENTS)
+        self._last: dict[str, deque[Event]] = {}
+        self._counts: Counter[str] = Counter()
+        self._heard: dict[str, dict[str, int]] = {}
+        self._names: dict[str, str] = {}
+        self._lines: dict[tuple[CodeType, int], Place] = {}
+        self._callbacks: dict[CodeType, Place] = {}
+
+    # -- asking --------------------------------------------------------------------------------------------------
+
+    @property
+    def next_number(self) -> int:
+        """The number that the next event will have."""
+        return self._next
+
+    def between(self, start: int, end: int) -> list[Event]:
+        """Return the events with numbers from ``start`` on, below ``end``, as far as they are kept."""
+        return [event for event in self._events if start <= event.number < end]
+
+    def event(self, number: int | None) -> Event | None:
+        """Return the event of a number, if there is one and it is still kept."""
+        if number is None or not self._events:
+            return None
+        index = number - self._events[0].number
+        return self._events[index] if 0 <= index < len(self._events) else None
+
+    def last(self, about: str, count: int = 1) -> list[Event]:
+        """Return the last publications on a topic, or requests of a service, oldest first."""
+        return list(self._last.get(about, ()))[-count:]
+
+    def last_of(self, node: str) -> Event | None:
+        """Return what a node did last: a publication, a log message too, or a request."""
+        return next(
+            (
+                event
+                for event in reversed(self._events)
+                if event.who == node and event.kind in ("publication", "request")
+            ),
+            None,
+        )
+
+    def subjects(self) -> list[str]:
+        """Return the topics and services about which :meth:`last` knows something, sorted."""
+        return sorted(self._last)
+
+    # -- recording -----------------------------------------------------------------------------------------------
+
+    def _note(self, kind: Kind, who: str, whom: str, about: str, **more: Any) -> Event:
+        event = Event(self._next, kind, self._scheduler.now_ns(), who, whom, about, **more)
+        self._next += 1
+        self._events.append(event)
+        return event
+
+    def _acting(self) -> tuple[Lane | None, int | None]:
+        """Return the lane that acts, None if the scheduler itself does, and what it acts on."""
+        scheduler = self._scheduler
+        lane = scheduler.current()
+        if lane.waiter is not None or (lane.idle and lane is not scheduler.root):
+            return None, None  # the queue goes on, and this one only ran before
+        woken = lane.woken
+        if woken is not None and woken[0] == scheduler.now_ns():
+            return lane, woken[1]
+        return lane, lane.cause
+
+    def cause(self) -> int | None:
+        """Return on which event whatever is running acts."""
+        return self._acting()[1]
+
+    def called(self, who: str, uri: str, method: str, arguments: tuple[Any, ...], answer: Any) -> None:
+        """Note a call of the Master's API (no ``uri``), or of the slave API at ``uri``, and its answer."""
+        if not self._scheduler.is_hub_thread():
+            self._scheduler.call_soon_threadsafe(
+                partial(self.called, who, uri, method, arguments, answer)
+            )  # what the caller acts on is not known then
+            return
+        lane, cause = self._acting()
+        about, *rest = [*arguments, ""]
+        self._note(
+            "call",
+            MASTER if who == "/master" else who,
+            self.name_at(uri) if uri else MASTER,
+            about if isinstance(about, str) else "",
+            what=method,
+            arguments=", ".join(filter(None, (self._shown(each) for each in (about, *rest)))),
+            answer=self._answered(method, answer),
+            lane="" if lane is None else lane.name,
+            cause=cause,
+        )
+
+    def _answered(self, method: str, answer: Any) -> str:
+        code, status, value = answer
+        if code != 1:
+            return f"{code}: {status}"
+        if method == "requestTopic":
+            return str(value[0])
+        if method.startswith(
+            ("register", "getParam", "lookup", "hasParam", "search", "unregister", "subscribe")
+        ):
+            return self.name_at(value) if isinstance(value, str) else self._shown(value)
+        return "1"
+
+    def _shown(self, value: Any) -> str:
+        """Return an argument in short: addresses are replaced by the names of who is there, one's own is left out."""
+        if isinstance(value, list):
+            names = [self.name_at(each) for each in value if isinstance(each, str)]
+            return f"[{', '.join(names)}]" if len(names) == len(value) else ""
+        if isinstance(value, str):
+            return "" if value.startswith(("http://", "rosrpc://")) else value
+        return "" if isinstance(value, dict) else str(value)
+
+    def name_at(self, uri: str) -> str:
+        """Return the name of the node with the slave API or the services at ``uri``; else that itself."""
+        place = uri.replace("rosrpc://", "http://").rstrip("/")
+        if place not in self._names:
+            self._names.update({node.uri.rstrip("/"): node.name for node in self._nodes.values()})
+        return self._names.get(place, uri)
+
+    def connected(self, subscriber: str, publisher: str, topic: str, message_type: str) -> None:
+        """Note that a subscriber has connected to a publisher."""
+        _, cause = self._acting()
+        self._note("connection", subscriber, publisher, topic, arguments=message_type, cause=cause)
+
+    def published(self, node: str, topic: str, frozen: Any) -> None:
+        """Note a publication, which a message carries from now on."""
+        if topic in UNRECORDED:
+            return
+        lane, cause = self._acting()
+        heard = self._heard.get(node)
+        event = self._note(
+            "publication",
+            node,
+            "",
+            topic,
+            count=self._count(topic),
+            message=values(frozen),
+            place=None if lane is None else self._caller(),
+            lane="" if lane is None else lane.name,
+            cause=cause,
+            heard=() if heard is None else tuple(heard.values()),
+        )
+        self._keep(event)
+        _set_cause(frozen, event.number)
+
+    def _count(self, about: str) -> int:
+        self._counts[about] += 1
+        return self._counts[about]
+
+    def _keep(self, event: Event) -> None:
+        kept = self._last.get(event.about)
+        if kept is None:
+            kept = self._last[event.about] = deque(maxlen=KEPT_PUBLICATIONS)
+        kept.append(event)
+
+    @staticmethod
+    def same(copy: Any, frozen: Any) -> None:
+        """Note that a message is a copy of another."""
+        cause = _cause_of(frozen)
+        if cause is not None:
+            _set_cause(copy, cause)
+
+    def delivered(self, node: str, peer: str, topic: str, frozen: Any, callback: Any) -> None:
+        """Note that a message reaches the callback in whose lane this is called, which acts on it from now on."""
+        event = self._arrived("delivery", node, peer, topic, frozen, place=self._place_of(callback))
+        self._heard.setdefault(node, {})[topic] = event.number
+        self.act_on(event.number)
+
+    def lost(self, node: str, peer: str, topic: str, frozen: Any) -> None:
+        """Note that a message is lost on its way to a node."""
+        self._arrived("loss", node, peer, topic, frozen)
+
+    def _arrived(self, kind: Kind, node: str, peer: str, topic: str, frozen: Any, **more: Any) -> Event:
+        cause = _cause_of(frozen)
+        source = self.event(cause)
+        if source is None:
+            return self._note(kind, peer, node, topic, message=values(frozen), cause=cause, **more)
+        return self._note(
+            kind, peer, node, topic, count=source.count, message=source.message, cause=cause, **more
+        )
+
+    def requested(self, node: str, peer: str, service: str, request: Any) -> Event:
+        """Note a request, which carries that from now on."""
+        lane, cause = self._acting()
+        event = self._note(
+            "request",
+            node,
+            peer,
+            service,
+            count=self._count(service),
+            message=values(request),
+            place=self._caller(),
+            lane="" if lane is None else lane.name,
+            cause=cause,
+        )
+        self._keep(event)
+        _set_cause(request, event.number)
+        return event
+
+    def answered(self, request: Event, response: Any, problem: str | None) -> None:
+        """Note the answer to a request."""
+        answer = problem if problem is not None else brief(values(response))
+        request.answer = answer
+        self._note("answer", request.whom, request.who, request.about, arguments=answer, cause=request.number)
+
+    def serve(self, request: Any) -> None:
+        """Note that the caller's lane acts on a request from now on."""
+        self.act_on(_cause_of(request))
+
+    def act_on(self, number: int | None) -> None:
+        """Note on which event the caller's lane acts from now on; None: on nobody's."""
+        self._scheduler.current().cause = number
+
+    # -- whose line it is ----------------------------------------------------------------------------------------
+
+    def _caller(self) -> Place | None:
+        frame: FrameType | None = sys._getframe(2)  # noqa: SLF001 - the documented way to find a caller
+        while frame is not None:
+            code, line = frame.f_code, frame.f_lineno
+            place = self._lines.get((code, line))
+            if place is not None:
+                return place
+            filename = code.co_filename
+            if not filename.startswith((OWN, STANDARD_LIBRARY, "<frozen")) and not _is_others(filename):
+                text = _as_written(linecache.getline(filename, line).strip())
+                place = self._lines[code, line] = Place(_file(code), line, code.co_name, text)
+                return place
+            frame = frame.f_back
+        return None
+
+    def _place_of(self, callback: Any) -> Place | None:
+        code: CodeType | None = getattr(getattr(callback, "__func__", callback), "__code__", None)
+        if code is None or code.co_filename.startswith(OWN):
+            return None
+        place = self._callbacks.get(code)
+        if place is None:
+            place = self._callbacks[code] = Place(_file(code), code.co_firstlineno, code.co_name)
+        return place
+
+
+def _file(code: CodeType) -> str:
+    return Path(source_of(code.co_filename)).name
+
+
+def _as_written(text: str) -> str:
+    """Return a line of a program as its author wrote it: IPython turns `%rostopic ...` into a call."""
+    magic = _MAGIC.fullmatch(text)
+    return text if magic is None else " ".join(literal_eval(f"({magic[1]})")).join(("%", ""))
+
+
+def _is_others(filename: str) -> bool:
+    return any(folder in filename for folder in OTHERS)

@@ -1,0 +1,386 @@
+"""Lanes: the threads of control of a graph, run one at a time by the scheduler.
+
+A lane is a queue of tasks that run first in, first out. Two lanes interleave only where one of them blocks
+(``rate.sleep``, a service call, ``spin``): the blocked one is parked, a greenlet, and the queue goes on. Code that
+blocks therefore reads like a threaded ROS node, and runs in the same order each time.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from _thread import get_ident
+from collections import deque
+from functools import partial
+from typing import TYPE_CHECKING, Any, Protocol
+
+from greenlet import GreenletExit
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from greenlet import greenlet
+
+    from .events import Timer
+
+
+PATIENCE_S = 2.0
+"""How long a call waits in another thread before it asks why."""
+
+LOOK_S = 0.05
+"""How often in wall time it looks whether whoever drove the queue has stopped, and drives it itself then."""
+
+
+TURNS = 1_000
+"""How many tasks a lane runs before the others get their turn."""
+
+
+class LaneExit(BaseException):
+    """Thrown into a lane that is asked to end, at the place where it blocks."""
+
+
+class LaneContext(Protocol):
+    """What is swapped in and out when a lane runs: a script's ``sys.argv``, its modules, its random state."""
+
+    def enter(self) -> None:
+        """Make this context the one that Python code sees."""
+
+    def leave(self) -> None:
+        """Restore what was there before."""
+
+    def cut_short(self) -> None:
+        """Learn that a second Ctrl-C ended what one of its lanes was running."""
+
+    def keeps_polling(self) -> None:
+        """Learn, in a lane that runs, that its loop has gone on for long without a blocking call."""
+
+
+class Hub(Protocol):
+    """What lanes and waiters need of the scheduler."""
+
+    simulated: bool
+    rate: float
+    thread: int
+    """The identifier of the thread that runs the queue."""
+    ready: deque[Callable[[], object]]
+    ask_driver: Callable[[Waiter], Callable[[], None]]
+    history: Any
+    """What records what happens, or None."""
+
+    def take_hub(self, *, to_wait: bool = False) -> bool:
+        """Move the hub to the calling thread, which is about to drive; return False if it cannot be moved."""
+
+    def current(self) -> Lane:
+        """Return the caller's lane."""
+
+    def now_ns(self) -> int:
+        """Return the graph time in nanoseconds."""
+
+    def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
+        """Call ``callback`` at graph time ``when_ns``."""
+
+    def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
+        """Call ``callback`` soon in the hub's thread."""
+
+    def count_rounds(self, rounds: int) -> None:
+        """Count what a lane did at this instant besides the rounds of the loop."""
+
+    def enter_lane(self, lane: Lane) -> None:
+        """Make ``lane`` the running one."""
+
+    def lane_failed(self, lane: Lane, error: BaseException) -> None:
+        """Report that a task of ``lane`` raised."""
+
+    def park(self, waiter: Waiter) -> bool:
+        """Leave the caller parked until ``waiter`` resumes it; False if another thread has begun to drive."""
+
+    def count_remote(self, change: int) -> None:
+        """Count who waits for something outside this process."""
+
+
+class Lane:
+    """A first-in, first-out queue of tasks with one blocking point.
+
+    ``node`` is the ROS node that the lane works for, ``context`` the script it belongs to; both are inherited by lanes
+    that are created from it. ``on_error`` gets an exception that a task lets out; without it the exception is raised at
+    the call that drives the graph.
+    """
+
+    __slots__ = (
+        "_activate_ref",
+        "_busy",
+        "_scheduler",
+        "_tasks",
+        "cause",
+        "context",
+        "dead",
+        "name",
+        "node",
+        "on_error",
+        "on_exit",
+        "parks",
+        "waiter",
+        "woken",
+    )
+
+    def __init__(
+        self,
+        scheduler: Hub,
+        name: str,
+        *,
+        node: Any = None,
+        context: LaneContext | None = None,
+        on_error: Callable[[BaseException], None] | None = None,
+    ) -> None:
+        self._scheduler = scheduler
+        self.name = name
+        self.node = node
+        self.context = context
+        self.on_error = on_error
+        self.on_exit: Callable[[], None] | None = None
+        self.dead = False
+        self._tasks: deque[Callable[[], object]] = deque()
+        self._busy = False
+        self.waiter: Waiter | None = None
+        """What the lane is parked for. Set by the scheduler only."""
+        self.parks = 0
+        """The number of times that the lane has blocked. Set by the scheduler only."""
+        self.cause: int | None = None
+        """The number of the event that its task acts on, where the graph records what happens."""
+        self.woken: tuple[int, int] | None = None
+        """The time at which an event woke the lane, and the number of that event."""
+        self._activate_ref = self._activate
+
+    def __repr__(self) -> str:
+        state = "ended" if self.dead else f"waiting for {self.waiting_for}" if self.waiter else "idle"
+        return f"<lane {self.name}: {state}>"
+
+    @property
+    def idle(self) -> bool:
+        """True when the lane has nothing to run and is not parked in a task."""
+        return not self._busy
+
+    @property
+    def waiting_for(self) -> str | None:
+        """What the lane is parked for, in words, or None."""
+        waiter = self.waiter
+        return None if waiter is None else waiter.reason
+
+    def submit(self, task: Callable[[], object]) -> None:
+        """Queue ``task``; it runs after the ones before it. From any thread. A dead lane ignores it."""
+        scheduler = self._scheduler
+        if get_ident() != scheduler.thread:
+            scheduler.call_soon_threadsafe(lambda: self.submit(task))
+            return
+        if scheduler.history is not None:
+            task = partial(self._on_behalf, scheduler.history.cause(), task)
+        self.post(task)
+
+    def _on_behalf(self, cause: int | None, task: Callable[[], object]) -> None:
+        """Run a task, which acts on the same event as who submitted it."""
+        self.cause = cause
+        try:
+            task()
+        finally:
+            self.cause = None
+
+    def post(self, task: Callable[[], object]) -> None:
+        """Do as :meth:`submit` does, in the hub's thread only."""
+        if self.dead:
+            return
+        self._tasks.append(task)
+        if not self._busy:
+            self._busy = True
+            self._scheduler.ready.append(self._activate_ref)
+
+    def post_if_idle(self, task: Callable[[], object]) -> bool:
+        """Queue ``task`` if nothing else is queued or running; return whether it was. In the hub's thread only."""
+        if self._busy or self.dead:
+            return False
+        self._busy = True
+        self._tasks.append(task)
+        self._scheduler.ready.append(self._activate_ref)
+        return True
+
+    def kill(self) -> None:
+        """End the lane: forget its queued tasks and throw :class:`LaneExit` where it is parked."""
+        if self.dead:
+            return
+        self.dead = True
+        self._tasks.clear()
+        if self.waiter is not None:
+            self.waiter.fail(LaneExit(f"lane {self.name} was asked to end"))
+        elif not self._busy:
+            self._ended()
+
+    def _activate(self) -> None:
+        """Run the queued tasks. Called by the scheduler only, in one of its worker greenlets."""
+        scheduler = self._scheduler
+        scheduler.enter_lane(self)
+        tasks = self._tasks
+        turns = TURNS
+        while tasks:
+            if not turns:  # a lane that keeps giving itself work starves nobody
+                scheduler.count_rounds(TURNS)
+                scheduler.ready.append(self._activate_ref)
+                return
+            turns -= 1
+            task = tasks.popleft()
+            try:
+                task()
+            except LaneExit:
+                self.dead = True
+                tasks.clear()
+            except GreenletExit:  # nobody holds the graph any more: it must not go on while it is swept away
+                self.dead = True
+                raise
+            except BaseException as error:
+                scheduler.lane_failed(self, error)
+        self._busy = False
+        if self.dead:
+            self._ended()
+
+    def _ended(self) -> None:
+        if self.on_exit is not None:
+            on_exit, self.on_exit = self.on_exit, None
+            on_exit()
+
+
+class Waiter:
+    """One thing that somebody blocks for: woken once, with a value or an error, from any thread.
+
+    ``wait`` works from a lane (which is parked), from the main program or a notebook cell (which drives the queue
+    meanwhile), and from another thread: it sleeps while somebody drives. In wall time, if nobody does, it drives the
+    queue itself until it is woken.
+    """
+
+    __slots__ = ("_error", "_event", "_hub", "cause", "done", "greenlet", "queued", "reason", "value")
+
+    def __init__(self, hub: Hub, reason: str) -> None:
+        self._hub = hub
+        self.reason = reason
+        self.done = False
+        self.value: Any = None
+        self._error: BaseException | None = None
+        self._event: threading.Event | None = None
+        self.greenlet: greenlet | None = None
+        """The parked code. For the scheduler only, as is the next one."""
+        self.cause: int | None = None
+        """The number of the event that woke it, where the graph records what happens."""
+        self.queued = False
+        """True when :meth:`resume` is among the events that are due."""
+
+    def wake(self, value: Any = None) -> None:
+        """Let the waiting code go on; ``value`` is kept in :attr:`value`. Later calls do nothing."""
+        self._finish(value, None)
+
+    def fail(self, error: BaseException) -> None:
+        """Raise ``error`` in the waiting code."""
+        self._finish(None, error)
+
+    def _finish(self, value: Any, error: BaseException | None) -> None:
+        hub = self._hub
+        if get_ident() != hub.thread:
+            hub.call_soon_threadsafe(lambda: self._finish(value, error))
+        elif not self.done:
+            self.value = value
+            self._error = error
+            self.done = True
+            if hub.history is not None:
+                self.cause = hub.history.cause()
+            self._go_on()
+
+    def _go_on(self) -> None:
+        if self._event is not None:
+            self._event.set()
+        elif self.greenlet is not None and not self.queued:
+            self.queued = True
+            self._hub.ready.append(self.resume)
+
+    @property
+    def settled(self) -> bool:
+        """True when a thread that waited goes on: woken, failed or timed out."""
+        event = self._event
+        return self.done or event is None or event.is_set()
+
+    def resume(self) -> greenlet | None:
+        """Return the code to go on with; the loop switches to it, and then holds nothing of this waiter."""
+        self.queued = False
+        return self.greenlet
+
+    def wait(self, timeout_ns: int | None = None) -> bool:
+        """Block until woken (True) or until ``timeout_ns`` of graph time have passed (False).
+
+        Raises what :meth:`fail` was given, and :class:`~rosmini.core.errors.GraphEnded` when the main program waits in
+        simulated time and nothing is left that could wake it.
+        """
+        hub = self._hub
+        end = None if timeout_ns is None else hub.now_ns() + timeout_ns
+        while not self.done:
+            drives = get_ident() == hub.thread or hub.take_hub(to_wait=True) or self._wait_in_thread(end)
+            if not drives or self.done or self._park(end):
+                break
+        if self._error is not None:
+            raise self._error
+        return self.done
+
+    def _park(self, end_ns: int | None) -> bool:
+        hub = self._hub
+        if end_ns is None:
+            return hub.park(self)
+        timer = hub.call_at(end_ns, self._time_out)
+        try:
+            return hub.park(self)
+        finally:
+            timer.cancel()
+
+    def _time_out(self) -> None:
+        """Resume the waiting code without marking the waiter as done."""
+        if not self.done:
+            self._go_on()
+
+    def _wait_in_thread(self, end_ns: int | None) -> bool:
+        """Sleep while somebody else drives; return True if nobody does any more and this thread has taken the hub."""
+        hub = self._hub
+        event = self._event = threading.Event()
+        try:
+            if self.done:
+                return False
+            if end_ns is not None and hub.simulated:
+                hub.call_soon_threadsafe(lambda: hub.call_at(end_ns, self._time_out))
+            complain: Callable[[], None] | None = hub.ask_driver(self)
+            impatient = time.monotonic() + PATIENCE_S
+            look = LOOK_S
+            while not event.wait(look):
+                if not hub.simulated:
+                    if end_ns is not None:
+                        left = (end_ns - hub.now_ns()) / 1e9 / hub.rate
+                        if left <= 0:
+                            return False
+                        look = min(look, left)
+                    if get_ident() == hub.thread or hub.take_hub(to_wait=True):
+                        return True
+                if complain is not None and time.monotonic() > impatient:
+                    complain()
+                    complain = None
+            return False
+        finally:
+            self._event = None
+
+
+class RemoteWaiter(Waiter):
+    """Waits for an answer from outside this process; whoever is to wake it has a time-out on the wall.
+
+    Simulated time goes on meanwhile, for the other end may need it; only where nothing else is left to do the queue
+    waits for the answer instead of ending.
+    """
+
+    __slots__ = ()
+
+    def wait(self, timeout_ns: int | None = None) -> bool:
+        """Block as :meth:`Waiter.wait`."""
+        self._hub.count_remote(1)
+        try:
+            return super().wait(timeout_ns)
+        finally:
+            self._hub.count_remote(-1)

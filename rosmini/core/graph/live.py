@@ -1,0 +1,228 @@
+"""A graph that is driven from a Jupyter kernel's own event loop, in small slices.
+
+Between two slices the kernel answers widgets and runs cells; a cell that blocks drives the graph itself meanwhile.
+Everything runs in the kernel's main thread: what other threads want (JupyterLab handles widgets in one) comes through
+the inbox.
+"""
+
+from __future__ import annotations
+
+import re
+import signal
+import sys
+import time
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import ROSInterruptException, RosminiError
+
+from .notebook import kernel_loop, kernel_shell
+from .report import ended
+
+if TYPE_CHECKING:
+    import asyncio
+    from collections.abc import Callable
+
+    from .graph_core import GraphCore
+    from .lanes import Waiter
+
+SLICE_S = 0.01
+"""How often the graph gets its turn: twice as often as a view is drawn at 50 frames a second."""
+
+BUDGET_S = 0.02
+"""How long one turn may take; a single callback that takes longer is not cut."""
+
+LAG_S = 0.5
+"""How far a live graph runs after wall time to make up for a delay: that of a large scene being drawn, for instance.
+
+After a longer one it goes on from where it stood.
+"""
+
+SLEEP = re.compile(r"\btime\s*\.\s*sleep\s*\(")
+"""What holds up the kernel, in a cell's text."""
+
+STOPPED = (
+    "The live graph was stopped. Call live() to go on; with Graph(strict=False) such errors are logged instead, "
+    "as in ROS."
+)
+
+
+class LoopDrive(ABC):
+    """Gives ``graph`` its turns in ``loop`` until :meth:`stop`, or until :meth:`over` holds."""
+
+    def __init__(self, graph: GraphCore, loop: asyncio.AbstractEventLoop) -> None:
+        self.graph = graph
+        self.running = True
+        self._loop = loop
+        self._noted = False
+        self._kernel = kernel_shell()
+        loop.call_soon_threadsafe(self._step)
+
+    def stop(self) -> None:
+        """Let the graph stand still again. From any thread; harmless when repeated."""
+        if self.running:
+            self.running = False
+            self._loop.call_soon_threadsafe(self._let_go)
+
+    def over(self) -> bool:
+        """Tell whether there is nothing more to drive for."""
+        return not self.running
+
+    def _step(self) -> None:
+        if self.over():
+            self.stop()
+            return
+        self._catch_interrupts()
+        delay = SLICE_S
+        try:
+            if self._noted:
+                raise KeyboardInterrupt  # as one that comes during a slice does
+            if not self.graph.scheduler.driven:
+                delay = self._slice()
+        except BaseException as error:  # there is no call to raise it at
+            self.stop()
+            self._failed(error)
+        if self.running:
+            self._loop.call_later(delay, self._step)
+
+    @abstractmethod
+    def _slice(self) -> float:
+        """Drive for a moment; return after how many seconds to go on."""
+
+    @abstractmethod
+    def _failed(self, error: BaseException) -> None:
+        """Tell whom it concerns why the drive ended."""
+
+    def _drive(self, until_ns: int | None = None, until: Callable[[], bool] | None = None) -> str:
+        """Run until then, but not longer than the budget; return why it ended."""
+        deadline = time.perf_counter() + BUDGET_S
+        scheduler = self.graph.scheduler
+        if not scheduler.simulated:
+            until_ns, until = scheduler.now_ns() + int(BUDGET_S * scheduler.rate * 1e9), scheduler.quiet
+        return scheduler.run(
+            until_ns, lambda: time.perf_counter() > deadline or (until is not None and until())
+        ).reason
+
+    # Between cells ipykernel ignores an interrupt: it is for the live graph then.
+
+    def _catch_interrupts(self) -> None:
+        if self._kernel is None:
+            return
+        handler = signal.getsignal(signal.SIGINT)
+        owner = getattr(handler, "__self__", None)
+        # The kernel may have put back the handler of a drive that has ended.
+        if handler is signal.SIG_IGN or (isinstance(owner, LoopDrive) and not owner.running):
+            signal.signal(signal.SIGINT, self._interrupted)
+
+    def _interrupted(self, _signum: int, _frame: Any) -> None:
+        self._noted = True
+
+    def _let_go(self) -> None:
+        if signal.getsignal(signal.SIGINT) == self._interrupted:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+class LiveDrive(LoopDrive):
+    """Lets ``graph`` go on at ``rate`` seconds of graph time a second until :meth:`stop`; made by :meth:`Graph.live`.
+
+    A graph in simulated time is let go on to where wall time has got to, one in wall time keeps its own rate. What
+    callbacks write appears in the cell that drives, and while none does in the one that called ``live``. An error that
+    would end a ``graph.run()`` is shown there and stops the drive, and so does an interrupt while no cell runs.
+    """
+
+    def __init__(self, graph: GraphCore, loop: asyncio.AbstractEventLoop, *, rate: float = 1.0) -> None:
+        if not rate > 0:
+            msg = f"the rate of a live graph must be positive, not {rate!r}"
+            raise RosminiError(msg)
+        self.rate = rate
+        self._graph_start = graph.scheduler.now_ns()
+        self._start = time.perf_counter()
+        super().__init__(graph, loop)
+        if self._kernel is not None:
+            self._kernel.events.register("pre_run_cell", self._warn_of_sleep)
+
+    def __repr__(self) -> str:
+        return f"<live graph, {self.rate:g} s a second{'' if self.running else ', stopped'}>"
+
+    def _let_go(self) -> None:
+        super()._let_go()
+        if self._kernel is not None:
+            self._kernel.events.unregister("pre_run_cell", self._warn_of_sleep)
+
+    def _warn_of_sleep(self, info: Any) -> None:
+        """Say before a cell runs that sleeps with Python's own sleep that the graph stands still meanwhile."""
+        if self.running and SLEEP.search(info.raw_cell or ""):
+            sys.stderr.write(
+                "time.sleep() keeps the kernel busy, so the live graph stands still meanwhile. "
+                "Let graph.run(seconds) or a node's sleep(seconds) wait instead: with them it goes on.\n"
+            )
+
+    def _slice(self) -> float:
+        if not self.graph.simulated:
+            self._drive()
+            return SLICE_S
+        target = self._target()
+        self._drive(target)
+        is_late = self.running and self.graph.scheduler.now_ns() < target
+        return 0.0 if is_late else SLICE_S
+
+    def _target(self) -> int:
+        now, wall = self.graph.scheduler.now_ns(), time.perf_counter()
+        target = self._graph_start + int((wall - self._start) * self.rate * 1e9)
+        latest = now + int(LAG_S * self.rate * 1e9)
+        if now <= target <= latest:
+            return target
+        # A cell drove the graph ahead, or kept the kernel busy: go on from here.
+        self._graph_start, self._start = max(now, min(target, latest)), wall
+        return self._graph_start
+
+    def _failed(self, error: BaseException) -> None:
+        if isinstance(error, KeyboardInterrupt):
+            sys.stderr.write("The live graph was stopped by an interrupt. Call live() to go on.\n")
+            return
+        error.add_note(STOPPED)
+        if self._kernel is None:
+            self._loop.call_exception_handler({"message": "a live graph met an error", "exception": error})
+        else:
+            self._kernel.showtraceback((type(error), error, error.__traceback__))
+
+
+class Errand(LoopDrive):
+    """Drives ``graph`` in the kernel's main thread for a call blocked in another thread, unless already driven."""
+
+    def __init__(self, graph: GraphCore, waiter: Waiter) -> None:
+        self._waiter = waiter
+        self._begun = False
+        if not graph.scheduler.is_in_main_thread():
+            msg = (
+                "this graph was made in another thread (in a widget's callback?), which is not there to run it. "
+                "Make the graph in a cell."
+            )
+            raise RosminiError(msg)
+        super().__init__(graph, kernel_loop())
+
+    def over(self) -> bool:
+        """Tell whether the other thread's call has what it waits for."""
+        return self._waiter.settled
+
+    def complain(self) -> None:
+        """Say which cell is in the way, if one is. Called in the other thread."""
+        if not self._begun and not self.graph.scheduler.driven:
+            sys.stderr.write(
+                "A call in another thread is waiting, and the graph stands still because the cell that runs does not "
+                "drive it. It goes on after that cell; interrupt the cell, or let it block with node.sleep() or "
+                "graph.run().\n"
+            )
+
+    def _slice(self) -> float:
+        self._begun = True
+        if self.graph.is_live:
+            return SLICE_S
+        if self._drive(until=self.over) == "drained" and not self.over():
+            self._waiter.fail(ended(self._waiter.reason, self.graph.scheduler.waiting()))
+        return 0 if self.graph.simulated else SLICE_S
+
+    def _failed(self, error: BaseException) -> None:
+        if isinstance(error, KeyboardInterrupt):
+            error = ROSInterruptException("interrupted")
+        self._waiter.fail(error)

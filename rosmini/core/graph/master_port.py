@@ -1,0 +1,287 @@
+"""How anything asks the Master: through one port, which may take time, may fail and may park the caller's lane.
+
+In process the :class:`~rosmini.core.graph.master.Master` is the port itself and answers at once. A Master elsewhere is
+another :class:`MasterPort`. Nodes and tools do not call a port themselves: each has a :class:`MasterProxy`, which keeps
+its calls in order and tries again where ROS does.
+"""
+
+from __future__ import annotations
+
+import threading
+from abc import ABC, abstractmethod
+from collections import deque
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING, Any, Protocol
+
+from rosmini.core.errors import MasterUnreachable, ROSException, ROSInterruptException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from .lanes import Waiter
+    from .scheduler import Scheduler
+    from .transport import Triple
+
+METHODS = frozenset(
+    [
+        "registerService",
+        "unregisterService",
+        "registerSubscriber",
+        "unregisterSubscriber",
+        "registerPublisher",
+        "unregisterPublisher",
+        "lookupNode",
+        "getPublishedTopics",
+        "getTopicTypes",
+        "getSystemState",
+        "getUri",
+        "getPid",
+        "shutdown",
+        "lookupService",
+        "setParam",
+        "getParam",
+        "hasParam",
+        "deleteParam",
+        "searchParam",
+        "getParamNames",
+        "subscribeParam",
+        "unsubscribeParam",
+    ]
+)
+"""The Master API and the Parameter Server API (http://wiki.ros.org/ROS/Master_API)."""
+
+MASTER_TICKS = 300
+"""Ticks of a call in a loop that does not sleep: XML-RPC takes about 0.3 ms (see ``Scheduler.charge``)."""
+
+RETRY_NS = 200_000_000
+"""How long a node waits before it tries again to register, as rospy does."""
+
+LEAVE_NS = 2_000_000_000
+"""How long a node that ends keeps trying to unregister at a Master that does not answer."""
+
+
+class MasterPort(ABC):
+    """A way to the Master. ``port.lookupNode(caller_id, name)`` is ``port.call("lookupNode", caller_id, name)``."""
+
+    uri: str
+    """The Master's address."""
+    is_local = False
+    """True for a Master in this process: it answers at once, in any thread, and its notifier tells of every change."""
+    keeps_trying = True
+    """False where a registration that is not answered fails, and is not tried again."""
+    leave_by: int | None = None
+    """Until when nodes that end keep trying to unregister, in graph time; None while the Master answers."""
+
+    @abstractmethod
+    def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
+        """Return the Master's answer: [code, status, value]. May park the calling lane.
+
+        Raises ``MasterUnreachable`` when there is no answer; the call may have had its effect all the same.
+        """
+
+    def __getattr__(self, name: str) -> Callable[..., Triple]:
+        if name not in METHODS:
+            raise AttributeError(f"the Master has no method {name}", name=name, obj=self)
+        return partial(self.call, name)
+
+
+class MasterHost(Protocol):
+    """What a proxy needs of its graph."""
+
+    scheduler: Scheduler
+
+    @property
+    def master(self) -> MasterPort:
+        """The port to the Master of this moment."""
+
+
+class MasterProxy:
+    """The Master as one caller sees it.
+
+    Its calls reach the Master one after another, in the order in which they were made. ``caller_id`` is the node's or
+    the tool's name. ``why_over`` says why a registration need not be tried again.
+    """
+
+    def __init__(
+        self, host: MasterHost, caller_id: str, why_over: Callable[[], str | None] = lambda: None
+    ) -> None:
+        self._host = host
+        self._caller_id = caller_id
+        self._why_over = why_over
+        self.is_mute = False
+        """Whether registrations are not taken back: the caller is dead."""
+        self._has_registered = False
+        self._lock = threading.Lock()
+        self._busy = False
+        self._queue: deque[Waiter] = deque()
+        self._moved: dict[str, str] = {}
+
+    def moved(self, addresses: Mapping[str, str]) -> None:
+        """Learn new addresses by the old ones: what still waits for the Master is registered under the new ones.
+
+        Else it would look to the Master like another node of the same name, and it would end this one.
+        """
+        self._moved = {old: addresses.get(new, new) for old, new in self._moved.items()} | dict(addresses)
+
+    def call(self, method: str, *arguments: Any) -> Triple:
+        """Return the Master's answer: [code, status, value]. Raises ``MasterUnreachable``."""
+        port = self._host.master
+        if port.is_local:
+            self._host.scheduler.charge(MASTER_TICKS)
+            return self._reach(port, method, arguments)
+        with self._turn():  # the graph may have another Master when the turn comes
+            return self._reach(self._host.master, method, arguments)
+
+    def _reach(self, port: MasterPort, method: str, arguments: tuple[Any, ...]) -> Triple:
+        """Return a port's answer, and have it recorded where the graph records what happens."""
+        answer: Triple
+        if port.is_local:
+            answer = getattr(port, method)(self._caller_id, *arguments)
+        else:
+            answer = port.call(method, self._caller_id, *arguments)
+        history = self._host.scheduler.history
+        if history is not None:
+            history.called(self._caller_id, "", method, arguments, answer)
+        return answer
+
+    def ask(self, method: str, *arguments: Any) -> Any:
+        """Return the value of the Master's answer.
+
+        Raises ``ROSException`` with its status for any code but 1, and ``MasterUnreachable``.
+        """
+        return self._value(method, self.call(method, *arguments))
+
+    def _value(self, method: str, answer: Triple) -> Any:
+        code, status, value = answer
+        if code != 1:
+            raise ROSException(f"the Master refused {method} of node {self._caller_id}: {status}")
+        return value
+
+    def find(self, method: str, *arguments: Any) -> Any:
+        """Return the value of the Master's answer, or None if the code is not 1. Raises ``MasterUnreachable``."""
+        code, _, value = self.call(method, *arguments)
+        return value if code == 1 else None
+
+    def insist(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Triple:
+        """Do as :meth:`call`, but keep trying while the Master does not answer; ``warn`` once.
+
+        Raises ``ROSInterruptException`` when the caller ends meanwhile.
+        """
+        port = self._host.master
+        if port.is_local:
+            self._has_registered = True
+            return self._reach(port, method, arguments)
+        with self._turn():
+            while True:
+                try:
+                    answer = self._reach(self._host.master, method, self._current(arguments))
+                    self._has_registered = True
+                    return answer
+                except MasterUnreachable as error:
+                    if not port.keeps_trying:
+                        raise
+                    over = self._why_over()
+                    if over is not None:
+                        raise ROSInterruptException(over) from error
+                    silence = str(error)
+                warn(
+                    f"Unable to register with master node [{self._host.master.uri}]: "
+                    f"master may not be running yet. Will keep trying. ({silence})"
+                )
+                warn = _silent
+                self._pause()
+
+    def _current(self, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+        return tuple(self._moved.get(each, each) if isinstance(each, str) else each for each in arguments)
+
+    def register(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Any:
+        """Do as :meth:`ask`, but keep trying as :meth:`insist` does."""
+        return self._value(method, self.insist(method, *arguments, warn=warn))
+
+    def unregister(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> None:
+        """Take a registration back; after some vain attempts only ``warn``, once for all that end then.
+
+        What the Master has forgotten is no error.
+        """
+        if self.is_mute:
+            return
+        port = self._host.master
+        if port.is_local:
+            self._reach(port, method, arguments)
+            return
+        scheduler = self._host.scheduler
+        with self._turn():
+            while True:
+                started = scheduler.now_ns()
+                if port.leave_by is not None and started >= port.leave_by:
+                    return
+                try:
+                    self._reach(self._host.master, method, arguments)
+                except MasterUnreachable as error:
+                    if not self._has_registered:
+                        return  # nothing stays there
+                    port.leave_by = port.leave_by or started + LEAVE_NS
+                    if not port.keeps_trying or scheduler.now_ns() + RETRY_NS >= port.leave_by:
+                        port.leave_by = started
+                        warn(
+                            f"{error} ({method}). The registration stays there; `rosnode cleanup` removes it."
+                        )
+                        return
+                    self._pause()
+                else:
+                    port.leave_by = None
+                    return
+
+    def who_publishes(self, topic: str) -> str:
+        """Return a clause that says who publishes a topic."""
+        try:
+            names = self._publishers(topic)
+        except MasterUnreachable:
+            return "the Master does not answer"
+        return f"{', '.join(names)} publishes it" if names else "nobody publishes it"
+
+    def publisher_at(self, topic: str, uri: str) -> str:
+        """Return the name of the node at ``uri`` that publishes a topic, or the URI if the Master does not know it."""
+        try:
+            names = [name for name in self._publishers(topic) if self.find("lookupNode", name) == uri]
+        except MasterUnreachable:
+            names = []
+        return names[0] if names else uri
+
+    def _publishers(self, topic: str) -> list[str]:
+        publishers: list[tuple[str, list[str]]] = self.ask("getSystemState")[0]
+        return next((names for name, names in publishers if name == topic), [])
+
+    def _pause(self) -> None:
+        scheduler = self._host.scheduler
+        scheduler.sleep_until(scheduler.now_ns() + RETRY_NS, "the Master")
+
+    @contextmanager
+    def _turn(self) -> Iterator[None]:
+        """Let this caller's calls that came before this one end first."""
+        with self._lock:
+            waiter = None
+            if self._busy:
+                waiter = self._host.scheduler.waiter("its turn at the Master")
+                self._queue.append(waiter)
+            self._busy = True
+        try:
+            if waiter is not None:
+                waiter.wait()
+            yield
+        finally:
+            self._pass_on(waiter)
+
+    def _pass_on(self, mine: Waiter | None) -> None:
+        with self._lock:
+            if mine is not None and mine in self._queue:  # it was asked to end before its turn came
+                self._queue.remove(mine)
+            elif self._queue:
+                self._queue.popleft().wake()
+            else:
+                self._busy = False
+
+
+def _silent(_text: str) -> None:
+    """Say nothing."""

@@ -1,0 +1,452 @@
+"""A node: the object API of the computation graph, in ROS's vocabulary.
+
+>>> from rosmini import Graph
+>>> from rosmini.msgs.std_msgs.msg import String
+>>> graph = Graph()
+>>> listener = graph.node("listener")
+>>> subscriber = listener.subscriber("chatter", String, lambda message: print("heard", message.data))
+>>> talker = graph.node("talker")
+>>> publisher = talker.publisher("chatter", String, queue_size=10)
+>>> publisher.wait_for_subscribers()
+>>> publisher.publish("hello")
+>>> graph.run(0.1).reason
+heard hello
+'time'
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from rosmini.core.errors import (
+    CallbackError,
+    DuplicateNode,
+    ROSException,
+    ROSInterruptException,
+    TransportInitError,
+    TypeMismatch,
+)
+from rosmini.core.names import Remappings, canonicalize, check_base_name, check_name, resolve
+from rosmini.core.time import Duration
+
+from .clock import GraphClock, Rate, Timer, TimerEvent, TopicClock
+from .master_port import MasterProxy
+from .publisher import Publication, Publisher
+from .rosout import LEVELS, Logger, logger_services
+from .service import timed_out
+from .service_api import ServiceApi
+from .slave import SlaveApi
+from .subscriber import Subscriber
+from .subscription import Subscription
+from .topic_statistics import TopicStatistics, are_wanted
+from .transport import extra_fields
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .graph_core import GraphCore
+    from .lanes import Lane, LaneContext, Waiter
+    from .transport import Header, Sender, Triple
+
+
+class Node(ServiceApi):
+    """A node of a :class:`~rosmini.core.graph.graph.Graph`; made by ``graph.node(name)`` or ``Node(name)``.
+
+    Args:
+        name: the node's base name (``talker``), resolved in ``namespace``.
+        graph: the graph; the process's default graph if not given.
+        namespace: where relative names of this node start (``__ns:=``).
+        remappings: ``{"chatter": "/robot1/chatter"}``, or a :class:`~rosmini.core.names.Remappings`.
+        anonymous: append a number that makes the name unique.
+        has_rosout: publish its log on ``/rosout``.
+
+    A node of the same name that already runs is shut down, as in ROS. Raises ``IllegalName``.
+
+    """
+
+    default_graph: ClassVar[Callable[..., GraphCore]]
+    """Returns the graph of a node that is given none."""
+
+    def __init__(
+        self,
+        name: str,
+        graph: GraphCore | None = None,
+        *,
+        namespace: str = "/",
+        remappings: dict[str, str] | Remappings | None = None,
+        anonymous: bool = False,
+        context: LaneContext | None = None,
+        has_rosout: bool = True,
+    ) -> None:
+        self.graph = graph = self.default_graph() if graph is None else graph
+        self.scheduler = graph.scheduler
+        self.context = context
+        if not isinstance(remappings, Remappings):
+            remappings = Remappings(remappings or {})
+        self.remappings = remappings
+        self.namespace = canonicalize("/" + check_name(remappings.namespace or namespace, "namespace"))
+        base = check_base_name(remappings.node_name or name)
+        if anonymous and remappings.node_name is None:
+            base = graph.anonymous_name(base)
+        self.name = resolve(base, self.namespace)
+        self.master = MasterProxy(graph, self.name, self._why_over)
+        self.shutdown_reason: str | None = None
+        self.is_registered = False
+        """True once the Master has heard of the node."""
+        self.on_exit: Callable[[], object] | None = None
+        self.process: Any = None
+        """What runs the node and can ``kill()`` it, if anything does."""
+        self.program: Any = None
+        """The object behind a built-in node, such as a `Simulator`, once it is set up."""
+        """Called once, when the node has been shut down and the Master has forgotten it."""
+        self.publications: dict[str, Publication] = {}
+        self.subscriptions: dict[str, Subscription] = {}
+        self.services = {}
+        self._hooks: list[Callable[[], object]] = []
+        self.timers: dict[Timer, None] = {}
+        """The timers that run."""
+        self._waiters: dict[Waiter, None] = {}
+        self._connections = 0
+        self._parameter_callbacks: dict[str, list[Callable[[Any], object]]] = {}
+        self._parameter_told: dict[str, Any] = {}
+        self._parameter_lane: Lane | None = None
+        self._stopped = False
+        self.clock: GraphClock | TopicClock = GraphClock(self.scheduler)
+        self.logger = Logger(self)
+        self.slave = SlaveApi(self)
+        self.uri = ""
+        self.scheduler.on_hub(lambda: self._start(has_rosout=has_rosout))
+
+    def _start(self, *, has_rosout: bool) -> None:
+        """Register: the Master hears of the node by its first registration, that of ``/rosout`` if it has that."""
+        graph = self.graph
+        self.uri = graph.transport.attach(self)
+        log_file = graph.add_node(self)
+        if log_file is not None:
+            self.logger.open_file(log_file)
+        for key, value in self.remappings.private_parameters.items():
+            name = resolve("~" + key, self.namespace, self.name)
+            self.master.insist("setParam", name, value, warn=self.logerr)
+        if has_rosout:
+            publication = Publication(self, "/rosout", graph.log_class)
+            publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
+            self._publish(publication)
+        for service, service_class, handler in logger_services(self.logger):
+            self.service(service, service_class, handler)
+        self.is_registered = True
+        code, _, use_sim_time = self.master.insist("getParam", "/use_sim_time", warn=self.logerr)
+        if code == 1 and use_sim_time is True and not graph.keeps_time:
+            self._follow_clock_topic()
+
+    def _follow_clock_topic(self) -> None:
+        clock = TopicClock(self.scheduler, self.logwarn)
+        self.clock = clock
+        self.subscriber("/clock", self.graph.clock_class, clock.update)
+
+    def __repr__(self) -> str:
+        return f"<Node {self.name}{' (shut down)' if self._stopped else ''}>"
+
+    # -- topics --------------------------------------------------------------------------------------------------
+
+    def publisher(
+        self,
+        topic: str,
+        message_class: Any,
+        *,
+        queue_size: int | None = 10,
+        latch: bool = False,
+        on_connect: Callable[[str], object] | None = None,
+        on_disconnect: Callable[[str], object] | None = None,
+        headers: Header | None = None,
+    ) -> Publisher:
+        """Publish ``message_class`` on ``topic``.
+
+        ``queue_size`` bounds what waits for one subscriber between two turns of the queue (None: no bound); ``latch``
+        gives late subscribers the last message. ``on_connect``/``on_disconnect`` are called with the other node's name.
+        ``headers`` are further fields of the connection header, for subscribers that connect from now on.
+        Raises ``TypeMismatch`` when this node publishes the topic with a type of another md5 sum.
+        """
+        return self.scheduler.on_hub(
+            lambda: self._publisher(
+                self.resolve(topic), message_class, queue_size, latch, headers, on_connect, on_disconnect
+            )
+        )
+
+    def _publisher(
+        self,
+        topic: str,
+        cls: Any,
+        queue_size: int | None,
+        latch: bool,
+        headers: Header | None,
+        *callbacks: Any,
+    ) -> Publisher:
+        self._require_running(f"publish {topic}")
+        publication = self.publications.get(topic)
+        if publication is None:
+            publication = Publication(self, topic, cls)
+            publication.latch, publication.queue_size = latch, queue_size or None
+            self._publish(publication)
+        elif publication.message_class._md5sum != cls._md5sum:
+            mine = publication.message_class._type
+            msg = f"{self.name} already publishes {topic} as {mine}, not {cls._type}: use another topic."
+            raise TypeMismatch(msg)
+        else:
+            publication.latch = publication.latch or latch
+            publication.queue_size = queue_size or None
+        publication.headers.update(extra_fields(headers))
+        return Publisher(publication, *callbacks)
+
+    def _publish(self, publication: Publication) -> None:
+        topic = publication.topic
+        self.publications[topic] = publication
+        self.slave.topics_changed()  # subscribers may ask before the Master's answer is here
+        try:
+            self.master.register(
+                "registerPublisher", topic, publication.message_class._type, self.uri, warn=self.logerr
+            )
+        except ROSException:
+            del self.publications[topic]
+            self.slave.topics_changed()
+            raise
+
+    def subscriber(
+        self,
+        topic: str,
+        message_class: Any,
+        callback: Callable[..., object] | None = None,
+        *,
+        arguments: tuple[Any, ...] = (),
+        queue_size: int | None = None,
+        numpy: bool = True,
+        on_connect: Callable[[str], object] | None = None,
+        on_disconnect: Callable[[str], object] | None = None,
+        receipt: Callable[[Any], Callable[[Any], Any] | None] | None = None,
+        tcp_nodelay: bool = False,
+        skip_own_mismatch: bool = False,
+    ) -> Subscriber:
+        """Call ``callback(message, *arguments)`` for each message on ``topic``.
+
+        ``queue_size`` bounds what waits while a callback blocks (None: no bound; the oldest are dropped). ``numpy``
+        gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both: see
+        ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once.
+        ``skip_own_mismatch``: that this node itself publishes the topic with another type is meant to be so, as it is
+        for roscpp. All subscribers of this node to one topic get the same object, of the kind that the first asked for.
+        Raises ``TypeMismatch`` for a type with another md5 sum than that of the first.
+        """
+
+        def make() -> Subscriber:
+            name = self.resolve(topic)
+            self._require_running(f"subscribe to {name}")
+            statistics = TopicStatistics(self, name) if are_wanted(self, name) else None
+            if self._stopped:  # while it waited for the Master
+                raise ROSInterruptException(self._shutdown_message())
+            subscription = self.subscriptions.get(name)
+            fresh = subscription is None
+            if subscription is None:
+                subscription = self.subscriptions[name] = Subscription(self, name, message_class)
+                subscription.statistics = statistics
+            elif subscription.disagrees_with(message_class):
+                mine = subscription.message_class._type
+                msg = f"{self.name} already subscribes to {name} as {mine}, not {message_class._type}."
+                raise TypeMismatch(msg)
+            subscription.tcp_nodelay |= tcp_nodelay
+            subscription.skips_own_mismatch |= skip_own_mismatch
+            handle = Subscriber(
+                subscription,
+                message_class,
+                callback,
+                arguments,
+                queue_size=queue_size,
+                numpy=numpy,
+                on_connect=on_connect,
+                on_disconnect=on_disconnect,
+                receipt=receipt,
+            )
+            if fresh:
+                self._subscribe(subscription)
+            return handle
+
+        return self.scheduler.on_hub(make)
+
+    def _subscribe(self, subscription: Subscription) -> None:
+        topic = subscription.topic
+        self.slave.topics_changed()
+        before = subscription.updates
+        try:
+            uris = self.master.register(
+                "registerSubscriber", topic, subscription.message_class._type, self.uri, warn=self.logerr
+            )
+        except ROSException:
+            del self.subscriptions[topic]
+            self.slave.topics_changed()
+            raise
+        # What the Master has told since is newer than its answer, and by now the topic may have been left.
+        if subscription.updates == before and self.subscriptions.get(topic) is subscription:
+            subscription.update_publishers(uris)
+
+    def publishers_changed(self, topic: str, uris: list[str]) -> None:
+        """Learn from the Master who publishes a topic now."""
+        subscription = self.subscriptions.get(topic)
+        if subscription is not None:
+            subscription.update_publishers(uris)
+
+    def drop_publication(self, publication: Publication) -> None:
+        """Leave a topic. For the publisher handles only."""
+        self.publications.pop(publication.topic, None)
+        self.slave.topics_changed()
+        publication.close()
+        self.master.unregister("unregisterPublisher", publication.topic, self.uri, warn=self.logwarn)
+
+    def drop_subscription(self, subscription: Subscription) -> None:
+        """Leave a topic. For the subscriber handles only."""
+        self.subscriptions.pop(subscription.topic, None)
+        self.slave.topics_changed()
+        subscription.close()
+        self.master.unregister("unregisterSubscriber", subscription.topic, self.uri, warn=self.logwarn)
+
+    def wait_for_message(
+        self, topic: str, message_class: Any, timeout: float | None = None, *, numpy: bool = True
+    ) -> Any:
+        """Block until one message arrives on ``topic`` and return it.
+
+        Raises ``ROSException`` after ``timeout`` seconds.
+        """
+        name = self.resolve(topic)
+        waiter = self.waiter(f"a message on {name}")
+        subscriber = self.subscriber(topic, message_class, waiter.wake, numpy=numpy)
+        try:
+            if not self.wait(waiter, timeout):
+                raise timed_out(timeout or 0, f"a message on {name}: {self.master.who_publishes(name)}")
+        finally:
+            subscriber.unregister()
+        return waiter.value
+
+    # -- what runs by itself -------------------------------------------------------------------------------------
+
+    def rate(self, hz: float, *, reset: bool = False) -> Rate:
+        """Return what keeps a loop at ``hz`` turns a second."""
+        return Rate(self, hz, reset=reset)
+
+    def timer(
+        self,
+        period: float | Duration,
+        callback: Callable[[TimerEvent], object],
+        *,
+        oneshot: bool = False,
+        reset: bool = False,
+    ) -> Timer:
+        """Call ``callback(event)`` every ``period`` seconds."""
+        span = period if isinstance(period, Duration) else Duration.from_sec(period)
+        return self.scheduler.on_hub(lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset))
+
+    # -- the end -------------------------------------------------------------------------------------------------
+
+    def on_shutdown(self, hook: Callable[[], object]) -> None:
+        """Call ``hook()`` when the node shuts down, while it can still publish."""
+        self._hooks.append(hook)
+
+    def shutdown(self, reason: str = "", *, hooks: bool = True) -> None:
+        """Shut the node down: hooks, then blocked calls, then connections and registrations. Harmless when repeated.
+
+        Without ``hooks`` none is called, and one that is running is not waited for.
+        """
+        self.scheduler.on_hub(lambda: self._shutdown(reason, hooks=hooks))
+
+    def vanish(self) -> None:
+        """End as a process does that is killed: no hook runs, and the Master is told nothing."""
+        self.master.is_mute = True
+        if self.process is not None:
+            self.scheduler.on_hub(self.process.kill)
+        self.shutdown("it was killed", hooks=False)
+
+    def shutdown_requested(self, caller: str, reason: str) -> None:
+        """Learn by the slave API that the node is to end; it does so in a lane of its own.
+
+        The Master's word for the older of two nodes with another name was sent to one that had this address before.
+        """
+        is_replaced = caller == "/master" and "same name" in reason
+        if is_replaced and reason.startswith("[/") and not reason.startswith(f"[{self.name}]"):
+            return
+        self.logger.console(LEVELS["WARN"], f"shutdown request: {reason}")
+        if is_replaced:
+            problem = DuplicateNode(
+                f"{self.name} was shut down because another node registered under its name. Give one of them another "
+                f"name: __name:=other on the command line, anonymous=True, or another namespace."
+            )
+            self.graph.report(problem, self, raise_strict=False)
+        self.spawn(f"{self.name} shutdown", lambda: self._shutdown(reason))
+
+    def _shutdown(self, reason: str, *, hooks: bool = True) -> None:
+        if self._stopped or (hooks and self.shutdown_reason is not None):
+            return
+        self.shutdown_reason = self.shutdown_reason or reason
+        problem = self._run_hooks() if hooks else None
+        if self._stopped:  # it was ended while a hook was running
+            return
+        self._stopped = True
+        graph = self.graph
+        for waiter in list(self._waiters):
+            waiter.fail(ROSInterruptException(self._shutdown_message()))
+        for timer in list(self.timers):
+            timer.shutdown()
+        servers, subscriptions = list(self.services.values()), list(self.subscriptions.values())
+        publications = list(self.publications.values())
+        for server in servers:
+            server.close_sessions(reason)
+        for subscription in subscriptions:
+            subscription.end()
+        self.slave.end()
+        for publication in publications:
+            publication.end()
+        for server in servers:  # the Master last: it may take its time
+            server.shutdown(reason)
+        for subscription in subscriptions:
+            self.master.unregister("unregisterSubscriber", subscription.topic, self.uri, warn=self.logwarn)
+        for publication in publications:
+            self.master.unregister("unregisterPublisher", publication.topic, self.uri, warn=self.logwarn)
+        if isinstance(self.clock, TopicClock):
+            self.clock.close()
+        graph.transport.detach(self.uri)
+        graph.remove_node(self)
+        self.logger.close_file()
+        if self.on_exit is not None:
+            self.on_exit()
+        if problem is not None:
+            raise problem
+
+    def _run_hooks(self) -> CallbackError | None:
+        """Run the shutdown hooks, all of them; return the first error that is to be raised here."""
+        problem = None
+        for hook in self._hooks:
+            try:
+                self.guarded(hook, what="shutdown hook")
+            except CallbackError as error:
+                problem = problem or error
+        return problem
+
+    # -- called across the transport seam ------------------------------------------------------------------------
+
+    def slave_call(self, method: str, *arguments: Any) -> Triple:
+        """Answer the slave API."""
+        return self.slave.call(method, *arguments)
+
+    def accept_subscriber(self, header: Header, sender: Sender) -> Header:
+        """Take a subscriber's connection."""
+        publication = None if self._stopped else self.publications.get(header.get("topic", ""))
+        if publication is None:
+            raise TransportInitError(
+                f"[{self.name}] is not a publisher of [{header.get('topic')}]. Topics are "
+                f"{self.slave.getPublications('')[2]}"
+            )
+        return publication.accept(header, sender)
+
+    def next_connection_id(self) -> int:
+        """Return a number for a new connection."""
+        self._connections += 1
+        return self._connections
+
+    def connections_changed(self) -> None:
+        """Learn that a connection opened or closed."""
+        self.slave.connections_changed()
+        self.graph.changes.notify()

@@ -1,0 +1,92 @@
+"""What a graph has to know of the Jupyter kernel that it runs in. Nothing of this is used elsewhere."""
+
+from __future__ import annotations
+
+import asyncio
+import contextvars
+import sys
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import RosminiError, short_traceback
+
+if TYPE_CHECKING:
+    from greenlet import greenlet
+
+
+def kernel_shell() -> Any:
+    """Return IPython's shell when this process is a Jupyter kernel, else None."""
+    if "ipykernel" not in sys.modules:
+        return None
+    get_ipython = getattr(sys.modules.get("IPython"), "get_ipython", None)
+    shell = None if get_ipython is None else get_ipython()
+    return shell if hasattr(shell, "kernel") else None
+
+
+def mark_as_shown(result: object, shell: Any) -> None:
+    """Keep IPython from showing a result again at the end of the cell that printed it; later cells show its text."""
+    cell = shell.execution_count
+
+    def display() -> None:
+        if shell.execution_count != cell:
+            del vars(result)["_ipython_display_"]
+            print(result)
+
+    vars(result)["_ipython_display_"] = display
+
+
+def kernel_loop() -> asyncio.AbstractEventLoop:
+    """Return the event loop of the kernel's main thread, or the running one. Raises ``RosminiError`` without one."""
+    loop = getattr(getattr(getattr(kernel_shell(), "kernel", None), "io_loop", None), "asyncio_loop", None)
+    if isinstance(loop, asyncio.AbstractEventLoop):
+        return loop
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        msg = "a live graph needs an event loop, as a notebook has; in a program call graph.run() instead"
+        raise RosminiError(msg) from None
+
+
+_cell: contextvars.ContextVar[Any] = contextvars.ContextVar("rosmini_cell", default=None)
+"""The header of the cell to which the output in this context goes, as far as we have set it."""
+
+
+class CellOutput:
+    """Sends what lanes write, show and raise to the cell that drives the graph.
+
+    The kernel finds a print's cell in context variables, and each greenlet has a context of its own. A worker starts
+    with a copy of the driver's; a lane that was parked in an earlier cell keeps its own, because callbacks keep
+    settings there too (``numpy.errstate``), and only changes the cell.
+    """
+
+    def __init__(self, shell: Any) -> None:
+        self._shell = shell
+        self._context = contextvars.Context()
+        self._parent: Any = None
+        self._outlets: tuple[Any, ...] = ()
+
+    def begin(self) -> None:
+        """Note the cell that drives from now on: the caller."""
+        self._parent = self._shell.get_parent()
+        # Noted now: when a lane goes on, sys.stdout may be its script's own.
+        self._outlets = (sys.stdout, sys.stderr, self._shell.displayhook, self._shell.display_pub)
+        self._context = contextvars.copy_context()
+        self._context.run(_cell.set, self._parent)
+
+    def lend(self, worker: greenlet) -> None:
+        """Give the driver's context to a greenlet that runs no user's code at the moment, before it goes on."""
+        worker.gr_context = self._context.copy()
+
+    def arrive(self) -> None:
+        """Go on in a lane that was parked: its output belongs to the driving cell now."""
+        if _cell.get() is not self._parent:
+            _cell.set(self._parent)
+            for outlet in self._outlets:
+                assign = getattr(outlet, "set_thread_parent", None) or getattr(outlet, "set_parent", None)
+                if assign is not None:
+                    assign(self._parent)
+
+    def shorten(self, error: BaseException) -> None:
+        """Let IPython show ``error`` without rosmini's frames, as it does errors of our own."""
+        if not isinstance(error, RosminiError):
+            vars(error)["_render_traceback_"] = partial(short_traceback, error)

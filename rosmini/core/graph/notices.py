@@ -1,0 +1,101 @@
+"""What the Master asks of nodes: calls of their slave API, for each node one after another, in a lane of its own."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import TransportException
+
+from .lanes import Lane
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .changes import Changes
+    from .scheduler import Scheduler
+
+    Notice = tuple[str, tuple[Any, ...]]
+
+LIMIT = 1_000
+"""How many notices wait for a node that hangs; then only the latest about each topic and parameter is kept."""
+
+
+class Notices:
+    """Carries the Master's notices to the nodes, after the registration that caused them.
+
+    Each node gets its own in their order; one that does not answer delays nobody else. ``call(uri, method, caller_id,
+    *arguments)`` reaches a node's slave API; ``on_error`` gets what else goes wrong. Any thread may post.
+    """
+
+    def __init__(
+        self,
+        scheduler: Scheduler,
+        changes: Changes,
+        call: Callable[..., object],
+        on_error: Callable[[BaseException], None],
+    ) -> None:
+        self._scheduler = scheduler
+        self._changes = changes
+        self._call = call
+        self._on_error = on_error
+        self._lock = threading.Lock()
+        self._waiting: dict[str, deque[Notice]] = {}
+
+    def publisher_update(self, caller_api: str, topic: str, uris: list[str]) -> None:
+        """Tell a subscriber who publishes its topic now."""
+        self._post(caller_api, "publisherUpdate", topic, uris)
+
+    def param_update(self, caller_api: str, key: str, value: Any) -> None:
+        """Tell a node that a parameter to which it subscribes has changed."""
+        self._post(caller_api, "paramUpdate", key, value)
+
+    def shutdown(self, caller_api: str, reason: str) -> None:
+        """Ask a node to shut down."""
+        self._post(caller_api, "shutdown", reason)
+
+    def registrations_changed(self) -> None:
+        """Let those ask again who wait for a registration."""
+        self._changes.notify()
+
+    def _post(self, caller_api: str, method: str, *arguments: Any) -> None:
+        with self._lock:
+            waiting = self._waiting.get(caller_api)
+            is_busy = waiting is not None
+            if waiting is None:
+                waiting = self._waiting[caller_api] = deque()
+            elif len(waiting) >= LIMIT:
+                _keep_latest(waiting)
+            waiting.append((method, arguments))
+        if not is_busy:
+            lane = Lane(self._scheduler, f"the Master's notices to {caller_api}", on_error=self._on_error)
+            lane.submit(partial(self._deliver, caller_api, waiting))
+
+    def _deliver(self, caller_api: str, waiting: deque[Notice]) -> None:
+        while True:
+            with self._lock:
+                if not waiting:
+                    if self._waiting.get(caller_api) is waiting:
+                        del self._waiting[caller_api]
+                    return
+                method, arguments = waiting.popleft()
+            try:
+                self._call(caller_api, method, "/master", *arguments)
+            except TransportException:
+                pass  # the node has gone meanwhile: its registrations go with it
+            except Exception as error:
+                self._on_error(error)
+
+    def clear(self) -> None:
+        """Forget what waits: the graph was closed, and its lanes with it."""
+        with self._lock:
+            self._waiting.clear()
+
+
+def _keep_latest(waiting: deque[Notice]) -> None:
+    """Drop the notices that later ones about the same thing make worthless."""
+    latest = {(method, arguments[0]): arguments for method, arguments in reversed(waiting)}
+    waiting.clear()
+    waiting.extend((method, arguments) for (method, _), arguments in reversed(latest.items()))

@@ -1,0 +1,137 @@
+"""A span of time in which it is recorded what happens in a graph: who called whom, and who sent what to whom."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Any
+
+from .history import MASTER
+from .show import show
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from types import TracebackType
+    from typing import Self
+
+    from .history import Event, History
+
+Call = tuple[str, str, str, str | None]
+"""(who, whom, what, the answer or None), as a sequence diagram takes it."""
+
+EVERY_NODES = ("/get_loggers", "/set_logger_level")
+EVERYBODYS = ("/rosout", "/use_sim_time")
+
+
+class Recording:
+    """What happens from now on, until :meth:`stop`; made by ``Graph.record``.
+
+    >>> from rosmini import Graph
+    >>> graph = Graph()
+    >>> with graph.record() as registration:
+    ...     talker = graph.node("talker")
+    ...     talker.set_param("/rate", 10)
+    >>> registration.calls("/rate")
+    [('/talker', 'Master', 'setParam(/rate, 10)', '1')]
+    """
+
+    def __init__(self, history: History, end: Callable[[], None], *, from_start: bool = False) -> None:
+        self.history = history
+        self._start = 0 if from_start else history.next_number
+        self._stop: int | None = None
+        self._end = end
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def stop(self) -> None:
+        """Record no more. Harmless when repeated."""
+        if self._stop is None:
+            self._stop = self.history.next_number
+            self._end()
+
+    @property
+    def events(self) -> list[Event]:
+        """What happened, oldest first; the last 20,000 events are kept."""
+        end = self.history.next_number if self._stop is None else self._stop
+        return self.history.between(self._start, end)
+
+    def calls(self, *names: str, everything: bool = False, since: float | None = None) -> list[Call]:
+        """Return who called whom, or sent whom a message, in order: (who, whom, what, answer).
+
+        ``names`` are nodes, topics, services and parameters: only what is about one of these, between two of these
+        nodes (or one of them, if it is the only one). What every node does for its log messages is left out unless
+        it is named, or ``everything`` is wanted. ``since`` is a time of the graph [s].
+        """
+        found = (event for event in self.events if since is None or event.time >= since)
+        return list(_calls(found if everything else _about(found, names)))
+
+    def names(self) -> list[str]:
+        """Return the nodes, topics, services and parameters of which something was recorded, sorted."""
+        return sorted({one for event in self.events for one in (event.who, event.whom, event.about)} - {""})
+
+    def show(self, *names: str, **options: Any) -> Any:
+        """Return a sequence diagram of :meth:`calls`.
+
+        Options, with their defaults:
+            everything=False: also what every node does for its log messages
+            since=None: only what happened from that time of the graph on [s]
+            limit=40: how many calls are drawn; the picture says how many more there were
+            title=None: a caption under the picture, and the first words of its text form
+        """
+        return show("recorded_calls", self, names=names, **options)
+
+
+def _about(events: Iterable[Event], names: tuple[str, ...]) -> list[Event]:
+    found = list(events)
+    actors = {one for event in found for one in (event.who, event.whom)}
+    nodes = {name for name in names if name in actors}
+    subjects = set(names) - nodes
+    return [event for event in found if _is_wanted(event, nodes, subjects)]
+
+
+def _is_wanted(event: Event, nodes: set[str], subjects: set[str]) -> bool:
+    if subjects and event.about not in subjects:
+        return False
+    if not subjects and (event.about in EVERYBODYS or event.about.endswith(EVERY_NODES)):
+        return False
+    ends = {event.who, event.whom} - {MASTER, ""}
+    return not nodes or (ends <= nodes if len(nodes) > 1 else bool(ends & nodes))
+
+
+def _calls(events: Iterable[Event]) -> Iterator[Call]:
+    """Yield what sequence diagrams draw; an answer that comes at once goes with its request."""
+    shown = [event for event in events if event.kind != "publication" and event.who != event.whom]
+    joined: set[int] = set()
+    for event, following in zip_longest(shown, shown[1:]):
+        if event.kind == "answer" and event.cause in joined:
+            continue
+        answer = event.answer if event.kind == "call" else None
+        if event.kind == "request" and following is not None and _answers(following, event):
+            joined.add(event.number)
+            answer = following.arguments
+        yield event.who, event.whom, _label(event), answer
+
+
+def _answers(event: Event, request: Event) -> bool:
+    return event.kind == "answer" and event.cause == request.number
+
+
+def _label(event: Event) -> str:
+    text = event.text
+    match event.kind:
+        case "call":
+            return f"{event.what}({text})"
+        case "connection":
+            return f"connection header: {event.about}, {text}"
+        case "request":
+            return f"{event.about}({text})"
+        case "answer":
+            return f"answer of {event.about}: {text}" if text else f"answer of {event.about}"
+        case _:
+            fate = " (lost)" if event.kind == "loss" else ""
+            return f"{event.about}: {text}{fate}" if text else f"{event.about}{fate}"

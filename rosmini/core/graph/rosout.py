@@ -1,0 +1,224 @@
+"""Log messages: to the console and to ``/rosout`` (http://wiki.ros.org/rosout)."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TextIO
+
+from rosmini.core.errors import RosminiError
+from rosmini.core.time import Time
+from rosmini.msgs import message_class, service_class
+
+from .clock import TopicClock
+from .log_file import LogFile
+from .log_gates import LogGates
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import FrameType
+
+    from .node_port import NodePort
+
+LEVELS = {"DEBUG": 1, "INFO": 2, "WARN": 4, "ERROR": 8, "FATAL": 16}
+"""The levels of ``rosgraph_msgs/Log``."""
+
+NAMES = {value: name for name, value in LEVELS.items()}
+
+INTERNAL = ("rospy", "rospy.client", "rospy.core", "rospy.init", "rospy.internal")
+"""The loggers of the client library itself, by rospy's names: they write to log files only."""
+
+OWN = str(Path(__file__).resolve().parents[2]) + os.sep
+"""How the names of rosmini's own source files begin."""
+LOGGING = (str(Path(__file__).parent) + os.sep, str(Path(OWN, "ros", "rospy")) + os.sep)
+"""The same of those that log on behalf of others; built-in nodes are elsewhere."""
+
+
+def source_of(filename: str) -> str:
+    """Return what to call a source file in a log message; a notebook's cells have random file names."""
+    if "ipykernel" in filename or filename.startswith("<"):
+        return "notebook"
+    return filename
+
+
+def logger_services(logger: Logger) -> list[tuple[str, Any, Callable[[Any], Any]]]:
+    """Return name, class and handler of every node's services ``~get_loggers`` and ``~set_logger_level``."""
+    logger_class = message_class("roscpp/Logger")
+
+    def listing(_: Any) -> Any:
+        return {"loggers": [logger_class(name=name, level=level) for name, level in logger.listing()]}
+
+    def change(request: Any) -> Any:
+        if request.level.upper() not in LEVELS:
+            msg = f"no level {request.level!r}: use one of {', '.join(LEVELS)}"
+            raise RosminiError(msg)
+        logger.set_level(request.logger, request.level)
+        return {}
+
+    return [
+        ("~get_loggers", service_class("roscpp/GetLoggers"), listing),
+        ("~set_logger_level", service_class("roscpp/SetLoggerLevel"), change),
+    ]
+
+
+class LoggerTree:
+    """The loggers of a node and their levels.
+
+    ``rosout.camera.driver`` is below ``rosout.camera``, and that below ``rosout``. A logger without a level of its own
+    has that of the nearest above it; above all is a root at INFO.
+    """
+
+    def __init__(self) -> None:
+        self._own: dict[str, int] = {"rosout": LEVELS["INFO"]}
+        self._known: dict[str, None] = dict.fromkeys(("rosout", *INTERNAL))
+
+    def level(self, name: str) -> int:
+        """Return the level from which ``name`` logs; it is known from now on."""
+        if name not in self._known:
+            parts = name.split(".")
+            self._known.update(dict.fromkeys(".".join(parts[: n + 1]) for n in range(len(parts))))
+        while name not in self._own and "." in name:
+            name = name.rpartition(".")[0]
+        return self._own.get(name, LEVELS["INFO"])
+
+    def set(self, name: str, level: int) -> None:
+        """Give a logger a level of its own."""
+        self._own[name] = level
+        self.level(name)
+
+    def listing(self) -> list[tuple[str, int]]:
+        """Return the name and the level of each logger that is known."""
+        return [(name, self.level(name)) for name in self._known]
+
+
+class Logger:
+    """One node's loggers. ``rosout`` and what is below it go to the console, to ``/rosout`` and to the log file.
+
+    All others go to the log file only. Before the node is on a topic its messages go to the console only. ``set_level``
+    is what the service ``~set_logger_level`` calls.
+    """
+
+    def __init__(self, node: NodePort) -> None:
+        self._node = node
+        self.tree = LoggerTree()
+        self.gates = LogGates()
+        self.streams: Any = None
+        """What has the standard output and error of a built-in node, if they are its own."""
+        self._file: LogFile | None = None
+
+    def is_enabled(self, level: int, logger: str = "rosout") -> bool:
+        """Tell whether a message of this level is logged."""
+        return level >= self.tree.level(logger)
+
+    def log(
+        self, level: int, text: str, *, logger: str | None = None, depth: int = 2, is_shown: bool = True
+    ) -> None:
+        """Log ``text``; ``depth`` is the number of frames from this call up to the user's code.
+
+        Without ``is_shown`` it goes to ``/rosout`` and to the log file, and not to the console.
+        """
+        logger = logger or "rosout"
+        if not self.is_enabled(level, logger):
+            return
+        node = self._node
+        if self._file is not None:
+            self._file.write(logger, level, node.graph.scheduler.now_ns(), text)
+        if logger.partition(".")[0] != "rosout":
+            return
+        now = node.now()
+        shown = _shown(now)
+        if isinstance(node.clock, TopicClock):
+            shown = (
+                f"{_shown(node.graph.now())}, {shown}"  # rospy's way: the wall's time, then that of /clock
+            )
+        if is_shown:
+            self.console(level, f"[{NAMES[level]}] [{shown}]: {text}")
+        publication = node.publications.get("/rosout")
+        if publication is not None:
+            publication.send(self._message(level, text, now, caller(depth + 1)))
+
+    # -- the file ------------------------------------------------------------------------------------------------
+
+    @property
+    def path(self) -> Path | None:
+        """The log file, if there is one."""
+        return None if self._file is None else self._file.path
+
+    def open_file(self, path: Path) -> None:
+        """Write to a log file from now on."""
+        node = self._node
+        self._file = LogFile(path, simulated=node.graph.simulated)
+        self.log(LEVELS["INFO"], f"init_node, name[{node.name}]", logger="rospy.client")
+        self.log(LEVELS["INFO"], f"ROS Slave URI: [{node.uri}]", logger="rospy.init")
+
+    def close_file(self) -> None:
+        """Write the last line of the log file, and close it. Harmless when repeated."""
+        if self._file is not None:
+            self.log(
+                LEVELS["INFO"], f"signal_shutdown [{self._node.shutdown_reason or ''}]", logger="rospy.core"
+            )
+            self._file.close()
+            self._file = None
+
+    # -- where messages go ---------------------------------------------------------------------------------------
+
+    def console(self, level: int, line: str) -> None:
+        """Write a line: from WARN on to standard error, as rospy does.
+
+        In a notebook every line goes to standard output, unless that goes to a log.
+        """
+        # A script's real thread does not see the script's streams in `sys`, which belong to whoever the graph is
+        # running; nor does a simulator's step, which is in no lane, see those of a built-in node.
+        own = getattr(self.streams or self._node.scheduler.current().context, "get_own", None)
+        to_log = own is not None and getattr(own("stdout"), "to_log", False)
+        name = "stdout" if level <= LEVELS["INFO"] or (self._node.graph.notebook and not to_log) else "stderr"
+        stream: TextIO = getattr(sys, name) if own is None else own(name)
+        stream.write(line + "\n")
+
+    def _message(self, level: int, text: str, now: Time, frame: FrameType) -> Any:
+        node = self._node
+        message = node.graph.log_class()
+        message.header.stamp = Time(now.secs, now.nsecs)
+        message.level = level
+        message.name = node.name
+        message.msg = text
+        message.file = os.path.basename(source_of(frame.f_code.co_filename))  # noqa: PTH119 - a frame's text
+        message.function = function_of(frame)
+        message.line = frame.f_lineno
+        message.topics = list(dict.fromkeys((*node.publications, *node.subscriptions)))
+        return message
+
+    def set_level(self, logger: str, level: str) -> None:
+        """Log only what is at ``level`` and above. Raises ``KeyError`` for an unknown level."""
+        self.tree.set(logger.removeprefix("ros."), LEVELS[level.upper()])
+
+    def listing(self) -> list[tuple[str, str]]:
+        """Return (logger, level) pairs."""
+        return [(name, NAMES[level]) for name, level in self.tree.listing()]
+
+
+def _shown(when: Time) -> str:
+    return f"{when.secs}.{when.nsecs // 1000:06d}"
+
+
+def function_of(frame: FrameType) -> str:
+    """Return what rospy calls the function of a frame: ``Class.method`` where there is a ``self``."""
+    code = frame.f_code
+    # Before Python 3.13 a frame whose locals were looked at holds what they were until it ends.
+    if (
+        "self" not in (*code.co_varnames, *code.co_cellvars, *code.co_freevars)
+        or "self" not in frame.f_locals
+    ):
+        return code.co_name
+    return f"{type(frame.f_locals['self']).__name__}.{code.co_name}"
+
+
+def caller(depth: int, own: str | tuple[str, ...] = OWN) -> FrameType:
+    """Return the frame ``depth`` calls up; frames of files that begin with ``own`` only if there are no others."""
+    nearest = frame = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
+    while frame.f_code.co_filename.startswith(own):
+        if frame.f_back is None:
+            return nearest
+        frame = frame.f_back
+    return frame

@@ -1,0 +1,372 @@
+"""Services: a request and one response (http://wiki.ros.org/Services)."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import (
+    DeserializationError,
+    MasterUnreachable,
+    ROSException,
+    ROSInterruptException,
+    SerializationError,
+    ServiceException,
+    ServiceRefused,
+    TransportException,
+    TransportInitError,
+    nearest,
+)
+
+from .mismatch import recast
+from .transport import extra_fields, set_header
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .node_port import NodePort
+    from .transport import Header, ServiceLink
+
+
+_OTHER = "service of another type"
+NO_TEXT = "b''"
+"""What rospy shows of an error whose text is empty, as a refusal of a node in C++ is."""
+
+
+class ServiceServer:
+    """Answers calls of one service. Made by :meth:`Node.service <rosmini.core.graph.node.Node.service>`.
+
+    The handler gets the request and returns a response, or what makes one: a tuple or list of its fields in order, a
+    dictionary of fields by name, or the value of its only field. None is refused, also for a response without fields,
+    as in rospy. Each client connection has a lane of its own, so a handler may block.
+    """
+
+    def __init__(
+        self,
+        node: NodePort,
+        name: str,
+        service_class: Any,
+        handler: Callable[[Any], Any],
+        *,
+        numpy: bool = True,
+    ) -> None:
+        self.node = node
+        self.name = name
+        self.service_class = service_class
+        self.handler = handler
+        self.sessions: list[Session] = []
+        self._receive = receiver(service_class._request_class, numpy=numpy)
+        self.error_handler: Callable[[Exception], object] | None = None
+        """Called instead of the report when the handler raises."""
+        self._open = True
+
+    def __repr__(self) -> str:
+        return f"<ServiceServer {self.name} [{self.service_class._type}] of {self.node.name}>"
+
+    def accept(self, header: Header) -> Session:
+        """Take a client's connection. Raises ``TransportInitError`` for another type."""
+        wanted, mine = header.get("md5sum"), self.service_class._md5sum
+        if wanted not in ("*", mine):
+            msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{wanted}] vs. [{mine}]"
+            raise TransportInitError(msg)
+        session = Session(self, header)
+        self.sessions.append(session)
+        return session
+
+    def respond(self, request: Any, header: Header) -> Any:
+        """Return the frozen response to a frozen request that came over a connection with this header of the client's.
+
+        Raises ``ServiceException`` with the text that the client gets.
+        """
+        response_class = self.service_class._response_class
+        try:
+            received = self._receive(request, header)
+        except DeserializationError as error:
+            msg = f"error processing request: {error}"
+            raise ServiceException(msg) from error
+        try:
+            answer = self.handler(received)
+        except ServiceException as error:  # how a handler refuses a request
+            silent = isinstance(error, ServiceRefused)
+            msg = str(error) if silent else f"service cannot process request: {error}"
+            raise ServiceException(msg) from error
+        except Exception as error:
+            if self.error_handler is not None:
+                self.node.guarded(self.error_handler, error, what=f"error handler of {self.name}")
+            else:
+                self.node.callback_failed(error, self.handler, self.name, request, service=True)
+            msg = f"error processing request: {error}"
+            raise ServiceException(msg) from error
+        try:
+            return response_class._freeze(_response_from(answer, response_class))
+        except (ServiceException, SerializationError, TypeError, AttributeError) as error:
+            msg = f"service cannot process request: {error}"
+            self.node.logerr(f"{self.name}: {msg}{self._hint(answer)}")
+            raise ServiceException(msg) from error
+
+    def _hint(self, answer: Any) -> str:
+        if answer is not None or self.service_class._response_class.__slots__:
+            return ""
+        return ". For a response without fields return [] or the response itself, as rospy wants it"
+
+    def shutdown(self, reason: str = "") -> None:
+        """Stop answering; callers that wait get an error. Harmless when repeated."""
+        if self._open:
+            self._open = False
+            self.close_sessions(reason)
+            self.node.drop_service(self)
+
+    def close_sessions(self, reason: str) -> None:
+        """Refuse what is queued and fail what is being answered."""
+        for session in list(self.sessions):
+            session.abort(reason)
+
+
+def receiver(message_class: Any, *, numpy: bool) -> Callable[[Any, Header], Any]:
+    """Return what makes a frozen request or response its receiver's own, which says from which connection it came."""
+    thaw = message_class._thawer(numpy=numpy)
+
+    def receive(frozen: Any, header: Header) -> Any:
+        message = frozen if type(frozen) is message_class else recast(frozen, message_class)
+        if thaw is not None:
+            message = thaw(message)
+        set_header(message, header)
+        return message
+
+    return receive
+
+
+def _response_from(answer: Any, response_class: Any) -> Any:
+    """Make a response of what a handler returned, by rospy's rules."""
+    slots = response_class.__slots__
+    if isinstance(answer, response_class):
+        return answer
+    if answer is None:
+        msg = "service handler returned None"
+        raise ServiceException(msg)
+    if isinstance(answer, dict):
+        return response_class(**answer)
+    if isinstance(answer, (list, tuple)):
+        if len(answer) != len(slots):
+            msg = (
+                f"handler returned invalid value: {response_class._type} has {len(slots)} fields "
+                f"({', '.join(slots)}), not {len(answer)}"
+            )
+            raise ServiceException(msg)
+        return response_class(*answer)
+    if len(slots) != 1:
+        fields = ", ".join(slots) or "it has no fields"
+        msg = f"handler returned invalid value: {answer!r} is no {response_class._type} ({fields})"
+        raise ServiceException(msg)
+    return response_class(answer)
+
+
+class Session:
+    """The server's end of one client connection."""
+
+    def __init__(self, server: ServiceServer, client_header: Header) -> None:
+        node = server.node
+        self.server = server
+        self.service_class = server.service_class
+        self._client_header = client_header
+        self.header: Header = {
+            "callerid": node.name,
+            "md5sum": server.service_class._md5sum,
+            "service": server.name,
+            "type": server.service_class._type,
+        }
+        self._lane = node.spawn(f"{node.name} service {server.name}")
+        self._pending: list[Callable[[Any, str | None], None]] = []
+        self._gone: str | None = None
+
+    def handle(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        """Answer a request in the session's lane."""
+        if self._gone is not None:
+            reply(None, self._gone)
+            return
+        self._pending.append(reply)
+        self._lane.post(partial(self._answer, request, reply))
+
+    def _answer(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        history = self.server.node.scheduler.history
+        if history is not None:
+            history.serve(request)
+        try:
+            response, problem = self.server.respond(request, self._client_header), None
+        except ServiceException as error:
+            response, problem = None, str(error)
+        except ROSInterruptException as error:
+            response, problem = None, f"error processing request: {error}"
+        if reply in self._pending:
+            self._pending.remove(reply)
+            reply(response, problem)
+        if history is not None:
+            history.act_on(None)
+
+    def close(self) -> None:
+        """Learn that the client has gone."""
+        if self in self.server.sessions:
+            self.server.sessions.remove(self)
+
+    def abort(self, reason: str) -> None:
+        """Fail what is under way because the server goes away."""
+        pending, self._pending = self._pending, []
+        why = f" ({reason})" if reason else ""
+        self._gone = f"transport error completing service call: the server was shut down{why}"
+        for reply in pending:
+            reply(None, self._gone)
+        self.close()
+
+
+class ServiceClient:
+    """Calls a service. Made by :meth:`Node.service_client <rosmini.core.graph.node.Node.service_client>`.
+
+    ``client(a=1, b=2)``, ``client(1, 2)`` and ``client.call(request)`` do the same. A persistent client keeps its
+    connection: it is faster, and does not notice when the server is replaced.
+    """
+
+    def __init__(
+        self,
+        node: NodePort,
+        name: str,
+        service_class: Any,
+        *,
+        persistent: bool = False,
+        numpy: bool = True,
+        headers: Header | None = None,
+    ) -> None:
+        self.node = node
+        self.name = name
+        self.service_class = service_class
+        self.persistent = persistent
+        self.headers = extra_fields(headers)
+        self._receive = receiver(service_class._response_class, numpy=numpy)
+        self._link: ServiceLink | None = None
+        self._closed = False
+
+    def __repr__(self) -> str:
+        return f"<ServiceClient {self.name} [{self.service_class._type}] of {self.node.name}>"
+
+    def call(self, *args: Any, **fields: Any) -> Any:
+        """Send a request and block until the response is there.
+
+        Raises ``ServiceException`` when there is no server, when it offers another type, when its handler fails, or
+        when it goes away meanwhile; then ``SerializationError`` for a field of the wrong type;
+        ``ROSInterruptException`` when this node is shut down meanwhile.
+        """
+        request_class = self.service_class._request_class
+        if len(args) == 1 and not fields and isinstance(args[0], request_class):
+            request = args[0]
+        else:
+            request = request_class(*args, **fields)
+        return self.node.scheduler.on_hub(self._call, request)
+
+    def _call(self, given: Any) -> Any:
+        link = self._link or self._connect()
+        history, request = self.node.scheduler.history, None
+        waiter = self.node.waiter(f"the service {self.name}", remote=link.is_remote)
+        try:
+            frozen = type(given)._freeze(given)
+            if history is not None:
+                request = history.requested(
+                    self.node.name, link.header.get("callerid", ""), self.name, frozen
+                )
+            link.call(frozen, lambda response, problem: waiter.wake((response, problem)))
+            self.node.wait(waiter)
+        finally:
+            if not self.persistent:
+                link.close()
+        response, problem = waiter.value
+        if request is not None:
+            history.answered(request, response, problem)
+        if problem is not None:
+            if self.persistent and problem.startswith("transport error"):
+                self.close()
+            msg = (
+                problem
+                if problem.startswith("transport error")
+                else f"service [{self.name}] responded with an error: {problem or NO_TEXT}"
+            )
+            raise ServiceException(msg)
+        return self._receive(response, link.header)
+
+    __call__ = call
+
+    def _connect(self) -> ServiceLink:
+        if self._closed:
+            msg = f"service [{self.name}]: this persistent client was closed; make a new one"
+            raise ServiceException(msg)
+        node = self.node
+        if node.is_shutdown():
+            msg = f"service [{self.name}] called after node {node.name} was shut down"
+            raise ServiceException(msg)
+        uri = self._lookup()
+        cls = self.service_class
+        fields = {"callerid": node.name, "md5sum": cls._md5sum, "service": self.name, **self.headers}
+        if self.persistent:
+            fields["persistent"] = "1"
+        header = dict(sorted(fields.items()))
+        try:
+            link = node.graph.transport.connect_service(node.uri, uri, header, cls)
+        except TransportInitError as error:
+            theirs = self._type_at(uri)
+            if theirs in (
+                cls._type,
+                _OTHER,
+            ):  # it was refused for something else, such as a header of the user's
+                msg = f"unable to connect to service [{self.name}]: {error}"
+                raise ServiceException(msg) from error
+            msg = (
+                f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. "
+                "Use the server's type."
+            )
+            raise ServiceException(msg) from error
+        except TransportException as error:
+            msg = f"unable to connect to service [{self.name}]: {error}"
+            raise ServiceException(msg) from error
+        if self.persistent:
+            self._link = link
+        return link
+
+    def _lookup(self) -> str:
+        """Return the service's address.
+
+        Raises ``ServiceException`` if nobody offers it, or the Master does not answer.
+        """
+        master = self.node.master
+        try:
+            uri: str | None = master.find("lookupService", self.name)
+            if uri is not None:
+                return uri
+            known = [name for name, _ in master.ask("getSystemState")[2]]
+        except MasterUnreachable as error:
+            msg = f"service [{self.name}] unavailable: {error}"
+            raise ServiceException(msg) from error
+        hint = nearest(self.name, known) or "Start its server, or call wait_for_service() first."
+        msg = f"service [{self.name}] unavailable: no node offers it. {hint}"
+        raise ServiceException(msg)
+
+    def _type_at(self, uri: str) -> str:
+        """Return the service's type, which its server tells to a probe, as it tells ``rosservice type``."""
+        node = self.node
+        header = {"callerid": node.name, "md5sum": "*", "probe": "1", "service": self.name}
+        try:
+            return node.graph.transport.probe_service(uri, header, node.uri).get("type", _OTHER)
+        except TransportException:
+            return _OTHER
+
+    def wait_for_service(self, timeout: float | None = None) -> None:
+        """Block until the service is there. Raises ``ROSException`` after ``timeout`` seconds."""
+        self.node.wait_for_service(self.name, timeout)
+
+    def close(self) -> None:
+        """Close a persistent connection for good."""
+        link, self._link = self._link, None
+        self._closed = self.persistent
+        if link is not None:
+            link.close()
+
+
+def timed_out(seconds: float, what: str) -> ROSException:
+    """Return the error of a wait that took too long."""
+    return ROSException(f"timeout exceeded after {seconds:g} s while waiting for {what}")

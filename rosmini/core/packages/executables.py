@@ -1,0 +1,120 @@
+"""What ``rosrun`` starts: scripts and programs in the folder of a package, and nodes that Python packages bring."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import ScriptError
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+NODES_GROUP = "rosmini.nodes"
+"""The entry-point group of built-in nodes; a name in it is ``package/executable``."""
+
+SCRIPT_FOLDERS = ("scripts", "nodes", "src", "bin")  # in the order of preference
+
+DEVEL_MARKER = ".catkin"
+"""The file by which a devel space is known."""
+
+
+@dataclass(frozen=True)
+class Executable:
+    """What ``rosrun package name`` starts: either the file ``path`` or the built-in node ``entry_point``."""
+
+    package: str
+    name: str
+    path: Path | None = None
+    entry_point: EntryPoint | None = field(default=None, repr=False)
+    has_run_bit: bool = True
+    """False for a Python script that real ROS would not start before a ``chmod +x``."""
+
+    def load(self) -> Any:
+        """The object that the entry point names. Raises `ScriptError` for a file, and if the import fails."""
+        if self.entry_point is None:
+            raise ScriptError(
+                f"{self.package}/{self.name} is a file ({self.path}), not a built-in node; run it"
+            )
+        try:
+            return self.entry_point.load()
+        except (ImportError, AttributeError) as error:
+            raise ScriptError(
+                f"the node {self.package}/{self.name} is announced as {self.entry_point.value}, "
+                f"which cannot be imported: {error}"
+            ) from error
+
+
+def built_in_nodes(package: str) -> dict[str, EntryPoint]:
+    """The built-in nodes of a package by name, from every installed distribution."""
+    from importlib.metadata import entry_points
+
+    prefix = f"{package}/"
+    found = (each for each in entry_points(group=NODES_GROUP) if each.name.startswith(prefix))
+    return {
+        each.name[len(prefix) :]: each for each in sorted(found, key=lambda each: (each.name, each.value))
+    }
+
+
+def files_of(folder: Path) -> list[Path]:
+    """The files of a package, those in the script folders first; hidden ones and caches are passed over."""
+
+    def rank(path: Path) -> tuple[int, tuple[str, ...]]:
+        parts = path.relative_to(folder).parts
+        return (SCRIPT_FOLDERS.index(parts[0]) if parts[0] in SCRIPT_FOLDERS else len(SCRIPT_FOLDERS), parts)
+
+    found = []
+    for parent, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".") and name != "__pycache__"]
+        found += [Path(parent, name) for name in names if not name.startswith(".")]
+    return sorted(found, key=rank)
+
+
+def scripts(folder: Path) -> list[Path]:
+    """The files of a package that can be run, in the order of preference."""
+    return [path for path in files_of(folder) if _can_run(path, folder)]
+
+
+def devel_spaces(folder: Path) -> list[Path]:
+    """Where a build of a package may be: those of ``CMAKE_PREFIX_PATH``, and that of the workspace that it is in."""
+    spaces = [Path(part) for part in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if part]
+    spaces += [above.parent / "devel" for above in folder.parents if above.name == "src"]
+    return [space for space in spaces if (space / DEVEL_MARKER).is_file()]
+
+
+def built(package: str, folder: Path) -> list[Path]:
+    """The executables that a build of a catkin workspace made for a package: ``devel/lib/PACKAGE``."""
+    found: dict[str, Path] = {}
+    for space in devel_spaces(folder):
+        for path in sorted((space / "lib" / package).glob("*")):
+            if path.is_file() and has_run_bit(path):
+                found.setdefault(path.name, path)
+    return list(found.values())
+
+
+def reconfigure_modules(package: str, folder: Path) -> Path | None:
+    """The folder of the Python package ``PACKAGE.cfg`` that a build made of a package's ``.cfg`` files, if any."""
+    for space in devel_spaces(folder):
+        found = space / "lib/python3/dist-packages" / package / "cfg"
+        if (found / "__init__.py").is_file():
+            return found
+    return None
+
+
+def _can_run(path: Path, package: Path) -> bool:
+    parts = path.relative_to(package).parts
+    is_script = path.suffix == ".py" and parts[0] in SCRIPT_FOLDERS and path.name != "__init__.py"
+    is_module = is_script and (path.parent / "__init__.py").exists()
+    if is_script and not is_module:
+        return True
+    if os.name == "nt":  # no run bit there: a script says so itself, in its first two bytes
+        with path.open("rb") as file:
+            return file.read(2) == b"#!"
+    return has_run_bit(path)
+
+
+def has_run_bit(path: Path) -> bool:
+    """Whether the file may be run."""
+    return os.access(path, os.X_OK)

@@ -1,0 +1,242 @@
+"""The index of packages: finds packages, stacks, files and executables by name."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Iterable
+from pathlib import Path
+
+from rosmini.core import files
+from rosmini.core.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest
+
+from .executables import Executable, built, built_in_nodes, files_of, has_run_bit, scripts
+from .folders import MANIFEST, ROSBUILD_MANIFEST, crawl, search_paths
+from .manifest import Package, Stack, read_heading, read_package, read_stack
+
+SCHEME = "package://"
+LONGEST = 300
+"""The largest number of characters of an address that an error shows."""
+
+_CPP = "that is a library for nodes in C++, which rosmini does not compile; nodes in Python need rospy"
+_OTHER = "that makes messages for another language; rosmini makes those for Python"
+BUILT_IN = {
+    **dict.fromkeys(
+        [
+            "cpp_common",
+            "rosconsole",
+            "roscpp_serialization",
+            "roscpp_traits",
+            "rostime",
+            "tf2",
+            "xmlrpcpp",
+            "rosbag_storage",
+        ],
+        _CPP,
+    ),
+    **dict.fromkeys(["gencpp", "geneus", "genlisp", "gennodejs"], _OTHER),
+    "cmake_modules": "that is for CMake, which rosmini does not run; its `catkin_make` reads CMakeLists.txt itself",
+    "cartographer_ros": "rosmini has no Cartographer: gmapping and hector_mapping make maps here",
+    "slam_karto": "rosmini has no Karto: gmapping and hector_mapping make maps here",
+    "rosclean": "that removes old log files; rosmini keeps none unless ROS_LOG_DIR says where",
+    "rospack": "that is the tool: `rosmini rospack`",
+}
+"""Packages that have no folder here, and what serves instead."""
+
+
+class PackageIndex:
+    """The packages below some folders (`search_paths` by default), found when they are first needed.
+
+    An unknown name makes the index search again, so a package that was just created is found; `refresh`
+    makes it forget what it has seen.
+    """
+
+    def __init__(self, paths: Iterable[str | os.PathLike[str]] | None = None) -> None:
+        self.paths: tuple[Path, ...] = (
+            search_paths() if paths is None else tuple(Path(path) for path in paths)
+        )
+        self._found: dict[str, list[Path]] | None = None
+        self._metapackages: set[str] = set()
+        self._stacks: dict[str, Path] = {}
+        self._broken: list[DefinitionError] = []
+        self._packages: dict[str, Package] = {}
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._folders()
+
+    def __repr__(self) -> str:
+        return f"PackageIndex([{', '.join(repr(str(path)) for path in self.paths)}])"
+
+    def refresh(self) -> None:
+        """Forget all that was found; the next question searches again."""
+        self._found = None
+        self._metapackages = set()
+        self._stacks = {}
+        self._broken = []
+        self._packages = {}
+
+    def names(self) -> list[str]:
+        """The names of all packages, sorted. Broken manifests are left out, see `problems`."""
+        return sorted(self._folders())
+
+    def metapackages(self) -> list[str]:
+        """The names of the packages that only gather others (REP 127), sorted."""
+        self._folders()
+        return sorted(self._metapackages)
+
+    def problems(self) -> list[DefinitionError]:
+        """What is wrong with manifests that could not even be asked for a name, in the order of the search."""
+        self._folders()
+        return list(self._broken)
+
+    def path(self, name: str) -> Path:
+        """The folder of a package; its manifest is not read further than its name. Raises as `find` does."""
+        found = self._folders().get(name)
+        if found is None:
+            self.refresh()
+            found = self._folders().get(name)
+        if found is None:
+            for problem in self._broken:
+                if problem.file is not None and Path(problem.file).parent.name == name:
+                    raise problem
+            raise UnknownPackage(self._unknown(name))
+        return found[0]
+
+    def find(self, name: str) -> Package:
+        """The package of this name.
+
+        Raises `UnknownPackage` with the searched folders and the nearest names, and `DefinitionError` with file
+        and line if its ``package.xml`` is broken.
+        """
+        folder = self.path(name)
+        if name not in self._packages:
+            self._packages[name] = read_package(folder)
+        return self._packages[name]
+
+    def duplicates(self) -> dict[str, list[Path]]:
+        """The folders of each package that is found more than once, by name; the first of them is taken."""
+        return {name: paths for name, paths in sorted(self._folders().items()) if len(paths) > 1}
+
+    def stacks(self) -> list[str]:
+        """The names of all stacks of the time before catkin (folders with a ``stack.xml``), sorted."""
+        self._folders()
+        return sorted(self._stacks)
+
+    def find_stack(self, name: str) -> Stack:
+        """The stack of this name. Raises `UnknownPackage`, and `DefinitionError` if its ``stack.xml`` is broken."""
+        self._folders()
+        if name not in self._stacks:
+            guess = nearest(name, self.stacks())
+            raise UnknownPackage(f"there is no stack {name!r}{f'; {guess}' if guess else ''}")
+        return read_stack(self._stacks[name])
+
+    def resolve(self, url: str) -> Path:
+        """The file or folder that ``package://name/path`` means (http://wiki.ros.org/resource_retriever).
+
+        Raises `UnknownPackage`, or `RosminiError` if it is another kind of address or there is no such file.
+        """
+        from urllib.parse import unquote
+
+        if not url.startswith(SCHEME):
+            raise RosminiError(f"{url!r} is not an address inside a package; write package://NAME/PATH")
+        name, _, rest = unquote(url[len(SCHEME) :]).partition("/")
+        if not name:
+            raise RosminiError(f"{url!r} names no package; write package://NAME/PATH")
+        target = self.path(name) / rest
+        if not files.exists(target):
+            raise RosminiError(f"{url[:LONGEST]} is not there: no {target}. {_nearest_file(target)}".rstrip())
+        return target
+
+    def executables(self, package: str) -> list[str]:
+        """The names of what `find_executable` finds in a package, sorted.
+
+        Raises `UnknownPackage` if there is neither such a package nor a built-in node of it.
+        """
+        built_in = built_in_nodes(package)
+        if package not in self and built_in:
+            return sorted(built_in)
+        folder = self.path(package)
+        return sorted({*built_in, *(path.name for path in (*scripts(folder), *built(package, folder)))})
+
+    def find_executable(self, package: str, name: str) -> Executable:
+        """What ``rosrun package name`` starts: a script or program in the package, else a built-in node.
+
+        A program has the run bit; a Python script in ``scripts/``, ``nodes/``, ``src/`` or ``bin/`` needs none.
+        Of several files of that name, the one in the first of these folders is taken; then come what a build has made,
+        in ``devel/lib/PACKAGE`` of the workspace. Raises `UnknownPackage`,
+        and `ScriptError` if there is no such executable (with the nearest names) or it may not be run.
+        """
+        built_in = built_in_nodes(package)
+        if package in self or not built_in:
+            folder = self.path(package)
+            for path in scripts(folder):
+                if path.name == name:
+                    return Executable(package, name, path=path, has_run_bit=has_run_bit(path))
+            for path in built(package, folder):
+                if path.name == name:
+                    return Executable(package, name, path=path)
+        else:
+            folder = None
+        if name in built_in:
+            return Executable(package, name, entry_point=built_in[name])
+        raise ScriptError(self._no_executable(package, name, folder))
+
+    # ---- inside ----
+
+    def _folders(self) -> dict[str, list[Path]]:
+        """From the name of each package to its folders, the first of which is taken."""
+        if self._found is None:
+            found: dict[str, list[Path]] = {}
+            stacks: dict[str, Path] = {}
+            metapackages: set[str] = set()
+            broken: list[DefinitionError] = []
+            for root in self.paths:
+                for each in crawl(root):
+                    try:
+                        if each.manifest == MANIFEST:
+                            name, is_metapackage = read_heading(each.file)
+                            if is_metapackage and name not in found:
+                                metapackages.add(name)
+                            found.setdefault(name, []).append(each.folder)
+                        elif each.manifest == ROSBUILD_MANIFEST:
+                            found.setdefault(each.folder.name, []).append(each.folder)
+                        else:
+                            stacks.setdefault(each.folder.name, each.folder)
+                    except DefinitionError as error:
+                        broken.append(error)
+            self._found, self._stacks, self._broken = found, stacks, broken
+            self._metapackages = metapackages
+        return self._found
+
+    def _unknown(self, name: str) -> str:
+        searched = "".join(
+            f"\n  {path}{'' if path.is_dir() else '  (there is no such folder)'}" for path in self.paths
+        )
+        guess = BUILT_IN.get(name) or nearest(name, self.names())
+        lines = [f"there is no package {name!r}{f'; {guess}' if guess else ''}"]
+        lines.append(f"searched:{searched or ' nothing, the list of folders is empty'}")
+        lines += [f"could not be read: {problem}" for problem in self._broken]
+        lines.append("A package is a folder with a package.xml, below a folder of ROS_PACKAGE_PATH.")
+        return "\n".join(lines)
+
+    def _no_executable(self, package: str, name: str, folder: Path | None) -> str:
+        files = [] if folder is None else [path for path in files_of(folder) if path.name == name]
+        if files:
+            path = shlex.quote(str(files[0]))
+            return f"{package}/{name} exists but is not executable; allow it to run: chmod +x {path}"
+        there = self.executables(package)
+        guess = nearest(name, there)
+        if not there:
+            hint = "the package has no executables; scripts belong into its folder scripts"
+        else:
+            hint = guess or f"the package has: {', '.join(there)}"
+        below = f" below {folder}" if folder is not None else ""
+        return f"there is no executable {name!r} in the package {package!r}{below}; {hint}"
+
+
+def _nearest_file(target: Path) -> str:
+    """A "did you mean" for a path that is not there: from the deepest folder of it that is."""
+    missing = target
+    while not files.exists(missing.parent) and missing.parent != missing:
+        missing = missing.parent
+    return nearest(missing.name, files.names_in(missing.parent))

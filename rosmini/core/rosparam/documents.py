@@ -1,0 +1,223 @@
+"""Parameter files: YAML in and out as ``rosparam`` reads and writes it (http://wiki.ros.org/rosparam).
+
+YAML is version 1.1, as PyYAML has it: ``yes`` is a truth value, ``010`` is eight, ``1e5`` without a point is text.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from rosmini.core.errors import ParameterError
+from rosmini.core.expressions import STEPS_OF_A_FILE, Budget
+from rosmini.core.files import read
+from rosmini.core.names import join
+from rosmini.core.yaml_text import Loader, children, documents, line_of
+
+from .angles import degrees, radians
+from .errors import RosParamException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+NS = "_ns"
+"""A document with this key says itself into which namespace it goes."""
+
+LARGEST = 4_000_000
+"""Bytes of a parameter file."""
+
+
+@dataclass(frozen=True)
+class Document:
+    """One YAML document: ``values`` (a dictionary, as a rule) for the namespace ``namespace``."""
+
+    values: Any
+    namespace: str
+    source: str = ""
+    lines: Mapping[str, int] = field(default_factory=dict, repr=False)
+    """The line of each value by its place in the document: ``/a/b``, ``/a/sizes[2]``."""
+    own_namespace: bool = False
+    """Whether the document names its namespace itself."""
+
+    def assignments(self) -> list[tuple[str, Any]]:
+        """Return the parameters to set, one by one, all checked. Raises ``RosParamException`` with file and line."""
+        try:
+            return list(assignments(self.namespace, self.values))
+        except _Refused as error:
+            line = self.lines.get(error.place) or self.lines.get("/")
+            raise RosParamException(str(error), self.source, line) from error
+
+
+class _Refused(RosParamException):
+    """What the Parameter Server cannot hold, and at which place of the document."""
+
+    def __init__(self, message: str, place: str) -> None:
+        super().__init__(message)
+        self.place = place
+
+
+def assignments(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the settings that rosparam makes of a value for the parameter ``name``.
+
+    A dictionary is merged into what is there: one setting for each of its values. Anything else, a list too, replaces
+    what was there. An empty dictionary sets nothing. Raises ``RosParamException`` for what the Parameter Server
+    cannot hold.
+    """
+    if name == "/" and not isinstance(value, dict):
+        raise _Refused(
+            f"the root of the Parameter Server is a dictionary, and this is a {type(value).__name__} ({value!r}): "
+            "write lines of the form `name: value`, or give a namespace",
+            "/",
+        )
+    return _assignments(name, value, "")
+
+
+def _assignments(name: str, value: Any, place: str) -> Iterator[tuple[str, Any]]:
+    if not isinstance(value, dict):
+        yield name, _checked(name, value, place)
+        return
+    for key, item in value.items():
+        if not isinstance(key, str):
+            raise _Refused(
+                f"parameter {name}: the key {key!r} is a {type(key).__name__}, and keys are strings: quote it",
+                f"{place}/{key}",
+            )
+        yield from _assignments(join(name, key), item, f"{place}/{key}")
+
+
+def _checked(name: str, value: Any, place: str) -> Any:
+    if isinstance(value, list):
+        return [
+            _checked(f"{name}[{number}]", item, f"{place}[{number}]") for number, item in enumerate(value)
+        ]
+    if isinstance(value, dict):
+        for key in value:
+            if not isinstance(key, str):
+                raise _Refused(f"parameter {name}: the key {key!r} is no string", f"{place}/{key}")
+        return {key: _checked(f"{name}/{key}", item, f"{place}/{key}") for key, item in value.items()}
+    if value is None:
+        raise _Refused(
+            f"parameter {name} has no value (YAML's null), which a parameter cannot be: "
+            "write '' for an empty text, {} for an empty namespace",
+            place,
+        )
+    from rosmini.core.graph.parameter_api import (
+        check_value,
+    )  # here: those who only read parameters do without a graph
+
+    try:
+        return check_value(name, value)
+    except ParameterError as error:
+        raise _Refused(str(error), place) from error
+
+
+# ---- reading ----
+
+
+class _Loader(Loader):
+    """YAML with angles; a class of its own, so that nobody else's YAML gets them."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.budget = Budget(STEPS_OF_A_FILE)
+
+    def angle(self, node: Any, read: Callable[[str, Budget], float]) -> float:
+        text = str(self.construct_scalar(node))
+        self.budget.earn(len(text))
+        try:
+            return read(text, self.budget)
+        except RosParamException as error:
+            raise RosParamException(error.message, self.name, line_of(node)) from error
+
+
+class _Dumper(yaml.SafeDumper):
+    """Writes a text that looks like an angle in quotes."""
+
+
+for _tag, _word, _read in (("!degrees", "deg", lambda text, _: degrees(text)), ("!radians", "rad", radians)):
+    _Loader.add_constructor(_tag, partial(_Loader.angle, read=_read))
+    for _kind in (_Loader, _Dumper):
+        _kind.add_implicit_resolver(_tag, re.compile(rf"^{_word}\([^)]*\)$"), [_word[0]])
+
+
+def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
+    """Read a parameter file, for a namespace. Raises ``RosParamException``, which names file and line."""
+    path = Path(path)
+    try:
+        text = read(path, LARGEST).decode("utf-8")
+    except FileNotFoundError as error:
+        raise RosParamException(f"file [{path}] does not exist") from error
+    except OSError as error:
+        raise RosParamException(f"cannot read this file: {error.strerror}", path) from error
+    except UnicodeDecodeError as error:
+        raise RosParamException(f"cannot read this file: {error}", path) from error
+    return load_str(text, str(path), namespace)
+
+
+def load_str(text: str, source: str = "", namespace: str = "/") -> list[Document]:
+    """Read the documents of a YAML text; ``source`` is what errors call it. Raises ``RosParamException``."""
+    found: list[Document] = []
+    for values, node in documents(text, source, RosParamException, _Loader):
+        if values is None:
+            raise RosParamException("this document is empty (YAML's null)", source, line_of(node))
+        ns = namespace
+        named = isinstance(values, dict) and NS in values
+        if named:
+            ns = join(namespace, str(values.pop(NS)))
+        found.append(Document(values, ns, source, dict(_lines(node, "")), named))
+    return found
+
+
+def parse(text: str) -> Any:
+    """Return the value of a YAML text, as in ``rosparam set /gains '[1, 2.5]'``. Raises ``RosParamException``."""
+    documents = load_str(text)
+    if len(documents) > 1:
+        raise RosParamException(f"{text!r} is {len(documents)} YAML documents, and one value is needed")
+    return documents[0].values if documents else None
+
+
+def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
+    yield place or "/", line_of(node) or 1
+    for step, written, value in children(node):
+        yield from _lines(value, place + step)
+        yield place + step, line_of(written) or 1
+
+
+# ---- writing ----
+
+
+def dumps(value: Any) -> str:
+    """Return a value as the YAML text that rosparam prints and writes: keys sorted, one value in a line."""
+    text: str = yaml.dump(value, Dumper=_Dumper, default_flow_style=False, sort_keys=True)
+    return text.removesuffix("...\n")
+
+
+def printed(value: Any) -> str:
+    """Return what ``rosparam get`` prints of a value: YAML, and an empty line after what is no plain value."""
+    text = dumps(value)
+    is_plain = not isinstance(value, (dict, list)) and text[0] not in "'\"|"
+    return text if is_plain else f"{text}\n"
+
+
+def pretty(value: Any) -> str:
+    """Return what ``rosparam get -p`` prints of a value: for reading, not as YAML."""
+    if isinstance(value, str):
+        return f"{value}\n"
+    return "".join(f"{line}\n" for line in _pretty(value, "")) if isinstance(value, dict) else printed(value)
+
+
+def _pretty(tree: dict[str, Any], indent: str) -> Iterator[str]:
+    for key, value in sorted(tree.items()):
+        if isinstance(value, dict):
+            yield f"{indent}{key}:"
+            yield from _pretty(value, indent + "  ")
+        elif isinstance(value, str) and "\n" in value:
+            yield f"{indent}{key}: |"
+            yield from (f"{indent}  {line}" for line in value.split("\n"))
+        else:
+            yield f"{indent}{key}: {value if isinstance(value, str) else dumps(value).rstrip()}"

@@ -1,0 +1,350 @@
+"""A buffer of transforms in ROS's messages, under tf2's names (http://wiki.ros.org/tf2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import ROSInterruptException
+from rosmini.core.time import Duration, Time
+
+from .errors import TransformException
+from .messages import from_transform, moved, to_stamped
+from .rigid import Floats, transform_points
+from .tree import CACHE_NS, FrameTree
+from .wording import draw
+
+if TYPE_CHECKING:
+    from rosmini.core.graph import Node, Waiter
+
+LATEST = Time()
+"""The time that stands for the latest one that the whole chain has."""
+
+
+class BufferCore:
+    """Transforms as they come in messages, without a node; `tree` holds them as numbers.
+
+    `cache_time` says how much of the past is kept, in seconds or as a `Duration` (10 s if None).
+    """
+
+    def __init__(self, cache_time: float | Duration | None = None) -> None:
+        self.tree = FrameTree(
+            CACHE_NS if cache_time is None else span_ns(cache_time), warn=self._warn, now_ns=self._clock()
+        )
+
+    def _warn(self, text: str) -> None:
+        import sys
+
+        sys.stderr.write(f"Warning: {text}\n")
+
+    def _clock(self) -> Callable[[], int] | None:
+        return None
+
+    # -- what comes in -------------------------------------------------------------------------------------------
+
+    def set_transform(self, transform: Any, authority: str = "default_authority") -> bool:
+        """Take a `geometry_msgs/TransformStamped`; whether it was taken.
+
+        A leading `/` of a name is dropped, as tf2 does.
+        """
+        return self._set(transform, authority, static=False)
+
+    def set_transforms(self, transforms: Iterable[Any], authority: str = "default_authority") -> None:
+        """Take several, of one message."""
+        for transform in transforms:
+            self._set(transform, authority, static=False)
+
+    def set_transform_static(self, transform: Any, authority: str = "default_authority") -> bool:
+        """Take one that holds for all times."""
+        return self._set(transform, authority, static=True)
+
+    def _set(self, message: Any, authority: str, *, static: bool) -> bool:
+        return self.tree.set(
+            message.header.frame_id.lstrip("/"),
+            message.child_frame_id.lstrip("/"),
+            from_transform(message.transform),
+            message.header.stamp.to_nsec(),
+            authority,
+            static=static,
+        )
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self.tree.clear()
+
+    # -- what is asked -------------------------------------------------------------------------------------------
+
+    def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> Any:
+        """Where `source_frame` is in `target_frame`, as a `geometry_msgs/TransformStamped`.
+
+        Raises as `FrameTree.lookup` does.
+        """
+        found = self.tree.lookup(target_frame, source_frame, time.to_nsec())
+        return to_stamped(target_frame, source_frame, *found)
+
+    def lookup_transform_full_core(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> Any:
+        """The advanced form: source at one time, target at another; `fixed_frame` does not move in between."""
+        found = self.tree.lookup_full(
+            target_frame, target_time.to_nsec(), source_frame, source_time.to_nsec(), fixed_frame
+        )
+        return to_stamped(target_frame, source_frame, *found)
+
+    def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[bool, str]:
+        """Whether a lookup would answer, and why not."""
+        return _verdict(lambda: self.lookup_transform_core(target_frame, source_frame, time))
+
+    def can_transform_full_core(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> tuple[bool, str]:
+        """Whether the advanced form would answer, and why not."""
+        return _verdict(
+            lambda: self.lookup_transform_full_core(
+                target_frame, target_time, source_frame, source_time, fixed_frame
+            )
+        )
+
+    def get_latest_common_time(self, source_frame: str, dest_frame: str) -> Time:
+        """The oldest of the newest stamps on the way between two frames; 0 if nothing on it moves.
+
+        Raises as `FrameTree.lookup` does.
+        """
+        return Time.from_nsec(self.tree.latest_common_time(source_frame, dest_frame))
+
+    # -- what is there -------------------------------------------------------------------------------------------
+
+    def all_frames_as_string(self) -> str:
+        """A sentence for each edge, in tf's words."""
+        return "".join(
+            f"Frame {frame} exists with parent {edge.newest.parent}.\n"
+            for frame, edge in self.tree.edges.items()
+        )
+
+    def all_frames_as_yaml(self) -> str:
+        """Each edge with its broadcaster, rate and buffered time, as the service `~tf2_frames` answers."""
+        return (
+            "".join(
+                f"{frame}: \n  parent: '{edge.newest.parent}'\n  broadcaster: '{edge.newest.authority}'\n"
+                f"  rate: {edge.rate:.3f}\n  most_recent_transform: {edge.newest_ns / 1e9:.3f}\n"
+                f"  oldest_transform: {edge.oldest_ns / 1e9:.3f}\n  buffer_length: {edge.span_ns / 1e9:.3f}\n"
+                for frame, edge in self.tree.edges.items()
+            )
+            or "[]"
+        )
+
+    def all_frames_as_dot(self) -> str:
+        """The tree for graphviz, as `view_frames` writes it."""
+        edges = "".join(
+            f'"{edge.newest.parent}" -> "{frame}"[label="Broadcaster: {edge.newest.authority}\\nAverage rate: '
+            f"{edge.rate:.3f} Hz\\nMost recent transform: {edge.newest_ns / 1e9:.3f} \\nBuffer length: "
+            f'{edge.span_ns / 1e9:.3f} sec\\n"];\n'
+            for frame, edge in self.tree.edges.items()
+        )
+        return f"digraph G {{\n{edges}}}\n"
+
+    def __str__(self) -> str:
+        return draw(self.tree) or "(no frame)"
+
+
+class Buffer(BufferCore):
+    """The buffer of a node, which can wait: a blocked lane is parked, and the graph goes on.
+
+    >>> from rosmini import Graph
+    >>> from rosmini.core.tf import Buffer, TransformBroadcaster, TransformListener
+    >>> graph = Graph()
+    >>> node = graph.node("looker")
+    >>> buffer = Buffer(node)
+    >>> listener = TransformListener(node, buffer)
+    >>> broadcaster = TransformBroadcaster(graph.node("robot"))
+    >>> timer = broadcaster.node.timer(0.1, lambda event: broadcaster.send("odom", "base", (1, 2, 0)))
+    >>> buffer.lookup_transform("odom", "base", timeout=1.0).transform.translation.y
+    2.0
+    """
+
+    def __init__(self, node: Node | None, cache_time: float | Duration | None = None) -> None:
+        self._node = node
+        self._waiting: dict[Waiter, Callable[[], bool]] = {}
+        self._watching: list[Callable[[], object]] = []
+        self._several = False
+        super().__init__(cache_time)
+
+    @property
+    def node(self) -> Node:
+        """Whose time it is, and who waits."""
+        if self._node is None:
+            raise TransformException("this buffer has no node: give it one to let it wait")
+        return self._node
+
+    def _warn(self, text: str) -> None:
+        self.node.logwarn(text)
+
+    def _warn_once(self, text: str) -> None:
+        if self.node.logger.gates.is_first(text):
+            self._warn(text)
+
+    def _clock(self) -> Callable[[], int]:
+        return lambda: self.node.clock.now_ns()  # noqa: PLW0108 - a script's node is there only later
+
+    def _set(self, message: Any, authority: str, *, static: bool) -> bool:
+        taken = super()._set(message, authority, static=static)
+        if taken and not self._several:
+            self._changed()
+        return taken
+
+    def set_transforms(self, transforms: Iterable[Any], authority: str = "default_authority") -> None:
+        """Take several, of one message; who waits or watches learns of them together."""
+        self._several = True
+        try:
+            super().set_transforms(transforms, authority)
+        finally:
+            self._several = False
+        self._changed()
+
+    def _changed(self) -> None:
+        for waiter, ready in list(self._waiting.items()):
+            if ready():
+                self._waiting.pop(waiter, None)
+                waiter.wake()
+        for watcher in list(self._watching):
+            watcher()
+
+    def watch(self, callback: Callable[[], object]) -> Callable[[], None]:
+        """Call `callback()` whenever transforms were taken; return a function that ends this."""
+        self._watching.append(callback)
+        return lambda: self._watching.remove(callback)
+
+    def _wait(self, ready: Callable[[], bool], timeout: float | Duration, what: str) -> bool:
+        span = span_ns(timeout)
+        if ready():
+            return True
+        if span <= 0:
+            return False
+        node = self.node
+        waiter = node.waiter(what)
+        node.scheduler.on_hub(lambda: self._waiting.__setitem__(waiter, ready))
+        try:
+            return node.wait(waiter, timeout_ns=span) or ready()
+        finally:
+            self._waiting.pop(waiter, None)
+
+    def wait_for_transform(
+        self, target_frame: str, source_frame: str, time: Time = LATEST, timeout: float | Duration = 1.0
+    ) -> bool:
+        """Block until a lookup would answer (True), or for `timeout` seconds (False)."""
+        stamp = time.to_nsec()
+        return self._wait(
+            lambda: self.tree.knows(target_frame, source_frame, stamp),
+            timeout,
+            f"the transform from {source_frame} to {target_frame}",
+        )
+
+    def can_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time = LATEST,
+        timeout: float | Duration = 0.0,
+        return_debug_tuple: bool = False,
+    ) -> bool | tuple[bool, str]:
+        """Whether a lookup answers within `timeout`; with `return_debug_tuple` also why not."""
+        self.wait_for_transform(target_frame, source_frame, time, timeout)
+        verdict = self.can_transform_core(target_frame, source_frame, time)
+        return verdict if return_debug_tuple else verdict[0]
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: float | Duration = 0.0,
+        return_debug_tuple: bool = False,
+    ) -> bool | tuple[bool, str]:
+        """Whether the advanced form answers within `timeout`; with `return_debug_tuple` also why not."""
+        arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        self._wait(lambda: self.can_transform_full_core(*arguments)[0], timeout, _full(*arguments))
+        verdict = self.can_transform_full_core(*arguments)
+        return verdict if return_debug_tuple else verdict[0]
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Time = LATEST, timeout: float | Duration = 0.0
+    ) -> Any:
+        """The pose of `source_frame` in `target_frame`, a `TransformStamped`, after waiting for `timeout` [s] at most.
+
+        Raises as `FrameTree.lookup` does, and `ROSInterruptException` when the node shuts down meanwhile.
+        """
+        self.wait_for_transform(target_frame, source_frame, time, timeout)
+        return self.lookup_transform_core(target_frame, source_frame, time)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: float | Duration = 0.0,
+    ) -> Any:
+        """The advanced form, if need be after waiting."""
+        arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        self._wait(lambda: self.can_transform_full_core(*arguments)[0], timeout, _full(*arguments))
+        return self.lookup_transform_full_core(*arguments)
+
+    def transform(self, object_stamped: Any, target_frame: str, timeout: float | Duration = 0.0) -> Any:
+        """A stamped point, vector, pose, quaternion or cloud in another frame, at the time that its header names."""
+        header = object_stamped.header
+        found = self.lookup_transform(target_frame, header.frame_id.lstrip("/"), header.stamp, timeout)
+        return moved(object_stamped, found, self._warn_once)
+
+    def transform_full(
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        target_time: Time,
+        fixed_frame: str,
+        timeout: float | Duration = 0.0,
+    ) -> Any:
+        """The same at another time, if `fixed_frame` does not move in between."""
+        header = object_stamped.header
+        found = self.lookup_transform_full(
+            target_frame, target_time, header.frame_id.lstrip("/"), header.stamp, fixed_frame, timeout
+        )
+        return moved(object_stamped, found, self._warn_once)
+
+    def transform_points(
+        self, points: Any, target_frame: str, source_frame: str, time: Time = LATEST
+    ) -> Floats:
+        """Points (..., 3) [m] of one frame in another; see `scan_points` for those of a laser scan."""
+        found = self.tree.lookup(target_frame, source_frame, time.to_nsec())
+        return transform_points(found.transform, points)
+
+    def show(self, **options: Any) -> Any:
+        """A picture of the tree, as `rqt_tf_tree` draws it.
+
+        Options, with what they are unless given:
+            title=None: a caption under the picture, and the first words of its text form
+        """
+        from rosmini.core.graph.show import show
+
+        return show("tf_tree", self, **options)
+
+
+def _full(target: str, _target_time: Time, source: str, _source_time: Time, fixed: str) -> str:
+    return f"the transform from {source} to {target} by way of {fixed}"
+
+
+def _verdict(ask: Callable[[], object]) -> tuple[bool, str]:
+    try:
+        ask()
+    except ROSInterruptException:
+        raise
+    except TransformException as error:
+        return False, str(error)
+    return True, ""
+
+
+def span_ns(span: float | Duration) -> int:
+    """Seconds, or a duration, in nanoseconds."""
+    return span.to_nsec() if isinstance(span, Duration) else int(span * 1e9)

@@ -1,0 +1,57 @@
+"""Hearing where frames are: `/tf` and `/tf_static` into a buffer (http://wiki.ros.org/tf2_ros)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.msgs import message_class
+
+from .buffer import Buffer
+
+if TYPE_CHECKING:
+    from rosmini.core.graph import Node
+
+UNKNOWN = "unknown_publisher"
+
+
+class TransformListener:
+    """Fills `buffer` (one of its own, if none is given) with what a node hears on `/tf` and `/tf_static`.
+
+    When the node's time jumps back (a simulation or a bag starts again), the buffer forgets what it knew, as in tf2.
+    """
+
+    def __init__(self, node: Node, buffer: Buffer | None = None, queue_size: int | None = None) -> None:
+        self.node = node
+        self.buffer = Buffer(node) if buffer is None else buffer
+        self.last_update_ns = node.clock.now_ns()
+        kind = message_class("tf2_msgs/TFMessage")
+        self._subscribers = [
+            node.subscriber("/tf", kind, self.callback, queue_size=queue_size, numpy=False),
+            node.subscriber("/tf_static", kind, self.static_callback, queue_size=queue_size, numpy=False),
+        ]
+
+    def callback(self, data: Any) -> None:
+        """Take a message of `/tf`."""
+        self.check_for_reset()
+        authority = data._connection_header.get("callerid", UNKNOWN)
+        self.buffer.set_transforms(data.transforms, authority)
+
+    def static_callback(self, data: Any) -> None:
+        """Take a message of `/tf_static`."""
+        self.check_for_reset()
+        authority = data._connection_header.get("callerid", UNKNOWN)
+        for transform in data.transforms:
+            self.buffer.set_transform_static(transform, authority)
+
+    def check_for_reset(self) -> None:
+        """Forget what was heard if time has jumped back."""
+        now = self.node.clock.now_ns()
+        if now < self.last_update_ns:
+            self.node.logwarn("Detected jump back in time. Clearing TF buffer.")
+            self.buffer.clear()
+        self.last_update_ns = now
+
+    def unregister(self) -> None:
+        """Hear no more."""
+        for subscriber in self._subscribers:
+            subscriber.unregister()

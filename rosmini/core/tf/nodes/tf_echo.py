@@ -1,0 +1,67 @@
+"""`tf/tf_echo`: prints where one frame is in another (http://wiki.ros.org/tf#tf_echo)."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from rosmini.core.errors import ScriptError
+from rosmini.core.tf.errors import TransformException
+from rosmini.core.tf.listener import TransformListener
+from rosmini.core.tf.rigid import rpy
+from rosmini.core.tf.tree import Found
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rosmini.core.graph import Node
+
+
+def listed(values: Iterable[float]) -> str:
+    """Numbers to three decimals, without a negative zero."""
+    return "[" + ", ".join(f"{round(value, 3) + 0.0:.3f}" for value in values) + "]"
+
+
+def report(found: Found) -> str:
+    """What the tool prints of a transform."""
+    angles = rpy(found.transform)
+    return (
+        f"At time {found.stamp_ns / 1e9:.3f}\n"
+        f"- Translation: {listed(found.transform[:3])}\n"
+        f"- Rotation: in Quaternion {listed(found.transform[3:])}\n"
+        f"            in RPY (radian) {listed(angles)}\n"
+        f"            in RPY (degree) {listed(map(math.degrees, angles))}"
+    )
+
+
+class TfEcho:
+    """Prints `rate` times a second (once, if it is not given) where `target_frame` is in `source_frame`.
+
+    The tool's names are as they are: the transform takes data in `target_frame` to `source_frame`. Raises `ScriptError`
+    for a rate that is none.
+    """
+
+    def __init__(self, node: Node, source_frame: str, target_frame: str, echo_rate: str = "1") -> None:
+        try:
+            period = 1 / float(echo_rate)
+        except (ValueError, ZeroDivisionError) as error:
+            raise ScriptError(
+                f"tf_echo: {echo_rate!r} is no rate; give how often a second it shall print"
+            ) from error
+        self.node = node
+        self.frames = source_frame.lstrip("/"), target_frame.lstrip("/")
+        self.buffer = TransformListener(node).buffer
+        self.buffer.wait_for_transform(*self.frames, timeout=1.0)
+        self.echo()
+        self.timer = node.timer(period, lambda _event: self.echo())
+
+    def echo(self) -> None:
+        """Print it now, or why it cannot be."""
+        try:
+            text = report(self.buffer.tree.lookup(*self.frames))
+        except TransformException as error:
+            text = (
+                f"Failure at {self.node.now().to_sec():.9f}\nException thrown:{error}\n"
+                f"The current list of frames is:\n{self.buffer.all_frames_as_string()}"
+            )
+        print(text)

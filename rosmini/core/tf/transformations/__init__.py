@@ -1,0 +1,91 @@
+"""`tf.transformations`: homogeneous matrices (4, 4), Euler angles and quaternions (x, y, z, w) as arrays.
+
+Names, arguments and conventions are those of the module of that name
+(http://docs.ros.org/en/jade/api/tf/html/python/transformations.html); the code follows the formulas of textbooks.
+Angles are in radians, a matrix is applied to a column vector from the left.
+"""
+
+from __future__ import annotations
+
+from rosmini.core.geometry.products import inverse_matrix
+
+from .euler import (
+    euler_from_matrix,
+    euler_from_quaternion,
+    euler_matrix,
+    quaternion_from_euler,
+)
+from .matrices import (
+    concatenate_matrices,
+    identity_matrix,
+    is_same_transform,
+    reflection_from_matrix,
+    reflection_matrix,
+    rotation_from_matrix,
+    rotation_matrix,
+    scale_from_matrix,
+    scale_matrix,
+    shear_matrix,
+    superimposition_matrix,
+    translation_from_matrix,
+    translation_matrix,
+    unit_vector,
+    vector_norm,
+)
+from .parts import (
+    clip_matrix,
+    compose_matrix,
+    decompose_matrix,
+    orthogonalization_matrix,
+    projection_matrix,
+)
+from .quaternions import (
+    quaternion_about_axis,
+    quaternion_conjugate,
+    quaternion_from_matrix,
+    quaternion_inverse,
+    quaternion_matrix,
+    quaternion_multiply,
+    quaternion_slerp,
+    random_quaternion,
+    random_rotation_matrix,
+    random_vector,
+)
+
+__all__ = [
+    "clip_matrix",
+    "compose_matrix",
+    "concatenate_matrices",
+    "decompose_matrix",
+    "euler_from_matrix",
+    "euler_from_quaternion",
+    "euler_matrix",
+    "identity_matrix",
+    "inverse_matrix",
+    "is_same_transform",
+    "orthogonalization_matrix",
+    "projection_matrix",
+    "quaternion_about_axis",
+    "quaternion_conjugate",
+    "quaternion_from_euler",
+    "quaternion_from_matrix",
+    "quaternion_inverse",
+    "quaternion_matrix",
+    "quaternion_multiply",
+    "quaternion_slerp",
+    "random_quaternion",
+    "random_rotation_matrix",
+    "random_vector",
+    "reflection_from_matrix",
+    "reflection_matrix",
+    "rotation_from_matrix",
+    "rotation_matrix",
+    "scale_from_matrix",
+    "scale_matrix",
+    "shear_matrix",
+    "superimposition_matrix",
+    "translation_from_matrix",
+    "translation_matrix",
+    "unit_vector",
+    "vector_norm",
+]

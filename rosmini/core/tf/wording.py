@@ -1,0 +1,274 @@
+"""The texts of errors and warnings of the tree: what was asked, what exists, which edge is at fault, what to do."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Protocol
+
+from rosmini.core.errors import nearest
+
+from .history import History
+from .kernel import Rigid
+
+NEAR_PERIODS = 5
+"""A transform that is fewer periods of its broadcaster away is on its way."""
+
+OTHER_CLOCK_NS = 10_000_000 * 1_000_000_000
+"""Times that lie farther apart (116 days) come from different clocks."""
+
+FRAMES_LISTED = 12
+
+
+def seconds(time_ns: int) -> str:
+    """A time in seconds, exact, with three decimals or as many more as it needs.
+
+    >>> seconds(2_500_000_000), seconds(-1_000)
+    ('2.500', '-0.000001')
+    """
+    whole, rest = divmod(abs(time_ns), 1_000_000_000)
+    decimals = f"{rest:09d}".rstrip("0")
+    return f"{'-' if time_ns < 0 else ''}{whole}.{decimals:0<3}"
+
+
+class Frames(Protocol):
+    """What the wording reads of a `FrameTree`."""
+
+    cache_ns: int
+    edges: dict[str, History]
+
+    def __iter__(self) -> Iterator[str]: ...
+    def root(self, frame: str) -> str:
+        """The top of the tree that a frame is in."""
+
+    def children(self) -> dict[str, list[str]]:
+        """The frames under each frame."""
+
+
+class Words:
+    """The messages of the errors of one tree."""
+
+    def __init__(self, tree: Frames, now_ns: Callable[[], int] | None) -> None:
+        self._tree = tree
+        self._now_ns = now_ns
+
+    def bad_name(self, frame: str, role: str) -> str:
+        """A name that tf2 does not take."""
+        if not frame:
+            return (
+                f"Invalid argument passed to lookupTransform argument {role}: in tf2 frame_ids cannot be empty. "
+                "A message whose header.frame_id nobody filled in has this one."
+            )
+        return (
+            f'Invalid argument "{frame}" passed to lookupTransform argument {role}: in tf2 frame_ids cannot start '
+            "with a "
+            f"'/'. Use \"{frame.lstrip('/')}\"."
+        )
+
+    def unknown(self, frame: str, role: str) -> str:
+        """A frame that nobody has told of."""
+        known = sorted(self._tree)
+        text = f'"{frame}" passed to lookupTransform argument {role} does not exist. '
+        if not known:
+            return text + (
+                "No transform has been received at all: a listener hears of a frame when its broadcaster sends next "
+                "(and of static ones once it is connected), so make it early, and wait with a timeout. Is anyone "
+                "publishing /tf or /tf_static?"
+            )
+        hint = nearest(frame, known)
+        listed = ", ".join(known[:FRAMES_LISTED]) + (
+            f" and {len(known) - FRAMES_LISTED} more" if len(known) > FRAMES_LISTED else ""
+        )
+        return text + (f"{hint[0].upper()}{hint[1:]} " if hint else "") + f"There are these frames: {listed}."
+
+    def loop(self) -> str:
+        """A way that comes back to where it was."""
+        return (
+            "The tf tree is invalid because it contains a loop. A frame is under its own child: two broadcasters "
+            f"disagree about who is whose parent.\n{self.frames()}"
+        )
+
+    def frames(self) -> str:
+        """Every edge, in the words of tf, and who told of it."""
+        return "\n".join(
+            f"Frame {frame} exists with parent {history.newest.parent}"
+            + (f" (from {history.newest.authority})." if history.newest.authority else ".")
+            for frame, history in sorted(self._tree.edges.items())
+        )
+
+    def unconnected(self, target: str, source: str) -> str:
+        """Two frames in two trees."""
+        top, other = self._tree.root(target), self._tree.root(source)
+        return (
+            f"Could not find a connection between '{target}' and '{source}' because they are not part of the same "
+            f"tree: '{target}' is in that of '{top}', '{source}' in that of '{other}'. Likely cause: the broadcaster "
+            "of an edge that would join them is not running, or spells a frame differently. Somebody has to say "
+            f"where '{other}' is in a frame of the other tree (or '{top}' in this one).\n{draw(self._tree)}"
+        )
+
+    def extrapolation(self, edge: History, stamp_ns: int, target: str, source: str) -> str:
+        """A time at which an edge is not known."""
+        oldest, newest = edge.oldest_ns, edge.newest_ns
+        future = stamp_ns > newest
+        gap = stamp_ns - newest if future else oldest - stamp_ns
+        where = f"when looking up transform from frame [{source}] to frame [{target}]"
+        interval = (
+            f"only at {seconds(newest)} s"
+            if len(edge) == 1
+            else f"from {seconds(oldest)} s to {seconds(newest)} s"
+        )
+        rate = f", {edge.rate:.1f} Hz" if len(edge) > 1 else ""
+        sender = f", from {edge.newest.authority}" if edge.newest.authority else ""
+        return (
+            f"Lookup would require extrapolation {seconds(gap)}s into the {'future' if future else 'past'}, {where}.\n"
+            f"Requested: {seconds(stamp_ns)} s. At fault: the edge {edge.newest.parent} -> {edge.frame} is known "
+            f"{interval} ({_count(len(edge))}{rate}{sender}).\n"
+            f"Likely cause: {self._cause(edge, stamp_ns, gap, future=future)}"
+        )
+
+    def _cause(self, edge: History, stamp_ns: int, gap: int, *, future: bool) -> str:
+        latest = "Time(0) asks for the latest time that the whole chain has"
+        if gap > OTHER_CLOCK_NS:
+            return (
+                "the two times come from different clocks, the wall's and a simulation's: set /use_sim_time before "
+                "the nodes start, for all of them or for none."
+            )
+        if len(edge) == 1:
+            return (
+                "one transform alone cannot be interpolated. If it never changes, send it as a static one; if it "
+                f"does, wait for the next ones. {latest}."
+            )
+        period = edge.span_ns / (len(edge) - 1)
+        if not future:
+            if edge.span_ns + period > self._tree.cache_ns:
+                return (
+                    f"the buffer keeps {self._tree.cache_ns / 1e9:g} s, and this is longer ago. Look up sooner, or "
+                    f"give the buffer a longer cache_time. {latest}."
+                )
+            return (
+                "nobody told of this edge yet at that time, or the listener had not been made yet: its buffer is "
+                f"empty at first. Make it before the data come, and drop what is older. {latest}."
+            )
+        now = None if self._now_ns is None else self._now_ns()
+        if now is not None and stamp_ns > now:
+            return f"that time is still to come: it is {seconds(now)} s now. {latest}."
+        if gap > NEAR_PERIODS * period:
+            return (
+                f"nothing new came for {seconds(gap)} s, {gap / period:.0f} times the usual: the broadcaster of "
+                f"{edge.frame} has stopped, or is held up. {latest}, which is as old as that."
+            )
+        return (
+            "the transform for that time has not arrived yet (a message and the transform for it travel apart). Wait "
+            f"for it: give the lookup a timeout. Or: {latest}."
+        )
+
+
+def _count(number: int) -> str:
+    return "1 transform" if number == 1 else f"{number} transforms"
+
+
+def draw(tree: Frames) -> str:
+    """The frames as text, each under its parent.
+
+    Branches are drawn as a file tree's are; a tree that is a loop throughout is not drawn.
+    """
+    children = tree.children()
+    lines: list[str] = []
+
+    for root in sorted(frame for frame in tree if frame not in tree.edges):
+        waiting = [(root, "", "")]
+        while waiting:
+            frame, first, indent = waiting.pop()
+            lines.append(first + frame)
+            under = children.get(frame, [])
+            branches = [("|-- ", "|   ")] * (len(under) - 1) + [("`-- ", "    ")]
+            waiting += [
+                (child, indent + branch, indent + rest)
+                for child, (branch, rest) in reversed(list(zip(under, branches, strict=False)))
+            ]
+    return "\n".join(lines)
+
+
+class Complaints:
+    """Warnings about refused data, each once for a frame: a real robot would repeat them at the rate of its data."""
+
+    def __init__(self, warn: Callable[[str], object]) -> None:
+        self._warn = warn
+        self._said: set[tuple[str, str]] = set()
+
+    def say(self, frame: str, authority: str, text: str) -> None:
+        """Warn about the data of a frame, once for each kind, which is the first word of the text."""
+        key = (frame, text.partition(":")[0])
+        if key not in self._said:
+            self._said.add(key)
+            sender = authority or "an unnamed sender"
+            self._warn(text.replace("{sender}", sender) + " (This is said once for this frame.)")
+
+    @staticmethod
+    def check(parent: str, child: str, transform: Rigid) -> str | None:
+        """What cannot be right about a transform, if anything."""
+        if parent == child:
+            return f'TF_SELF_TRANSFORM: {{sender}} says where frame "{child}" is in itself; ignored.'
+        if not child:
+            sent = f'{{sender}} sent a transform in frame "{parent}"'
+            return f"TF_NO_CHILD_FRAME_ID: {sent} with an empty child_frame_id; ignored."
+        if not parent:
+            sent = f'{{sender}} sent a transform of frame "{child}"'
+            return f"TF_NO_FRAME_ID: {sent} with an empty header.frame_id; ignored."
+        if not math.isfinite(sum(transform)) and not all(map(math.isfinite, transform)):
+            sent = f'{{sender}} sent a transform of frame "{child}"'
+            return f"TF_NAN_INPUT: {sent} with a nan or inf in it, {transform}; ignored."
+        _, _, _, x, y, z, w = transform
+        if abs(x * x + y * y + z * z + w * w - 1) > 1e-2:
+            return (
+                f'TF_DENORMALIZED_QUATERNION: {{sender}} sent frame "{child}" with a quaternion that is no rotation, '
+                f"x={x:g}, "
+                f"y={y:g}, z={z:g}, w={w:g}: its length has to be 1 (a new Quaternion has w=0; no rotation at all is "
+                "w=1); ignored."
+            )
+        return None
+
+    def repeated(self, history: History, stamp_ns: int, authority: str) -> None:
+        """A second transform of the same moment."""
+        first = history.sample_at(stamp_ns).authority
+        frame = history.frame
+        if first == authority:
+            sender = authority or "an unnamed sender"
+            why = f"{sender} sent it twice: stamp each transform with the time for which it holds"
+        else:
+            why = (
+                f"{first or 'an unnamed sender'} sent it first, {authority or 'an unnamed sender'} again: two "
+                f"broadcasters of one frame; stop one of them"
+            )
+        self.say(
+            frame,
+            authority,
+            f'TF_REPEATED_DATA: the transform of frame "{frame}" at {seconds(stamp_ns)} s came more than once; the '
+            f"first is kept. {why}.",
+        )
+
+    def old(self, history: History, stamp_ns: int, authority: str) -> None:
+        """A transform of long ago."""
+        frame = history.frame
+        self.say(
+            frame,
+            authority,
+            f'TF_OLD_DATA: the transform of frame "{frame}" at {seconds(stamp_ns)} s from {{sender}} is older than '
+            "all that is "
+            f"kept (the newest is of {seconds(history.newest_ns)} s, from "
+            f"{history.newest.authority or 'an unnamed sender'}); ignored. Two broadcasters with different clocks, or "
+            "a bag played again, do this.",
+        )
+
+    def two_parents(self, history: History, parent: str, authority: str) -> None:
+        """A frame that hangs under another parent from now on, by the word of another sender."""
+        before = history.newest
+        if before.authority == authority:
+            return  # a sender may move its own frame
+        self.say(
+            history.frame,
+            authority,
+            f'TF_TWO_PARENTS: frame "{history.frame}" is under "{before.parent}" by '
+            f'{before.authority or "an unnamed sender"}, and under "{parent}" by {{sender}}. A frame has one parent: '
+            "the tree jumps from one to the other.",
+        )

@@ -1,9 +1,0 @@
-"""What this package raises."""
-
-from __future__ import annotations
-
-from rosmini.errors import RosminiError
-
-
-class GeometryError(RosminiError, ValueError):
-    """Numbers that describe nothing in the plane: not a number, infinite, of the wrong shape, a negative length."""

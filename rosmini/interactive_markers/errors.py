@@ -1,9 +1,0 @@
-"""What goes wrong with interactive markers."""
-
-from __future__ import annotations
-
-from rosmini.errors import RosminiError
-
-
-class InteractiveMarkerException(RosminiError):
-    """What a program asks for of a marker or a menu is not possible."""

@@ -1,0 +1,490 @@
+"""A bag as an object, with the interface of ROS's ``rosbag.Bag`` (http://wiki.ros.org/rosbag/Code%20API).
+
+>>> import io
+>>> from rosmini.ros.bag import Bag
+>>> from rosmini.msgs.std_msgs.msg import String
+>>> from rosmini.core.time import Time
+>>> file = io.BytesIO()
+>>> with Bag(file, "w") as bag:
+...     bag.write("/chatter", String("hello"), Time(3))
+>>> for topic, message, t in Bag(file):
+...     print(topic, message.data, t.to_sec())
+/chatter hello 3.0
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from io import BytesIO, FileIO, IOBase, TextIOBase
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO, Self
+
+from rosmini.core.errors import DeserializationError, shown
+from rosmini.core.files import check
+from rosmini.core.time import Time
+
+from .errors import (
+    NotOpenForWriting,
+    ROSBagEncryptNotSupportedException,
+    ROSBagException,
+    ROSBagUnindexedException,
+    in_file,
+)
+from .index import Connection, Index, connection
+from .info import info_text, info_yaml
+from .reader import Input, RawMessage, Reader, index_position, read_index
+from .records import Compression, check_compression, check_magic, check_threshold
+from .scan import Scan, scan
+from .summary import BagMessage, BagMessageWithConnectionHeader, Summaries
+from .types import Types, serialized
+from .writer import CHUNK_THRESHOLD, Writer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from types import TracebackType
+
+    from rosmini.core.time import TVal
+
+    from .summary import ConnectionFilter
+    from .table import Table
+
+
+class Bag(Summaries):
+    """A bag, open for reading ("r"), writing ("w": it begins empty) or appending ("a").
+
+    Args:
+        f: the file's path, or a file open in binary mode.
+        mode: "r", "w" or "a". In all of them messages can be read.
+        compression: of what is written: "none", "bz2" or "lz4" (`Compression`).
+        chunk_threshold: from this size on a chunk is closed [bytes].
+        allow_unindexed: read a bag whose recording did not come to an end as far as it goes; in mode "a", repair it.
+        options: {"compression": ..., "chunk_threshold": ...}, as the two arguments.
+        skip_index: for ROS's sake; an index is never read before it is needed.
+        numpy: give numeric arrays as read-only numpy arrays, else as rospy's tuples and bytes.
+
+    Raises:
+        ROSBagException: the file is empty, damaged, encrypted or not a bag; `ROSBagUnindexedException` if it has no
+            index, or a damaged one.
+        OSError: the file cannot be opened.
+        ValueError: the file is no path and no stream, or the mode, the compression or the threshold is none.
+
+    All methods that need the file raise ``ValueError`` once the bag is closed, as those of ROS.
+
+    """
+
+    def __init__(
+        self,
+        f: str | os.PathLike[str] | BinaryIO,
+        mode: str = "r",
+        compression: str = Compression.NONE,
+        chunk_threshold: int = CHUNK_THRESHOLD,
+        allow_unindexed: bool = False,
+        options: Mapping[str, Any] | None = None,
+        skip_index: bool = False,  # noqa: ARG002 - rosbag's signature
+        *,
+        numpy: bool = True,
+    ) -> None:
+        if not f:
+            raise ValueError("filename (or stream) is invalid")
+        if mode not in ("r", "w", "a"):
+            raise ValueError(f'mode "{mode}" is invalid: use "r", "w" or "a"')
+        if options is not None and not isinstance(options, Mapping):
+            raise ValueError(f"options are a dict, not {shown(options)}")
+        given = options or {}
+        self._compression = check_compression(given.get("compression", compression))
+        self._chunk_threshold = check_threshold(given.get("chunk_threshold", chunk_threshold))
+        if isinstance(f, TextIOBase):
+            raise ROSBagException("In Python 3 the bag file must be opened in binary mode")
+        self._mode = mode
+        self._numpy = numpy
+        self._filename = None if isinstance(f, IOBase) else os.fspath(f)  # type: ignore[arg-type]
+        self._file: BinaryIO | None = None
+        self._input: BinaryIO | None = None
+        self._writer: Writer | None = None
+        self._types = Types(self._name)
+        self._version = 200
+        self._numbers: dict[tuple[str, bytes], int] = {}
+        self._by_topic: dict[str, int] = {}
+        self.problems: list[str] = []
+        """What is wrong with a bag without an index that was opened all the same."""
+        try:
+            with in_file(self._name):
+                self._index = self._open(f, allow_unindexed)
+        except BaseException:
+            self._close_files()
+            raise
+
+    def __repr__(self) -> str:
+        state = {"r": "reading", "w": "writing", "a": "appending"}[self._mode]
+        return f"<Bag {self._name}, {'closed' if self._file is None else f'open for {state}'}>"
+
+    @property
+    def _name(self) -> str:
+        return self._filename or "the bag"
+
+    # -- opening and closing -----------------------------------------------------------------------------------------
+
+    def _open(self, f: Any, allow_unindexed: bool) -> Index:
+        stream = self._filename is None
+        if self._mode == "a" and not stream and not Path(f).exists():
+            self._mode = "w"
+        if self._mode == "r":
+            if not (stream or Path(f).is_dir()):
+                check(f, sys.maxsize)  # to open a pipe would be to wait for who writes to it
+            self._file = self._input = f if stream else Input(FileIO(f))
+            return self._read_index(self._file, allow_unindexed)
+        # no buffer: what a full disk refuses must not wait in one
+        self._file = f if stream else FileIO(f, "w+" if self._mode == "w" else "r+")
+        self._input = f if stream else Input(FileIO(f))
+        if self._mode == "w":
+            self._writer = self._new_writer(self._file)
+        else:
+            self._append(self._file, self._input, allow_unindexed)
+        assert self._writer is not None  # noqa: S101 - both ways have set it
+        return self._writer.index
+
+    def _new_writer(self, file: BinaryIO, index: Index | None = None, position: int | None = None) -> Writer:
+        return Writer(
+            file,
+            self._name,
+            compression=self._compression,
+            chunk_threshold=self._chunk_threshold,
+            index=index,
+            position=position,
+        )
+
+    def _read_index(self, file: BinaryIO, allow_unindexed: bool) -> Index:
+        self._version = check_magic(file, self._name)
+        try:
+            return read_index(file, self._name)
+        except ROSBagUnindexedException:
+            if not allow_unindexed:
+                raise
+        found = scan(file, self._name)
+        self.problems = found.problems
+        if not found.tail and found.bare is None:
+            return found.index
+        # what is whole in an unfinished chunk is read from a copy in memory, and the file stays as it is
+        copy = BytesIO()
+        file.seek(0)
+        copy.write(file.read(found.end))
+        self._resume(copy, found).close()
+        if self._filename is not None:
+            file.close()
+        self._file = self._input = copy
+        return read_index(copy, self._name)
+
+    def _append(self, file: BinaryIO, source: BinaryIO, allow_unindexed: bool) -> None:
+        version = check_magic(source, self._name)
+        if version != self._version:
+            raise ROSBagException(
+                f"bag version {version} is unsupported for appending: write the messages of {self._name} to a new bag"
+            )
+        try:
+            index = read_index(source, self._name)
+        except ROSBagUnindexedException:
+            if not allow_unindexed:
+                raise
+            found = scan(source, self._name)
+            self.problems = found.problems
+            self._writer = self._resume(file, found)
+        else:
+            end = index_position(source)
+            file.truncate(end)
+            self._writer = self._new_writer(file, index, end)
+        for number, known in self._writer.index.connections.items():
+            self._numbers[known.topic, known.raw] = number
+            self._by_topic.setdefault(known.topic, number)
+
+    def _resume(self, file: BinaryIO, found: Scan) -> Writer:
+        """Return a writer that goes on behind what was found, with the messages of the unfinished chunk."""
+        file.truncate(found.end)
+        writer = self._new_writer(file, found.index, found.end)
+        if found.bare is not None:
+            writer.write_index_data(found.bare)
+        for known in found.index.chunks:
+            known.entries = None  # they are in the file now
+        for known_connection, time, data in found.tail:
+            writer.write(known_connection.id, time, data)
+        return writer
+
+    def reindex(self) -> Iterator[int]:
+        """Make a new index, for a bag opened with mode "a" and ``allow_unindexed``; yield positions in the file.
+
+        Opening has done it already; this is for programs that ask for it, as ROS's own does.
+        """
+        yield from (chunk.position for chunk in self._index.chunks)
+
+    def flush(self) -> None:
+        """Write everything that is not in the file yet, except the index."""
+        self._reading()
+        if self._writer is not None:
+            self._writer.flush()
+
+    def close(self) -> None:
+        """Write the index, and close the file. Harmless when repeated. Raises ``BagFull`` if there is no room."""
+        try:
+            if self._writer is not None and self._file is not None:
+                self._writer.close()
+        finally:
+            self._close_files()
+
+    def _close_files(self) -> None:
+        if self._filename is not None:
+            for file in (self._file, self._input):
+                if file is not None:
+                    file.close()
+        self._file = self._input = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # -- what it is --------------------------------------------------------------------------------------------------
+
+    @property
+    def filename(self) -> str | None:
+        """The file's path, None if the bag was made from an open file."""
+        return self._filename
+
+    @property
+    def version(self) -> int:
+        """The version of the format, 200 for 2.0."""
+        return self._version
+
+    @property
+    def mode(self) -> str:
+        """How it was opened."""
+        return self._mode
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The options for writing."""
+        return {"compression": self._compression, "chunk_threshold": self._chunk_threshold}
+
+    @property
+    def size(self) -> int:
+        """How long the file is [bytes]; while it is written, with what is still in memory."""
+        file = self._reading()
+        if self._writer is not None and not self._writer.closed:
+            return self._writer.size
+        if self._filename is not None:
+            return Path(self._filename).stat().st_size
+        file.seek(0, os.SEEK_END)
+        return file.tell()
+
+    @property
+    def compression(self) -> str:
+        """How chunks are compressed that are written from now on."""
+        return self._compression
+
+    @compression.setter
+    def compression(self, compression: str) -> None:
+        check_compression(compression)
+        self.flush()
+        self._compression = compression
+        if self._writer is not None:
+            self._writer.compression = compression
+
+    @property
+    def chunk_threshold(self) -> int:
+        """From which size on a chunk is closed [bytes]."""
+        return self._chunk_threshold
+
+    @chunk_threshold.setter
+    def chunk_threshold(self, chunk_threshold: int) -> None:
+        check_threshold(chunk_threshold)
+        self.flush()
+        self._chunk_threshold = chunk_threshold
+        if self._writer is not None:
+            self._writer.chunk_threshold = chunk_threshold
+
+    @property
+    def index(self) -> Index:
+        """The connections and chunks; also of a bag that is closed."""
+        if self._writer is not None and self._file is not None:
+            self._writer.flush()
+        return self._index
+
+    # -- reading -----------------------------------------------------------------------------------------------------
+
+    def _reading(self) -> BinaryIO:
+        if self._input is None:
+            raise ValueError(f"I/O operation on a closed bag: {self._name}")
+        return self._input
+
+    def reader(self) -> Reader:
+        """Return what reads the bag's bytes; everything written so far is there."""
+        self.flush()
+        return Reader(self._reading(), self._index, self._name)
+
+    def read_raw(
+        self,
+        topics: str | Iterable[str] | None = None,
+        start_time: TVal | None = None,
+        end_time: TVal | None = None,
+        connection_filter: ConnectionFilter | None = None,
+    ) -> Iterator[RawMessage]:
+        """Yield messages as bytes, with their connections; the arguments are those of :meth:`read_messages`."""
+        wanted = {found.id for found in self.connections(topics, connection_filter)}
+        start, end = (None if time is None else time.to_nsec() for time in (start_time, end_time))
+        return self.reader().messages(wanted, start, end)
+
+    def read_messages(
+        self,
+        topics: str | Iterable[str] | None = None,
+        start_time: TVal | None = None,
+        end_time: TVal | None = None,
+        connection_filter: ConnectionFilter | None = None,
+        raw: bool = False,
+        return_connection_header: bool = False,
+    ) -> Iterator[Any]:
+        """Yield (topic, message, time) of one topic, some, or all, in time order, between two times (both included).
+
+        With ``raw`` a message is (type, bytes, md5 sum, (chunk, offset), class). Raises ``ROSBagException`` at damage.
+        """
+        found = self.read_raw(topics, start_time, end_time, connection_filter)
+        return self._messages(found, raw, return_connection_header)
+
+    def _messages(self, found: Iterator[RawMessage], raw: bool, with_header: bool) -> Iterator[Any]:
+        decoders: dict[int, Callable[[bytes], Any]] = {}
+        for conn, nanoseconds, data, chunk, offset in found:
+            if raw:
+                position = (self._index.chunks[chunk].position, offset)
+                message: Any = (conn.type, data, conn.md5sum, position, self._types.of(conn))
+            else:
+                decode = decoders.get(conn.id)
+                if decode is None:
+                    decode = decoders[conn.id] = self._decoder(conn)
+                try:
+                    message = decode(data)
+                except DeserializationError as error:
+                    place = f"byte {offset} of the chunk at byte {self._index.chunks[chunk].position}"
+                    raise DeserializationError(
+                        f"{self._name}: the message on {conn.topic} at {place} cannot be read: {error}"
+                    ) from error
+            del data  # its memory is free for the next one then, which saves a large one much time
+            time = Time(*divmod(nanoseconds, 1_000_000_000))
+            if with_header:
+                yield BagMessageWithConnectionHeader(conn.topic, message, time, dict(conn.header))
+            else:
+                yield BagMessage(conn.topic, message, time)
+
+    def _decoder(self, conn: Connection) -> Callable[[bytes], Any]:
+        cls = self._types.of(conn)
+        decode = cls._decode
+        thaw = cls._thawer(numpy=self._numpy)
+        return decode if thaw is None else lambda data: thaw(decode(data))
+
+    def __iter__(self) -> Iterator[Any]:
+        return self.read_messages()
+
+    def table(self, topic: str) -> Table:
+        """Return a topic as columns, as ``table()`` does. Raises ``ROSBagException`` if the bag lacks the topic."""
+        from .table import table
+
+        return table(self.message_class(topic), self.read_messages(topic))
+
+    def info(self, *, freq: bool = False, utc: bool = False) -> str:
+        """Return what ``rosbag info`` prints, with frequencies if asked for; times are local, or of UTC."""
+        return info_text(self, freq=freq, utc=utc)
+
+    def __str__(self) -> str:
+        return info_text(self)
+
+    def _get_yaml_info(self, key: str | None = None) -> str | None:
+        return info_yaml(self, key)
+
+    # -- writing -----------------------------------------------------------------------------------------------------
+
+    def write(
+        self,
+        topic: str,
+        msg: Any,
+        t: TVal | None = None,
+        raw: bool = False,
+        connection_header: Mapping[str, str | bytes] | None = None,
+    ) -> None:
+        """Write a message, recorded at ``t`` (the graph's time now, if not given).
+
+        With ``raw`` a message is (type, bytes, md5 sum, class), or the same with a position before the class. Messages
+        with another ``connection_header`` get a connection of their own. Raises ``ValueError`` for a closed bag, an
+        empty topic or no message, ``BagFull`` when there is no more room, ``SerializationError`` for a field of the
+        wrong type.
+        """
+        if self._file is None:
+            raise ValueError(f"I/O operation on a closed bag: {self._name}")
+        writer = self._writer
+        if not topic:
+            raise ValueError("topic is invalid: it is empty")
+        if writer is None:
+            raise NotOpenForWriting(
+                f'{self._name} is open for reading: open it with mode "w" or "a" to write'
+            )
+        if msg is None or (raw and len(msg) not in (4, 5)):
+            raise ValueError("msg is invalid: a message, or with raw=True (type, bytes, md5sum, class)")
+        data: bytes
+        if raw:
+            kind, data, md5sum, cls = msg[0], msg[1], msg[2], msg[-1]
+        else:
+            kind, data, md5sum, cls = msg._type, serialized(msg), msg._md5sum, type(msg)
+        time = _now() if t is None else t
+        number = self._by_topic.get(topic) if connection_header is None else None
+        if number is None or writer.index.connections[number].md5sum != md5sum:
+            number = self._connect(topic, kind, md5sum, cls, connection_header)
+        writer.write(number, time.to_nsec(), data)
+
+    def _connect(
+        self,
+        topic: str,
+        kind: str,
+        md5sum: str,
+        cls: Any,
+        header: Mapping[str, str | bytes] | None,
+    ) -> int:
+        if header is None:
+            if cls is None:
+                raise ROSBagException(f"{kind} on {topic}: give its class, or a connection header")
+            header = {"topic": topic, "type": kind, "md5sum": md5sum, "message_definition": cls._full_text}
+        return self.connect(connection(0, topic, header))
+
+    def connect(self, conn: Connection) -> int:
+        """Return this bag's number for a connection of another bag, or of a graph; its header is kept to the byte."""
+        if self._writer is None:
+            raise NotOpenForWriting(f"{self._name} is not open for writing")
+        key = conn.topic, conn.raw
+        number = self._numbers.get(key)
+        if number is None:
+            number = self._numbers[key] = self._writer.add(conn).id
+            self._by_topic.setdefault(conn.topic, number)
+        return number
+
+    def write_raw(self, number: int, nanoseconds: int, data: bytes) -> None:
+        """Write a message of the connection with a number that :meth:`connect` gave, recorded at a time [ns]."""
+        if self._writer is None or self._file is None:
+            raise NotOpenForWriting(f"{self._name} is not open for writing")
+        self._writer.write(number, nanoseconds, data)
+
+    def sync(self) -> None:
+        """Write what is in memory, so that it survives a crash, and go on with the chunk that is open."""
+        if self._writer is not None:
+            self._writer.sync()
+
+    def set_encryptor(self, encryptor: str | None = None, param: str | None = None) -> None:  # noqa: ARG002
+        """Accept that there is no encryption. Raises ``ROSBagEncryptNotSupportedException`` for any other."""
+        if encryptor:
+            raise ROSBagEncryptNotSupportedException(
+                f"bags are not encrypted here ({encryptor}): use real ROS's `rosbag encrypt`"
+            )
+
+
+def _now() -> Time:
+    from rosmini.core.graph import running_graph  # what only reads a bag needs no graph
+
+    return running_graph().now()

@@ -1,0 +1,77 @@
+"""What goes wrong with bags.
+
+The names and relatives are those of ROS's ``rosbag``, so an ``except`` of a script catches ours.
+"""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from io import UnsupportedOperation
+from typing import TYPE_CHECKING
+
+from rosmini.core.errors import RosminiError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+class ROSBagException(RosminiError):
+    """The base of all errors about bags."""
+
+    def __init__(self, value: object = None) -> None:
+        super().__init__(value)
+        self.value = value
+
+    def __str__(self) -> str:
+        return str(self.value)
+
+
+class ROSBagFormatException(ROSBagException):
+    """A file is not a bag, or its bytes break the format."""
+
+
+class ROSBagUnindexedException(ROSBagException):
+    """A bag has no index: its recording did not come to an end. ``rosbag reindex`` makes one."""
+
+    def __init__(self, value: object = "Unindexed bag") -> None:
+        super().__init__(value)
+
+
+class DamagedIndex(ROSBagUnindexedException, ROSBagFormatException):
+    """The index of a bag is damaged. ROS's rosbag does not distinguish this from a bag without one."""
+
+
+class ROSBagEncryptNotSupportedException(ROSBagException):
+    """A bag is encrypted in a way that cannot be read here."""
+
+
+class ROSBagEncryptException(ROSBagException):
+    """A bag could not be encrypted or decrypted."""
+
+
+@contextmanager
+def in_file(name: str) -> Iterator[None]:
+    """Have errors about what is read within the block begin with the file's name."""
+    try:
+        yield
+    except ROSBagException as error:
+        if not str(error).startswith(name):
+            error.value = f"{name}: {error.value}"
+            error.args = (error.value,)
+        raise
+
+
+class UnknownCompression(ROSBagException, ValueError):
+    """A bag cannot be compressed in this way (rosbag raises ``ValueError``)."""
+
+
+class NotOpenForWriting(ROSBagException, UnsupportedOperation):
+    """A bag that is open for reading was to be written to (rosbag raises what Python raises for such a file)."""
+
+
+class BagFull(ROSBagException):
+    """The disk, a quota or a limit of file sizes is full. What fitted is in the bag, which is closed and whole."""
+
+
+class FilterError(ROSBagException):
+    """An expression that chooses messages uses what such an expression may not use, or failed on a message."""

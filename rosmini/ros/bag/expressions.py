@@ -1,0 +1,44 @@
+"""The expression of ``rosbag filter``, confined: it reads ``topic``, ``m`` and ``t``, computes, and nothing else.
+
+ROS's tool evaluates any Python. Here it is one of :mod:`rosmini.core.expressions`, which knows what is listed and
+nothing
+else: of a message its fields and constants (and ``_type``), of a time its two numbers and what makes one number of it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import shown
+from rosmini.core.expressions import ExpressionError
+from rosmini.ros.introspection.filters import message_expression
+
+from .errors import FilterError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:
+    """Return ``f(topic, m, t)`` that evaluates an expression on a message.
+
+    Raises ``FilterError``, which says what is not allowed or where the expression breaks off; the function raises it,
+    too, when an expression fails on a message (a field that this type does not have, for instance), or would take too
+    long or too much memory.
+    """
+    try:
+        expression = message_expression(text, ("topic", "m", "t"))
+    except ExpressionError as error:
+        raise FilterError(f"{shown(text)}: {error}. An example: topic == '/scan' and t.secs > 5") from error
+
+    def evaluate(topic: str, m: Any, t: Any) -> Any:
+        try:
+            return expression.evaluate({"topic": topic, "m": m, "t": t})
+        except ExpressionError as error:
+            kind = getattr(m, "_type", type(m).__name__)
+            raise FilterError(
+                f"{shown(text)} failed on a {kind} of {topic}: {error}. Test the topic first: topic == {topic!r} and "
+                "..."
+            ) from error
+
+    return evaluate

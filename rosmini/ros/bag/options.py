@@ -1,0 +1,208 @@
+"""The command lines of ``rosbag record`` and ``rosbag play``: ROS's options, for our recorder and player."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from rosmini.core.errors import UsageError
+from rosmini.ros.introspection.options import Parser as ToolParser
+
+from .errors import ROSBagException
+from .player import PlayOptions
+from .recorder import MEGABYTE, RecordOptions
+from .records import Compression
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from optparse import Values
+
+
+Options = TypeVar("Options", RecordOptions, PlayOptions)
+
+
+class BagUsageError(ROSBagException, UsageError):
+    """A command line that makes no sense; the text says which ones do."""
+
+
+class Parser(ToolParser):
+    """A parser of ``rosbag``."""
+
+    def __init__(self, usage: str, description: str, example: str) -> None:
+        example = f"  rosmini rosbag {example}"
+        super().__init__("rosbag", usage, description, example=example, failure=BagUsageError)
+
+
+_UNITS = {"s": 1.0, "m": 60.0, "h": 3600.0}
+
+
+def record_parser() -> Parser:
+    """Return the parser of ``rosbag record``."""
+    parser = Parser(
+        "rosbag record TOPIC1 [TOPIC2 TOPIC3 ...]",
+        "Write what goes over topics into a bag file.",
+        "record -O drive.bag /odom /scan",
+    )
+    add = parser.add_option
+    add("-a", "--all", action="store_true", default=False, help="all topics, those that come later included")
+    add("-e", "--regex", action="store_true", default=False, help="the topics are regular expressions")
+    add(
+        "-p",
+        "--publish",
+        action="store_true",
+        default=False,
+        help="publish on begin_write that recording begins",
+    )
+    add("-x", "--exclude", metavar="EXCLUDE_REGEX", help="not the topics that match (with -a or -e)")
+    add("-q", "--quiet", action="store_true", default=False, help="print nothing")
+    add("-o", "--output-prefix", metavar="PREFIX", help="name the bag PREFIX_DATE.bag")
+    add("-O", "--output-name", metavar="NAME", help="name the bag NAME.bag")
+    add(
+        "--split",
+        action="store_true",
+        default=False,
+        help="begin the next bag when one is full: see --size, --duration",
+    )
+    add("--max-splits", type="int", help="keep so many bags; the oldest is removed")
+    add("--size", type="int", help="a bag is full at SIZE MB")
+    add("--duration", help="a bag is full after DURATION seconds, or minutes (5m), or hours (1h)")
+    add(
+        "-b",
+        "--buffsize",
+        type="int",
+        default=256,
+        metavar="SIZE",
+        help="what may wait to be written, in MB (256; 0: anything)",
+    )
+    add("--chunksize", type="int", default=768, metavar="SIZE", help="chunks of SIZE KB (768)")
+    add("-l", "--limit", type="int", metavar="NUM", help="only NUM messages of each topic")
+    add("--node", dest="of_node", help="all topics to which this node subscribes")
+    add(
+        "-j",
+        "--bz2",
+        dest="compression",
+        action="store_const",
+        const=Compression.BZ2,
+        default=Compression.NONE,
+        help="compress with bz2",
+    )
+    add("--lz4", dest="compression", action="store_const", const=Compression.LZ4, help="compress with lz4")
+    add("--tcpnodelay", action="store_true", help="accepted; there is no TCP within one process")
+    add("--udp", action="store_true", help="accepted; there is no UDP within one process")
+    add("--repeat-latched", action="store_true", default=False, help="begin each bag with what is latched")
+    return parser  # fmt: skip
+
+
+def seconds(parser: Parser, text: str) -> float:
+    """Return a duration such as ``30``, ``5m`` or ``1h`` in seconds."""
+    unit = _UNITS.get(text[-1:], 0.0)
+    try:
+        return float(text[:-1]) * unit if unit else float(text)
+    except ValueError:
+        parser.error(f"{text!r} is no duration: write seconds (30), minutes (5m) or hours (1h)")
+
+
+def record_options(args: Sequence[str]) -> RecordOptions:
+    """Return what a command line asks to record. Raises ``UsageError``."""
+    parser = record_parser()
+    given, topics = parser.parse_args(list(args))
+    if not (topics or given.all or given.of_node):
+        parser.error("You must specify a topic name or else use the '-a' option.")
+    try:
+        return _options(
+            RecordOptions,
+            given,
+            topics=tuple(topics),
+            size=None if given.size is None else given.size * MEGABYTE,
+            duration=None if given.duration is None else seconds(parser, given.duration),
+            buffsize=given.buffsize * MEGABYTE,
+            chunksize=given.chunksize * 1024,
+        )
+    except UsageError:
+        raise
+    except ROSBagException as error:
+        parser.error(str(error))
+
+
+def _several(_option: Any, _text: str, _value: Any, parser: Any, name: str) -> None:
+    """Take all words up to the next option."""
+    taken = []
+    while parser.rargs and not (parser.rargs[0].startswith("-") and len(parser.rargs[0]) > 1):
+        taken.append(parser.rargs.pop(0))
+    setattr(parser.values, name, [*getattr(parser.values, name), *taken])
+
+
+def play_parser() -> Parser:
+    """Return the parser of ``rosbag play``."""
+    parser = Parser(
+        "rosbag play BAGFILE1 [BAGFILE2 BAGFILE3 ...]",
+        "Publish what is in bag files, in the order of time.",
+        "play --clock drive.bag",
+    )
+    add = parser.add_option
+    add("-p", "--prefix", default="", help="put PREFIX before all topics")
+    add("-q", "--quiet", action="store_true", default=False, help="print nothing")
+    add("-i", "--immediate", action="store_true", default=False, help="do not wait between messages")
+    add("--pause", action="store_true", default=False, help="begin paused")
+    add("--queue", type="int", default=100, metavar="SIZE", help="queues of SIZE messages (100)")
+    add("--clock", action="store_true", default=False, help="publish the time on /clock")
+    add("--hz", type="float", default=100.0, metavar="HZ", help="so often (100)")
+    add(
+        "-d",
+        "--delay",
+        type="float",
+        default=0.2,
+        metavar="SEC",
+        help="wait SEC seconds before the first message (0.2)",
+    )
+    add("-r", "--rate", type="float", default=1.0, metavar="FACTOR", help="play FACTOR times as fast")
+    add("-s", "--start", type="float", default=0.0, metavar="SEC", help="begin SEC seconds into the bags")
+    add("-u", "--duration", type="float", metavar="SEC", help="play SEC seconds of the bags")
+    add(
+        "--skip-empty",
+        type="float",
+        metavar="SEC",
+        help="leave out times of more than SEC seconds without a message",
+    )
+    add("-l", "--loop", action="store_true", default=False, help="begin again at the end")
+    add("-k", "--keep-alive", action="store_true", default=False, help="stay at the end, for what is latched")
+    add("--try-future-version", action="store_true", help="accepted; there is no version after 2.0")
+    for name, text in (("topics", "play these topics"), ("pause_topics", "pause at these topics")):
+        add(
+            "--" + name.replace("_", "-"),
+            dest=name,
+            default=[],
+            action="callback",
+            callback=_several,
+            callback_args=(name,),
+            help=text,
+        )
+    add("--bags", help="a bag, after --topics")
+    add(
+        "--wait-for-subscribers",
+        action="store_true",
+        default=False,
+        help="begin when each topic has a subscriber",
+    )
+    return parser  # fmt: skip
+
+
+def play_options(args: Sequence[str]) -> tuple[list[str], PlayOptions]:
+    """Return which bags a command line asks to play, and how. Raises ``UsageError``."""
+    parser = play_parser()
+    given, bags = parser.parse_args(list(args))
+    if given.bags:
+        bags.append(given.bags)
+    if not bags:
+        parser.error("You must specify at least 1 bag file to play back.")
+    try:
+        topics, pauses = tuple(given.topics), tuple(given.pause_topics)
+        return bags, _options(PlayOptions, given, topics=topics, pause_topics=pauses)
+    except ROSBagException as error:
+        parser.error(str(error))
+
+
+def _options(cls: type[Options], given: Values, **changed: Any) -> Options:
+    """Return the options of a recorder or player: those given under the names of its fields, some of them changed."""
+    named = {each.name: getattr(given, each.name) for each in fields(cls) if hasattr(given, each.name)}
+    return cls(**{**named, **changed})

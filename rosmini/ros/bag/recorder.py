@@ -1,0 +1,426 @@
+"""``rosbag record`` as a node: subscribes to topics and writes what arrives, with the connections it came over.
+
+No message is lost: what a callback is given is written before the graph goes on, at any rate, in simulated time and in
+wall time.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import RosminiError
+from rosmini.msgs import message_class
+
+from .errors import BagFull, ROSBagException
+from .files import BagFiles, base_name
+from .index import Connection, connection
+from .records import Compression, check_compression
+from .writer import CHUNK_THRESHOLD
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    from pathlib import Path
+
+    from rosmini.core.graph import Node, Subscriber
+
+MEGABYTE = 1024 * 1024
+SYNC_NS = 10**9
+"""The period after which what was recorded is flushed to the file, at the next message."""
+
+
+class AnyMessage:
+    """What a subscriber of any type says that it takes."""
+
+    _type = "*"
+    _md5sum = "*"
+    _full_text = ""
+
+
+@dataclass(frozen=True)
+class RecordOptions:
+    """What to record and where to; the names are those of ROS's options, sizes are in bytes and times in seconds.
+
+    Raises ``ROSBagException`` for what makes no sense.
+    """
+
+    topics: tuple[str, ...] = ()
+    all: bool = False
+    regex: bool = False
+    exclude: str | None = None
+    of_node: str | None = None
+    output_name: str | None = None
+    output_prefix: str | None = None
+    split: bool = False
+    max_splits: int | None = None
+    size: int | None = None
+    duration: float | None = None
+    buffsize: int = 256 * MEGABYTE
+    chunksize: int = CHUNK_THRESHOLD
+    limit: int | None = None
+    compression: str = Compression.NONE
+    publish: bool = False
+    repeat_latched: bool = False
+    quiet: bool = False
+    patterns: tuple[re.Pattern[str], ...] = field(init=False)
+    excluded: re.Pattern[str] | None = field(init=False)
+
+    def __post_init__(self) -> None:
+        check_compression(self.compression)
+        if not (self.topics or self.all or self.of_node):
+            raise ROSBagException("say what to record: topics, all=True (-a), or a node (--node)")
+        if self.exclude is not None and not (self.all or self.regex or self.of_node):
+            raise ROSBagException("exclude takes away from all=True (-a) or from regex=True (-e)")
+        if self.split and not (self.size or self.duration):
+            raise ROSBagException("split needs a size or a duration after which the next file begins")
+        if self.output_name is not None and self.output_prefix is not None:
+            raise ROSBagException("give a name (-O) or a prefix (-o), not both")
+        for name in ("max_splits", "size", "duration", "limit"):
+            value = getattr(self, name)
+            if value is not None and not value > 0:
+                raise ROSBagException(f"{name} must be more than zero, not {value}")
+        patterns = tuple(_pattern(topic) for topic in self.topics) if self.regex else ()
+        object.__setattr__(self, "patterns", patterns)
+        object.__setattr__(self, "excluded", None if self.exclude is None else _pattern(self.exclude))
+
+    @property
+    def follows(self) -> bool:
+        """Whether topics that come later may have to be recorded, too."""
+        return self.all or self.regex or self.of_node is not None
+
+    def wants(self, topic: str, subscribed: Iterable[str]) -> bool:
+        """Return whether a topic of the Master is to be recorded; ``subscribed``: those of the node to follow."""
+        if self.excluded is not None and self.excluded.fullmatch(topic):
+            return False
+        if self.of_node is not None and topic in subscribed:
+            return True
+        return self.all or any(pattern.fullmatch(topic) for pattern in self.patterns)
+
+
+def _pattern(text: str) -> re.Pattern[str]:
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise ROSBagException(f"{text!r} is no regular expression: {error}") from error
+
+
+class Recorder:
+    """Records topics into a bag from now on, until :meth:`stop`, the node's end, or what the options say.
+
+    Args:
+        node: the node that subscribes. It is shut down at the recording's end, as ROS's is.
+        options: what to record.
+        fields: the same one by one: see `RecordOptions`.
+
+    Raises:
+        ROSBagException: the options make no sense.
+        OSError: the file cannot be opened.
+
+    """
+
+    def __init__(self, node: Node, options: RecordOptions | None = None, **fields: Any) -> None:
+        self.node = node
+        self.options = options or RecordOptions(**fields)
+        self.error: BagFull | OSError | None = None
+        """Why the recording ended before its time."""
+        self.dropped = 0
+        """How many messages the buffer could not hold."""
+        self.counts: dict[str, int] = {}
+        """How many messages were recorded of each topic."""
+        self._subscribers: dict[str, Subscriber] = {}
+        self._numbers: dict[int, int] = {}
+        self._connections: dict[int, tuple[Connection, dict[str, str]]] = {}
+        self._latched: dict[int, bytes] = {}
+        self._queue: deque[tuple[int, int, bytes]] = deque()
+        self._queued = 0
+        self._draining = False
+        self._synced = 0
+        self._sync_due = False
+        self._files: BagFiles | None = None
+        self._cancel: Callable[[], None] = _nothing
+        self._ended = False
+        node.on_shutdown(self._finish)
+        node.scheduler.on_hub(self._begin)
+
+    def __repr__(self) -> str:
+        state = "ended" if self._ended else "recording"
+        count = f"{sum(self.counts.values()):,} messages of {len(self.counts)} topics"
+        return f"<Recorder {self.node.name}: {state}, {count}>"
+
+    @property
+    def done(self) -> bool:
+        """Whether the recording has ended."""
+        return self._ended
+
+    @property
+    def exit_status(self) -> int:
+        """The exit status of its node: 1 if the recording ended before its time."""
+        return int(self.error is not None)
+
+    @property
+    def paths(self) -> list[Path]:
+        """The finished bags."""
+        return [] if self._files is None else list(self._files.paths)
+
+    @property
+    def path(self) -> Path:
+        """The bag: the last one, or the one that is being written."""
+        if self._files is None:
+            raise RosminiError(
+                "nothing is recorded before the first /clock message, since /use_sim_time is true"
+            )
+        return self._files.path
+
+    # -- the beginning ---------------------------------------------------------------------------------------------
+
+    def _begin(self) -> None:
+        from rosmini.core.graph.clock import TopicClock  # here: what only reads bags needs no graph
+
+        clock = self.node.clock
+        if isinstance(clock, TopicClock) and clock.now_ns() == 0:
+            clock.call_at(1, self._begin)  # messages would have no time yet
+            return
+        if self._ended:
+            return
+        options, now = self.options, self.node.now()
+        self._files = BagFiles(
+            base_name(options.output_name, options.output_prefix, now, simulated=self.node.graph.simulated),
+            split=options.split,
+            max_splits=options.max_splits,
+            compression=options.compression,
+            chunk_threshold=options.chunksize,
+        )
+        if not options.regex:
+            for topic in options.topics:
+                self._subscribe(self.node.resolve(topic))
+        try:
+            self._open(now.to_nsec())
+        except OSError:
+            self._finish()
+            raise
+        self._drain()
+        if options.publish:
+            string = message_class("std_msgs/String")
+            self.node.publisher("begin_write", string, latch=True).publish(str(self._files.path))
+        if options.follows:
+            self._follow()
+            self.node.run(self._keep_following, f"{self.node.name} new topics")
+
+    def _open(self, now_ns: int) -> None:
+        assert self._files is not None  # noqa: S101 - made before the first file
+        self._files.open()
+        self._numbers.clear()
+        self._synced = now_ns
+        self._say(f"Recording to '{self._files.path}'.")
+        if self.options.duration is not None:
+            end = now_ns + int(self.options.duration * 1e9)
+            self._cancel = self.node.clock.call_at(end, self._time_is_up)
+        if self.options.repeat_latched:
+            for key, data in self._latched.items():
+                self._write(key, now_ns, data)
+
+    def _say(self, text: str) -> None:
+        if not self.options.quiet:
+            self.node.loginfo(text)
+
+    # -- which topics ----------------------------------------------------------------------------------------------
+
+    def _wanted(self) -> list[str]:
+        state = self.node.master.ask("getSystemState")
+        published = {topic for topic, names in state[0] if names != [self.node.name]}
+        followed = self.options.of_node and self.node.resolve(self.options.of_node)
+        subscribed = {topic for topic, names in state[1] if followed in names} if followed else set()
+        return sorted(
+            topic
+            for topic in published | subscribed
+            if topic not in self._subscribers and self.options.wants(topic, subscribed)
+        )
+
+    def _keep_following(self) -> None:
+        """Subscribe to topics as they come up, at once: before their publisher can send anything."""
+        while not self._ended:
+            self.node.wait_for_master(
+                lambda: self._ended or bool(self._wanted()), None, "new topics to record", lambda: ""
+            )
+            self._follow()
+
+    def _follow(self) -> None:
+        if not self._ended:
+            for topic in self._wanted():
+                self._subscribe(topic)
+
+    def _subscribe(self, topic: str) -> None:
+        if topic in self._subscribers:
+            return
+        self._say(f"Subscribing to {topic}")
+        self._subscribers[topic] = self.node.subscriber(
+            topic, AnyMessage, self._take, arguments=(topic,), receipt=lambda _: None
+        )
+
+    # -- what arrives ----------------------------------------------------------------------------------------------
+
+    def _take(self, message: Any, topic: str) -> None:
+        if self._ended or self._files is None:
+            return
+        count = self.counts.get(topic, 0)
+        limit = self.options.limit
+        if limit is not None and count >= limit:
+            return
+        self.counts[topic] = count + 1
+        header = message._connection_header
+        key = id(header)
+        if key not in self._connections:
+            self._connections[key] = (
+                connection(0, topic, header),
+                header,
+            )  # held, so that its id stays its own
+        data = type(message)._encode(message)
+        if self.options.repeat_latched and header.get("latching") == "1":
+            self._latched[key] = data
+        self._queue.append((key, self.node.clock.now_ns(), data))
+        self._queued += len(data)
+        if self.options.buffsize and self._queued > self.options.buffsize:
+            self._drop()
+        if not self._draining:
+            self._draining = True
+            self.node.scheduler.call_soon(self._drain)
+
+    def _drop(self) -> None:
+        if not self.dropped:
+            self.node.logwarn(
+                "rosbag record buffer exceeded. Dropping oldest queued message. Give it more with buffsize (-b), or 0."
+            )
+        while self._queued > self.options.buffsize and self._queue:
+            _, _, data = self._queue.popleft()
+            self._queued -= len(data)
+            self.dropped += 1
+
+    def _drain(self) -> None:
+        """Write what is queued, once the file is open: the Master may take its time for each topic before that."""
+        self._draining = False
+        if self._files is None or self._files.bag is None:
+            return
+        try:
+            while self._queue:
+                key, time, data = self._queue.popleft()
+                self._queued -= len(data)
+                self._write(key, time, data)
+                self._check_size(time)
+            self._keep_safe()
+        except (BagFull, OSError) as error:
+            self._fail(error)
+            return
+        limit, topics = self.options.limit, self.options.topics
+        if limit is not None and not self.options.follows and topics:
+            names = [self.node.resolve(topic) for topic in topics]
+            if all(self.counts.get(name, 0) >= limit for name in names):
+                self.stop()
+
+    def _write(self, key: int, time: int, data: bytes) -> None:
+        bag = None if self._files is None else self._files.bag
+        if bag is None:
+            return
+        number = self._numbers.get(key)
+        if number is None:
+            number = self._numbers[key] = bag.connect(self._connections[key][0])
+        bag.write_raw(number, time, data)
+
+    def _keep_safe(self) -> None:
+        """Flush the file within a second of wall time; in simulated time at the next message after one."""
+        scheduler, bag = self.node.scheduler, None if self._files is None else self._files.bag
+        now = scheduler.now_ns()
+        if bag is None or self._sync_due:
+            return
+        if not self.node.graph.simulated:
+            self._sync_due = True
+            scheduler.call_at(now + SYNC_NS, self._sync)
+        elif now - self._synced >= SYNC_NS:
+            self._synced = now
+            bag.sync()
+
+    def _sync(self) -> None:
+        self._sync_due = False
+        if self._files is not None and self._files.bag is not None:
+            try:
+                self._files.bag.sync()
+            except (BagFull, OSError) as error:
+                self._fail(error)
+
+    # -- when it is enough -----------------------------------------------------------------------------------------
+
+    def _check_size(self, time: int) -> None:
+        files, size = self._files, self.options.size
+        if size is None or files is None or files.bag is None or files.bag.size <= size:
+            return
+        self._next_file(time)
+
+    def _time_is_up(self) -> None:
+        try:
+            self._drain()
+            if not self._ended:
+                self._next_file(self.node.clock.now_ns())
+        except (BagFull, OSError) as error:
+            self._fail(error)
+
+    def _next_file(self, time: int) -> None:
+        if not self.options.split:
+            self.stop()
+            return
+        assert self._files is not None  # noqa: S101 - there is a file that is full
+        self._cancel()
+        self._files.close()
+        self._open(time)
+
+    def _fail(self, error: BagFull | OSError) -> None:
+        self.error = error
+        self._queue.clear()
+        self._finish()
+        self.node.graph.report(error, self.node)
+        self.node.shutdown(f"the recording ended: {error}")
+
+    def stop(self) -> list[Path]:
+        """End the recording, and its node; return the bags.
+
+        Raises ``BagFull`` or ``OSError`` if the last one could not be written to its end.
+        """
+        error = self.error
+        self.node.shutdown("the recording ended")
+        if self.error is not None and error is None:
+            raise self.error
+        return self.paths
+
+    def _finish(self) -> None:
+        """Write what is queued and close the bag."""
+        if self._ended:
+            return
+        if self._queue:
+            self._drain_rest()
+        self._ended = True
+        self._cancel()
+        if self._files is not None:
+            try:
+                self._files.close()
+            except (BagFull, OSError) as error:
+                self._told(error)
+        for subscriber in self._subscribers.values():
+            subscriber.unregister()
+
+    def _drain_rest(self) -> None:
+        try:
+            while self._queue:
+                self._write(*self._queue.popleft())
+        except (BagFull, OSError) as error:
+            self._told(error)
+            self._queue.clear()
+
+    def _told(self, error: BagFull | OSError) -> None:
+        """Note and log why the end of the recording is incomplete, unless an error was logged already."""
+        if self.error is None:
+            self.error = error
+            self.node.logerr(error)
+
+
+def _nothing() -> None:
+    """Cancel nothing."""

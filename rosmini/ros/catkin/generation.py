@@ -1,0 +1,198 @@
+"""Python modules of the messages, services and actions of a package, for rosmini and for real rospy.
+
+A module does not repeat how a message is written to the wire: where rosmini runs the script it takes rosmini's class,
+and in a process of real ROS it has genpy make one from the text of the definition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from rosmini.core.errors import DefinitionError, UnknownPackage, UnknownType
+from rosmini.core.packages import PackageIndex
+from rosmini.msgs.definition import ACTION_SUFFIXES
+from rosmini.msgs.registry import Registry
+
+from .findings import Finding
+from .project import Definition, Project
+
+MADE = "# Made by rosmini's catkin_make from {source}; changes here are lost.\n"
+
+HELPER = '''"""How the modules of this package come to their classes."""
+import sys
+import warnings
+
+
+def _rosmini():
+    """rosmini's messages, if it runs this script, or if there is no genpy."""
+    if "rosmini.msgs" not in sys.modules:
+        try:
+            import genpy  # noqa: F401
+        except ImportError:
+            import rosmini.msgs
+        else:
+            return None
+    return sys.modules["rosmini.msgs"]
+
+
+def _fresh(cls, md5):
+    if cls._md5sum != md5:
+        warnings.warn(f"{cls._type} was changed and not rebuilt: run catkin_make", stacklevel=4)
+    return cls
+
+
+def message(name, md5, text):
+    """The class of a message."""
+    ours = _rosmini()
+    if ours is not None:
+        return _fresh(ours.message_class(name), md5)
+    from genpy.dynamic import generate_dynamic
+
+    cls = generate_dynamic(name, text)[name]
+    cls.__name__ = name.partition("/")[2]
+    return cls
+
+
+def service(name, md5, request, response):
+    """The class of a service."""
+    ours = _rosmini()
+    if ours is not None:
+        return _fresh(ours.service_class(name), md5)
+    made = {"_type": name, "_md5sum": md5, "_request_class": request, "_response_class": response}
+    return type(name.partition("/")[2], (object,), made)
+
+
+def missing(package, kind, name, folder):
+    """Say why a name is not in a module."""
+    import os
+
+    package_folder = os.path.dirname(folder)
+    if os.path.isfile(os.path.join(folder, name + "." + kind)):
+        raise ImportError(
+            f"{package}/{name} is in {folder}, but was not built: name it in CMakeLists.txt of {package_folder}, "
+            "and run catkin_make"
+        )
+    raise AttributeError(f"the package {package!r} has no {kind} named {name!r}")
+'''
+
+INDEX = """
+_FOLDER = {folder!r}
+
+
+def __getattr__(name):
+    if name.startswith("_"):
+        raise AttributeError(name)
+    from .._catkin import missing
+
+    return missing({package!r}, {kind!r}, name, _FOLDER)
+"""
+
+
+def modules(name: str, project: Project, registry: Registry) -> dict[str, str]:
+    """The text of each file of the Python package ``name``, by its path in it; the definitions are sound."""
+    made: dict[str, str] = {}
+    names: dict[str, list[str]] = {"msg": [], "srv": []}
+    for definition in project.definitions:
+        source = MADE.format(source=project.folder / definition.path)
+        if definition.kind == "srv":
+            names["srv"].append(definition.name)
+            made[f"srv/_{definition.name}.py"] = source + _service(f"{name}/{definition.name}", registry)
+            continue
+        suffixes = ACTION_SUFFIXES if definition.kind == "action" else ("",)
+        for suffix in suffixes:
+            short = definition.name + suffix
+            names["msg"].append(short)
+            made[f"msg/_{short}.py"] = source + _message(f"{name}/{short}", registry)
+    if made:
+        made["_catkin.py"] = MADE.format(source=project.path) + HELPER
+    for kind, found in names.items():
+        if found:
+            lines = "".join(f"from ._{each} import *\n" for each in sorted(found))
+            index = INDEX.format(folder=str(project.folder / kind), package=name, kind=kind)
+            made[f"{kind}/__init__.py"] = MADE.format(source=project.path) + lines + index
+    return made
+
+
+def _message(name: str, registry: Registry) -> str:
+    cls, short = registry.message_class(name), name.partition("/")[2]
+    return (
+        f"from .._catkin import message\n\n__all__ = [{short!r}]\n\n"
+        f"{short} = message({name!r}, {cls._md5sum!r}, {cls._full_text!r})\n"
+    )
+
+
+def _service(name: str, registry: Registry) -> str:
+    cls, short = registry.service_class(name), name.partition("/")[2]
+    halves = {"Request": cls._request_class, "Response": cls._response_class}
+    lines = [
+        f"{short}{half} = message({name + half!r}, {each._md5sum!r}, {each._full_text!r})\n"
+        for half, each in halves.items()
+    ]
+    listed = [short, f"{short}Request", f"{short}Response"]
+    return (
+        f"from .._catkin import message, service\n\n__all__ = {listed!r}\n\n{''.join(lines)}"
+        f"{short} = service({name!r}, {cls._md5sum!r}, {short}Request, {short}Response)\n"
+    )
+
+
+def check_definitions(name: str, project: Project, registry: Registry, index: PackageIndex) -> list[Finding]:
+    """What is wrong in definitions, and what they use without declaring it."""
+    allowed = _closure((word.text for word in project.message_packages), index)
+    own = {
+        definition.name + suffix
+        for definition in project.definitions
+        for suffix in (ACTION_SUFFIXES if definition.kind == "action" else ("",))
+    }
+    found: list[Finding] = []
+    for definition in project.definitions:
+        file = project.folder / definition.path
+        try:
+            found += _check_definition(name, definition, registry, allowed, own)
+        except DefinitionError as error:
+            found.append(Finding(error.message, Path(error.file) if error.file else file, error.line))
+        except (UnknownType, UnknownPackage) as error:
+            found.append(Finding(str(error), project.path, definition.line))
+    if any(each.kind == "action" for each in project.definitions) and "actionlib_msgs" not in allowed:
+        message = "actions need generate_messages(DEPENDENCIES actionlib_msgs std_msgs)"
+        found.append(Finding(message, project.path, project.generates))
+    return found
+
+
+def _check_definition(
+    name: str, definition: Definition, registry: Registry, allowed: set[str], own: set[str]
+) -> list[Finding]:
+    full = f"{name}/{definition.name}"
+    if definition.kind == "srv":
+        service = registry.service_definition(full)
+        specs = [service.request, service.response]
+    elif definition.kind == "action":
+        specs = [registry.definition(full + suffix) for suffix in ("Goal", "Result", "Feedback")]
+    else:
+        specs = [registry.definition(full)]
+    found = []
+    for spec in specs:
+        for field in spec.fields:
+            if field.builtin:
+                continue
+            package, _, short = field.base.partition("/")
+            file = Path(spec.file or definition.path)
+            if package == name and short not in own:
+                message = f"{field.base} is used here, but is not added in CMakeLists.txt"
+                found.append(Finding(message, file, field.line))
+            elif package not in (name, *allowed):
+                message = f"{field.base} is used here: add {package} to generate_messages(DEPENDENCIES ...)"
+                found.append(Finding(message, file, field.line))
+    return found
+
+
+def _closure(names: Iterable[str], index: PackageIndex) -> set[str]:
+    """These packages, and all that they need."""
+    found: set[str] = set()
+    waiting = list(names)
+    while waiting:
+        name = waiting.pop()
+        if name not in found and name in index:
+            found.add(name)
+            waiting += index.find(name).depends
+    return found

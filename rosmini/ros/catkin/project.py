@@ -1,0 +1,233 @@
+"""What the ``CMakeLists.txt`` of a package declares to catkin."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rosmini.core import files
+
+from .cmake import LARGEST, CMakeError, parse
+from .evaluation import Evaluation, Statement, Word
+from .findings import Finding, warning
+
+CMAKE = "CMakeLists.txt"
+
+KINDS = {"add_message_files": "msg", "add_service_files": "srv", "add_action_files": "action"}
+TESTS = ("add_rostest", "add_rostest_gtest", "catkin_add_gtest", "catkin_add_gmock", "catkin_add_nosetests")
+COMPILING = (
+    "add_executable",
+    "add_library",
+    "nodelet_add_library",
+    "cuda_add_executable",
+    "cuda_add_library",
+)
+CATKIN_VARIABLES = {
+    "CATKIN_PACKAGE_BIN_DESTINATION": "lib/{name}",
+    "CATKIN_PACKAGE_LIB_DESTINATION": "lib",
+    "CATKIN_PACKAGE_INCLUDE_DESTINATION": "include/{name}",
+    "CATKIN_PACKAGE_SHARE_DESTINATION": "share/{name}",
+    "CATKIN_PACKAGE_PYTHON_DESTINATION": "lib/python3/dist-packages/{name}",
+    "CATKIN_GLOBAL_BIN_DESTINATION": "bin",
+    "CATKIN_GLOBAL_LIB_DESTINATION": "lib",
+    "CATKIN_GLOBAL_INCLUDE_DESTINATION": "include",
+    "CATKIN_GLOBAL_SHARE_DESTINATION": "share",
+    "CATKIN_GLOBAL_PYTHON_DESTINATION": "lib/python3/dist-packages",
+}
+
+
+@dataclass(frozen=True)
+class Definition:
+    """A message, service or action file that is to be generated; ``path`` is relative to the package."""
+
+    kind: str
+    path: str
+    line: int
+
+    @property
+    def name(self) -> str:
+        """The name of the type, without its package."""
+        return Path(self.path).stem
+
+
+@dataclass
+class Project:
+    """What a ``CMakeLists.txt`` declares. Lines are None for what it does not."""
+
+    path: Path
+    name: Word | None = None
+    finds_catkin: int | None = None
+    components: list[Word] = field(default_factory=list)
+    definitions: list[Definition] = field(default_factory=list)
+    generates: int | None = None
+    message_packages: list[Word] = field(default_factory=list)
+    exports: int | None = None
+    """The line of ``catkin_package``."""
+    exported: list[Word] = field(default_factory=list)
+    """Its ``CATKIN_DEPENDS``."""
+    python_setup: int | None = None
+    scripts: list[tuple[Word, str]] = field(default_factory=list)
+    """Each Python script that is installed, and where to."""
+    programs: list[Word] = field(default_factory=list)
+    """Other programs that are installed."""
+    reconfigurable: list[Word] = field(default_factory=list)
+    """The ``.cfg`` files."""
+    compiled: list[Word] = field(default_factory=list)
+    tests: list[Word] = field(default_factory=list)
+    is_metapackage: bool = False
+    findings: list[Finding] = field(default_factory=list)
+
+    @property
+    def folder(self) -> Path:
+        """The package's."""
+        return self.path.parent
+
+
+def read_project(folder: Path) -> Project:
+    """The project in a folder. Raises `CMakeError` with the line that is wrong."""
+    path = folder / CMAKE
+    try:
+        data = files.read(path, LARGEST)
+        text = data.decode("utf-8")
+    except OSError as error:
+        raise CMakeError(f"cannot be read: {error.strerror}", path) from error
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        raise CMakeError("the file is not UTF-8 text", path, line) from error
+    variables = {
+        "CMAKE_CURRENT_SOURCE_DIR": folder.as_posix(),
+        "CMAKE_CURRENT_LIST_DIR": folder.as_posix(),
+        "PROJECT_SOURCE_DIR": folder.as_posix(),
+        "CATKIN_ENABLE_TESTING": "ON",
+        "CMAKE_SYSTEM_NAME": "Linux",
+        "UNIX": "1",
+        "catkin_FOUND": "1",
+        "PYTHON_VERSION_MAJOR": "3",
+        **_destinations(folder.name),
+    }
+    evaluation = Evaluation(folder, variables, path)
+    project = Project(path)
+    for statement in evaluation.statements(parse(text, path)):
+        _declare(project, statement, evaluation)
+    project.findings += [warning(note.text, path, note.line) for note in evaluation.passed_over]
+    return project
+
+
+def _destinations(name: str) -> dict[str, str]:
+    """The variables of catkin that say where the things of a project are installed."""
+    return {key: value.format(name=name) for key, value in CATKIN_VARIABLES.items()}
+
+
+def _declare(project: Project, statement: Statement, evaluation: Evaluation) -> None:
+    """Note what one command declares."""
+    words, line = statement.words, statement.line
+    name = statement.name
+    if name == "project" and words:
+        project.name = words[0]
+        evaluation.variables.update(_destinations(words[0].text))
+    elif name == "find_package" and words and words[0].text == "catkin":
+        project.finds_catkin = line
+        project.components += _after(words, ("COMPONENTS", "OPTIONAL_COMPONENTS"), ("REQUIRED", "QUIET"))
+    elif name in KINDS:
+        _add_definitions(project, statement)
+    elif name == "generate_messages":
+        _expect_before(
+            project, project.exports is None, f"{name}() comes after catkin_package(); move it before", line
+        )
+        project.generates = line
+        project.message_packages += _after(words, ("DEPENDENCIES",), ("LANGS",))
+    elif name == "generate_dynamic_reconfigure_options":
+        _expect_before(
+            project, project.exports is None, f"{name}() comes after catkin_package(); move it before", line
+        )
+        project.reconfigurable += words
+    elif name == "catkin_package":
+        project.exports = line
+        others = (
+            "INCLUDE_DIRS",
+            "LIBRARIES",
+            "DEPENDS",
+            "CFG_EXTRAS",
+            "EXPORTED_TARGETS",
+            "SKIP_CMAKE_CONFIG_GENERATION",
+        )
+        project.exported += _after(words, ("CATKIN_DEPENDS", "CATKIN-DEPENDS"), others)
+    elif name == "catkin_metapackage":
+        project.is_metapackage = True
+    elif name == "catkin_python_setup":
+        _expect_before(
+            project, project.exports is None, f"{name}() comes after catkin_package(); move it before", line
+        )
+        project.python_setup = line
+    elif name == "catkin_install_python":
+        _install(project, words, scripts=True)
+    elif name == "install":
+        _install(project, words, scripts=False)
+    elif name in COMPILING and words:
+        project.compiled.append(Word(words[0].text, line))
+    elif name in TESTS and words:
+        project.tests.append(words[0])
+
+
+def _expect_before(project: Project, holds: bool, message: str, line: int) -> None:
+    if not holds:
+        project.findings.append(Finding(message, project.path, line))
+
+
+def _add_definitions(project: Project, statement: Statement) -> None:
+    """``add_message_files([DIRECTORY folder] [FILES names...])``; without names, every file of the folder."""
+    kind = KINDS[statement.name]
+    folder = next(iter(_after(statement.words, ("DIRECTORY",), ("FILES",))), Word(kind, statement.line)).text
+    names = _after(statement.words, ("FILES",), ("DIRECTORY", "PACKAGE", "NOINSTALL"))
+    loose = [word for word in statement.words if word.text.endswith(f".{kind}") and word not in names]
+    for word in loose:
+        message = f"{word.text} is ignored, because FILES is missing before it in {statement.name}()"
+        project.findings.append(Finding(message, project.path, word.line))
+    if project.generates is not None:
+        message = f"{statement.name}() comes after generate_messages(); move it before"
+        project.findings.append(Finding(message, project.path, statement.line))
+    if not any(word.text == "FILES" for word in statement.words) and not loose:
+        found = files.names_in(project.folder / folder)
+        names = [Word(name, statement.line) for name in found if name.endswith(f".{kind}")]
+    for word in names:
+        path = word.text if Path(word.text).is_absolute() else f"{folder}/{word.text}"
+        project.definitions.append(Definition(kind, path, word.line))
+
+
+def _install(project: Project, words: Sequence[Word], *, scripts: bool) -> None:
+    """``install(PROGRAMS|FILES|DIRECTORY what... DESTINATION where ...)``."""
+    stops = (
+        "DESTINATION",
+        "PERMISSIONS",
+        "PATTERN",
+        "FILES_MATCHING",
+        "USE_SOURCE_PERMISSIONS",
+        "RENAME",
+        "OPTIONAL",
+    )
+    where = next(iter(_after(words, ("DESTINATION",), stops)), None)
+    if not words or words[0].text not in ("PROGRAMS", "FILES", "DIRECTORY"):
+        return
+    if where is None:
+        project.findings.append(
+            Finding("DESTINATION is missing in this install", project.path, words[0].line)
+        )
+        return
+    what = _after(words, (words[0].text,), stops)
+    if scripts:
+        project.scripts += [(word, where.text) for word in what]
+    elif words[0].text == "PROGRAMS":
+        project.programs += what
+
+
+def _after(words: Iterable[Word], starts: Sequence[str], others: Sequence[str]) -> list[Word]:
+    """The words after one of ``starts``, up to another keyword."""
+    found: list[Word] = []
+    inside = False
+    for word in words:
+        if word.text in starts or word.text in others:
+            inside = word.text in starts
+        elif inside:
+            found.append(word)
+    return found

@@ -1,0 +1,94 @@
+"""What a shell sources to use a workspace: ``devel/setup.sh``, ``.bash``, ``.zsh`` and ``.ps1``, and ``env.sh``.
+
+Unlike catkin's own, they take nothing out of the environment: another workspace that was in use comes after this one.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+
+from rosmini.core import files
+
+from .workspace import Workspace, package_folders, python_folder
+
+MADE = "# Made by rosmini's catkin_make; changes here are lost.\n"
+
+POSIX = """
+# Puts a folder first in a list of folders, once: NAME FOLDER
+_rosmini_first() {
+    eval "_rosmini_list=\\":\\${$1:-}:\\""
+    while :; do
+        case "$_rosmini_list" in
+            *":$2:"*) _rosmini_list="${_rosmini_list%%":$2:"*}:${_rosmini_list#*":$2:"}" ;;
+            *) break ;;
+        esac
+    done
+    _rosmini_list="${_rosmini_list#:}"
+    _rosmini_list="${_rosmini_list%:}"
+    eval "export $1=\\"\\$2\\${_rosmini_list:+:\\$_rosmini_list}\\""
+}
+
+"""
+POSIX_END = """
+export ROS_VERSION=1
+export ROS_PYTHON_VERSION=3
+export ROS_DISTRO="${ROS_DISTRO:-noetic}"
+export ROS_MASTER_URI="${ROS_MASTER_URI:-http://localhost:11311}"
+unset _rosmini_list
+unset -f _rosmini_first
+"""
+POWERSHELL = """
+function Set-RosminiFirst($Name, $Folder) {
+    $separator = [IO.Path]::PathSeparator
+    $rest = @([Environment]::GetEnvironmentVariable($Name) -split $separator | Where-Object { $_ -and $_ -ne $Folder })
+    [Environment]::SetEnvironmentVariable($Name, (@($Folder) + $rest) -join $separator)
+}
+
+"""
+POWERSHELL_END = """
+$env:ROS_VERSION = '1'
+$env:ROS_PYTHON_VERSION = '3'
+if (-not $env:ROS_DISTRO) { $env:ROS_DISTRO = 'noetic' }
+if (-not $env:ROS_MASTER_URI) { $env:ROS_MASTER_URI = 'http://localhost:11311' }
+Remove-Item Function:Set-RosminiFirst
+"""
+
+
+def setup_files(workspace: Workspace, underlays: Sequence[Path]) -> dict[Path, str]:
+    """The text of each file. ``underlays`` are the spaces below this one, the first to be searched first."""
+    entries: list[tuple[str, Path]] = []
+    for prefix in reversed([workspace.devel, *underlays]):
+        sources = [workspace.source] if prefix == workspace.devel else package_folders(prefix)
+        entries.append(("CMAKE_PREFIX_PATH", prefix))
+        entries += [("ROS_PACKAGE_PATH", each) for each in reversed(sources)]
+        entries.append(("PYTHONPATH", python_folder(prefix)))
+    posix = "".join(f"_rosmini_first {name} {shlex.quote(str(path))}\n" for name, path in entries)
+    power = "".join(f"Set-RosminiFirst '{name}' {_quoted(path)}\n" for name, path in entries)
+    devel = workspace.devel
+    source_it = f". {shlex.quote(str(devel / 'setup.sh'))}\n"
+    return {
+        devel / "setup.sh": MADE + POSIX + posix + POSIX_END,
+        devel / "setup.bash": MADE + source_it,
+        devel / "setup.zsh": MADE + source_it,
+        devel / "setup.ps1": MADE + POWERSHELL + power + POWERSHELL_END,
+        devel / "env.sh": f'#!/usr/bin/env sh\n{MADE}{source_it}exec "$@"\n',
+    }
+
+
+def folders_in(setup_file: Path) -> list[tuple[str, Path]] | None:
+    """Return what a setup file made here puts first in which lists of the environment, in this order.
+
+    None if it is another file. Raises ``OSError`` if it cannot be read.
+    """
+    if not files.read(setup_file).decode("utf-8", "replace").startswith((MADE, f"#!/usr/bin/env sh\n{MADE}")):
+        return None
+    text = files.read(setup_file.with_name("setup.sh")).decode("utf-8", "replace")
+    rows = [shlex.split(line) for line in text.splitlines() if line.startswith("_rosmini_first ")]
+    return [(row[1], Path(row[2])) for row in rows if len(row) == 3]
+
+
+def _quoted(path: Path) -> str:
+    """A path for PowerShell."""
+    return "'" + str(path).replace("'", "''") + "'"

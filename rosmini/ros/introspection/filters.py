@@ -1,0 +1,64 @@
+"""Expressions on messages, confined: ``m.pose.position.x > 0``, ``topic == '/scan' and t.secs > 5``.
+
+ROS's tools hand them to Python's ``eval``. Here they are :mod:`rosmini.core.expressions`, which know what is listed and
+nothing else: of a message its fields and constants (and ``_type``), of a time its two numbers and what makes one
+number of it.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import nearest
+from rosmini.core.expressions import FUNCTIONS, MATH, Expression, Function, Namespace
+from rosmini.core.time import TVal
+from rosmini.msgs import Message
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+_METHODS: dict[type, tuple[str, ...]] = {TVal: ("to_sec", "to_nsec", "is_zero")}
+
+
+def message_expression(text: str, names: Collection[str]) -> Expression:
+    """Return an expression of messages and times under some names. Raises ``ExpressionError``."""
+    return Expression(text, names=names, functions=_FUNCTIONS, fields=_field, methods=_METHODS)
+
+
+def _has_field(value: Any, name: str) -> bool:
+    try:
+        _field(value, name)
+    except AttributeError:
+        return False
+    return True
+
+
+_FUNCTIONS: dict[str, Any] = {
+    **MATH,
+    **FUNCTIONS,
+    "math": Namespace("math", MATH),
+    "hasattr": Function("hasattr", _has_field),
+}
+
+
+def _field(value: Any, name: str) -> Any:
+    cls: Any = type(value)
+    names: frozenset[str] = frozenset()
+    if issubclass(cls, Message):
+        names = _names(cls)
+    elif issubclass(cls, TVal):
+        names = frozenset(("secs", "nsecs"))
+    if name in names:
+        return getattr(value, name)
+    kind = cls._type if issubclass(cls, Message) else cls.__name__
+    hint = nearest(name, names)
+    raise AttributeError(f"a {kind} has no {name!r}{f': {hint}' if hint else ''}")
+
+
+@cache
+def _names(cls: Any) -> frozenset[str]:
+    """What an expression may read of a message."""
+    return frozenset(
+        {"_type"} | {each.name for each in cls._spec.fields} | {each.name for each in cls._spec.constants}
+    )

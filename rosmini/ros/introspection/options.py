@@ -1,0 +1,68 @@
+"""The command lines of ROS's tools: options, usage and errors in their form."""
+
+from __future__ import annotations
+
+from optparse import IndentedHelpFormatter, Option, OptionParser, Values
+from typing import TYPE_CHECKING, NoReturn
+
+from rosmini.core.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+
+class _Formatter(IndentedHelpFormatter):
+    """The standard one, which leaves the lines of the examples as they are."""
+
+    def format_epilog(self, epilog: str | None) -> str:
+        """Return what stands below the options."""
+        return f"\n{epilog}\n" if epilog else ""
+
+
+class Parser(OptionParser):
+    """A parser in the form of ROS's tools, which raises instead of ending the process; ``-h`` is the caller's.
+
+    Args:
+        tool: the name of the tool.
+        usage: the line of usage.
+        description: what it does.
+        example: a command line, or several, shown below the options.
+        failure: makes the error of its text.
+
+    """
+
+    def __init__(
+        self,
+        tool: str,
+        usage: str,
+        description: str | None = None,
+        *,
+        example: str = "",
+        failure: Callable[[str], UsageError] = UsageError,
+    ) -> None:
+        epilog = f"Example:\n{example}" if example else None
+        super().__init__(
+            usage=usage, description=description, prog=tool, epilog=epilog, formatter=_Formatter()
+        )
+        self._failure = failure
+
+    def error(self, msg: str) -> NoReturn:
+        """Raise ``UsageError``."""
+        raise self._failure(f"{self.get_usage().rstrip()}\n\n{self.prog}: error: {msg}")
+
+    def flag(self, *names: str, help: str, dest: str | None = None) -> None:
+        """Add an option that is true when it is given."""
+        self.add_option(Option(*names, action="store_true", default=False, help=help, dest=dest))
+
+    def whole(self, text: str | None, problem: str) -> int | None:
+        """Return a whole number, or None for None. Raises ``UsageError`` with ``problem`` for any other text."""
+        try:
+            return None if text is None else int(text)
+        except ValueError:
+            self.error(problem)
+
+    def parse(self, words: Sequence[str], /) -> Values:
+        """Return the options, with the words that are none as ``words``, and all as ``argv``. Raises ``UsageError``."""
+        values, rest = self.parse_args(list(words))
+        values.words, values.argv = rest, list(words)
+        return values

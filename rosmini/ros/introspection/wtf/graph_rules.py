@@ -1,0 +1,267 @@
+"""The rules on a graph: nodes, topics, types, connections, parameters."""
+
+from __future__ import annotations
+
+import ipaddress
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import nearest
+from rosmini.ros.introspection.peers import host_of
+
+from .findings import Finding
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from .survey import Node, Survey
+
+TOOLS = ("/roswtf", "/rostopic", "/rqt_", "/rosbag_record")
+"""How the names of nodes begin that only look on: what they hear says nothing about a graph."""
+
+UNPUBLISHED = ("/clock", "/rosout")
+"""Topics that have subscribers before anybody needs to publish: in wall time, and in a graph of the Master alone."""
+
+
+def silent_nodes(graph: Survey) -> Iterator[Finding]:
+    """Find nodes that the Master lists and that do not answer."""
+    found = tuple(
+        f"{node.name}: {node.silence.removeprefix('ERROR: ')}"
+        for node in graph.nodes.values()
+        if node.silence
+    )
+    if found:
+        yield Finding(
+            "silent_nodes", "ERROR", "These nodes do not answer:", found,
+            "If they have crashed, `rosnode cleanup` takes them off the Master's list. If they run on another machine, "
+            "this one cannot reach the address that they gave: set ROS_IP there to an address that it can reach.",
+        )  # fmt: skip
+
+
+def types_differ(graph: Survey) -> Iterator[Finding]:
+    """Find topics on which nodes disagree about the type: they are never connected."""
+    found: list[str] = []
+    for topic in _topics(graph):
+        kinds = graph.types(topic)
+        if len(kinds) > 1:
+            found += [f"{topic}:", *(f" {kind}: {', '.join(names)}" for kind, names in kinds.items())]
+    if found:
+        yield Finding(
+            "types_differ", "ERROR", "Nodes disagree about the type of a topic and are not connected:", tuple(found),
+            "Give both the same type, or one of them another topic: `topic:=other` behind `rosrun`, <remap> in a "
+            "launch file.",
+        )  # fmt: skip
+
+
+def not_connected(graph: Survey) -> Iterator[Finding]:
+    """Find publishers and subscribers of one topic and one type that have no connection."""
+    found: list[str] = []
+    for topic in _topics(graph):
+        if len(graph.types(topic)) > 1:
+            continue  # types_differ says why
+        for to in _alive(graph, graph.subscribers.get(topic, ())):
+            found += [
+                f"{source.name} -> {to.name} ({topic})"
+                for source in _alive(graph, graph.publishers.get(topic, ()))
+                if source is not to and not {(topic, source.uri), (topic, source.name)} & to.sources
+            ]
+    if found:
+        yield Finding(
+            "not_connected", "ERROR", "These nodes should be connected but are not:", tuple(found),
+            "Ask again in a second, if one has just started. Otherwise their definitions of the type differ (compare "
+            "`rosmsg md5 TYPE` where each of them runs), or one cannot reach the address of the other (ROS_IP).",
+        )  # fmt: skip
+
+
+def unheard_topics(graph: Survey) -> Iterator[Finding]:
+    """Find subscriptions without a publisher, with the topic that was probably meant."""
+    found: list[str] = []
+    for topic, names in sorted(graph.subscribers.items()):
+        heard = [name for name in names if not name.startswith(TOOLS)]
+        if heard and not graph.publishers.get(topic) and topic not in UNPUBLISHED:
+            found.append(f"{topic}, to which {_listed(heard)} subscribe{'s' if len(heard) == 1 else ''}")
+            found += [f" {hint}" for hint in _meant(graph, topic)]
+    if found:
+        yield Finding(
+            "no_publisher", "WARNING", "Nobody publishes these topics:", tuple(found),
+            "Nothing is wrong if the publisher comes later, or if you publish by hand. A name that was meant "
+            "otherwise is mended where the node starts: `old:=new`.",
+        )  # fmt: skip
+
+
+def dropped_messages(graph: Survey) -> Iterator[Finding]:
+    """Find connections whose queues have dropped messages."""
+    found = tuple(
+        str(flow)
+        for node in graph.nodes.values()
+        if not node.name.startswith(TOOLS)
+        for flow in node.flows
+        if flow.dropped and not flow.subscriber.startswith(TOOLS)
+    )
+    if found:
+        yield Finding(
+            "dropped_messages", "WARNING", "Queues were full, and dropped the oldest messages:", found,
+            "The subscriber's callback takes longer than the messages are apart. That is fine where only the newest "
+            "message counts. Otherwise make the callback faster, publish less often, or set a larger queue_size.",
+        )  # fmt: skip
+
+
+def no_clock(graph: Survey) -> Iterator[Finding]:
+    """Find simulated time without a clock, and a clock that nobody obeys or that several nodes set."""
+    publishers = graph.publishers.get("/clock", ())
+    simulated = graph.parameter("use_sim_time")
+    if simulated and not publishers:
+        yield Finding(
+            "no_clock", "ERROR", "/use_sim_time is set but no publisher of /clock is present", (),
+            "Time stands still, and every sleep and timer waits for ever. Start the simulator or "
+            "`rosbag play --clock`, or say `rosparam set /use_sim_time false` and start the nodes again.",
+        )  # fmt: skip
+    if publishers and not simulated:
+        yield Finding(
+            "clock_unused", "WARNING", "/clock is published and /use_sim_time is not set:", publishers,
+            "Nodes go by the clock on the wall and take simulated data for old: `rosparam set /use_sim_time true` "
+            "before they start.",
+        )  # fmt: skip
+    if len(publishers) > 1:
+        yield Finding(
+            "several_clocks", "ERROR", "Several nodes set the time on /clock:", publishers,
+            "Time jumps back and forth. Leave one of them; `rosbag play` without --clock beside a simulator.",
+        )  # fmt: skip
+
+
+def several_drivers(graph: Survey) -> Iterator[Finding]:
+    """Find robots that several nodes drive at once."""
+    found = []
+    for topic, names in sorted(graph.publishers.items()):
+        kinds = graph.types(topic)
+        if len(names) > 1 and set(kinds) <= {"geometry_msgs/Twist", "geometry_msgs/TwistStamped"} and kinds:
+            found.append(f"{topic}: {', '.join(names)}")
+    if found:
+        yield Finding(
+            "several_drivers", "WARNING", "Several nodes drive the same robot:", tuple(found),
+            "It obeys whoever spoke last. End one, or let a multiplexer choose (topic_tools mux, twist_mux).",
+        )  # fmt: skip
+
+
+def strangers_parameters(graph: Survey) -> Iterator[Finding]:
+    """Find private parameters of a node that is not there, where one of almost that name is."""
+    known = [name.strip("/") for name in graph.nodes if name.count("/") == 1]
+    found = []
+    for name, value in sorted(graph.parameters.items()):
+        if isinstance(value, dict) and name not in known and not _is_namespace(graph, name):
+            hint = nearest(name, known)
+            if hint:
+                found.append(f"/{name}: {hint}")
+    if found:
+        yield Finding(
+            "strangers_parameters", "WARNING", "Parameters were set for nodes that are not there:", tuple(found),
+            "A node reads its parameters under its own name when it starts: set them under that name and start it "
+            "again.",
+        )  # fmt: skip
+
+
+def loopback_addresses(graph: Survey) -> Iterator[Finding]:
+    """Find nodes that gave an address which only their own machine can reach, in a graph of several machines."""
+    hosts = {node.name: host_of(node.uri) for node in graph.nodes.values()}
+    local = tuple(f"{name} ({host})" for name, host in hosts.items() if host and _is_loopback(host))
+    if local and any(host and not _is_loopback(host) for host in hosts.values()):
+        yield Finding(
+            "loopback_addresses", "ERROR", "These nodes gave addresses that no other machine can reach:", local,
+            "Set ROS_IP, where they start, to the address of that machine in the network (`hostname -I`).",
+        )  # fmt: skip
+
+
+def small_inflation(graph: Survey) -> Iterator[Finding]:
+    """Find costmaps whose inflation radius is below the robot's inscribed radius: paths then graze the walls."""
+    found = []
+    for path, settings in _dicts(graph.parameters, ""):
+        radius = settings.get("robot_radius", _inscribed(settings.get("footprint")))
+        layer = settings.get("inflation_layer")
+        inflation = (layer if isinstance(layer, dict) else settings).get("inflation_radius")
+        if isinstance(radius, float | int) and isinstance(inflation, float | int) and inflation < radius:
+            found.append(f"{path}: inflation_radius {inflation:g} m, inscribed radius {radius:.3g} m")
+    if found:
+        yield Finding(
+            "small_inflation", "WARNING", "Costmaps inflate obstacles by less than the robot's radius:", tuple(found),
+            "The planner takes paths on which the robot touches the wall, and the local planner finds no way: set "
+            "inflation_radius well above the inscribed radius.",
+        )  # fmt: skip
+
+
+RULES: tuple[Callable[[Survey], Iterator[Finding]], ...] = (
+    silent_nodes,
+    types_differ,
+    not_connected,
+    unheard_topics,
+    dropped_messages,
+    no_clock,
+    several_drivers,
+    strangers_parameters,
+    loopback_addresses,
+    small_inflation,
+)
+
+
+# -- helpers ---------------------------------------------------------------------------------------------------------
+
+
+def _topics(graph: Survey) -> list[str]:
+    return sorted({*graph.publishers, *graph.subscribers})
+
+
+def _alive(graph: Survey, names: tuple[str, ...]) -> list[Node]:
+    return [graph.nodes[name] for name in names if not graph.nodes[name].silence]
+
+
+def _listed(names: list[str]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def _meant(graph: Survey, topic: str) -> list[str]:
+    """Return the topics that are published under another name and were probably meant, as sentences."""
+    kinds = set(graph.types(topic))
+    free = [
+        other
+        for other in sorted(graph.publishers)
+        if other != topic and (not kinds or not graph.types(other) or kinds & set(graph.types(other)))
+    ]
+    hint = nearest(topic, free)
+    return [hint] if hint else []
+
+
+def _is_namespace(graph: Survey, name: str) -> bool:
+    inside = f"/{name}/"
+    return any(each.startswith(inside) for each in (*graph.nodes, *_topics(graph)))
+
+
+def _is_loopback(host: str) -> bool:
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+def _dicts(tree: Any, path: str) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield every namespace of a tree of parameters with its name."""
+    waiting = [(path, tree)]
+    while waiting:
+        where, value = waiting.pop(0)
+        if isinstance(value, dict):
+            yield where or "/", value
+            waiting += [(f"{where}/{key}", each) for key, each in sorted(value.items())]
+
+
+def _inscribed(footprint: object) -> float | None:
+    """Return the radius of the largest circle about the origin inside a footprint [[x, y], ...]; None if it is none."""
+    try:
+        points = [(float(x), float(y)) for x, y in footprint]  # type: ignore[attr-defined]
+        return min(_to_edge(*a, *b) for a, b in zip(points, [*points[1:], *points[:1]], strict=True))
+    except (TypeError, ValueError):
+        return None
+
+
+def _to_edge(ax: float, ay: float, bx: float, by: float) -> float:
+    """Return the distance of the origin from the segment a-b."""
+    dx, dy = bx - ax, by - ay
+    squared = dx * dx + dy * dy
+    along = 0.0 if squared == 0 else min(max(-(ax * dx + ay * dy) / squared, 0.0), 1.0)
+    return float(((ax + along * dx) ** 2 + (ay + along * dy) ** 2) ** 0.5)

@@ -1,0 +1,220 @@
+"""What reading a launch file needs everywhere: attributes, warnings, what is missing, and the plan as it grows."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import ParameterError, nearest
+from rosmini.core.names import canonicalize, namespace
+
+from .errors import Missing, Place, not_there
+from .plan import LaunchFile, Plan, Setting
+from .substitution import Substitution
+from .values import TRUTHS, checked, flag
+
+if TYPE_CHECKING:
+    from rosmini.core.markup import Element
+    from rosmini.core.packages import PackageIndex
+
+    from .scope import Scope
+
+CONDITIONS = ("if", "unless")
+
+MOST_SETTINGS = 100_000
+"""How many parameters may be set."""
+
+MOST_OVERRODE = 20
+"""How many settings that it overrode a parameter remembers: the last ones."""
+
+MOST_WARNINGS = 100
+"""How many warnings are listed; of the others there is a count."""
+
+MOST_MISSING = 200
+"""How many things may be missing before reading ends."""
+
+MOST_COPIES = 200_000
+"""How many remappings and environment variables all nodes may have together."""
+
+LONGEST_NAME = 4096
+"""How many characters the name of a parameter may have."""
+
+
+class Loading:
+    """One plan that is being read. ``at`` is the file that is read just now."""
+
+    def __init__(
+        self, packages: PackageIndex, environ: Mapping[str, str], anonymous: Callable[[str], str]
+    ) -> None:
+        self.packages = packages
+        self.plan = Plan()
+        self.at = LaunchFile("")
+        self.default_machine = ""
+        self.wanted_machines: list[tuple[str, Element]] = []
+        self._settings = 0
+        self._more_warnings = 0
+        self._copies = 0
+        self._told: set[tuple[str, str]] = set()
+        self._substitution = Substitution(packages, environ, anonymous, self.lacks)
+        self.is_incomplete = self._substitution.is_incomplete
+
+    # -- attributes ----------------------------------------------------------------------------------------------
+
+    def resolve(self, text: str, scope: Scope, element: Element) -> str:
+        """Return a text with its substitution args replaced. Raises ``LaunchError``."""
+        return self._substitution.resolve(text, scope, element)
+
+    def optional(self, element: Element, scope: Scope, name: str) -> str | None:
+        """Return an attribute, None where it is missing. Raises ``LaunchError``."""
+        text = element.attributes.get(name)
+        return None if text is None else self.resolve(text, scope, element)
+
+    def required(self, element: Element, scope: Scope, name: str) -> str:
+        """Return an attribute that must be there. Raises ``LaunchError``."""
+        text = self.optional(element, scope, name)
+        if text is None:
+            hint = nearest(name, element.attributes)
+            raise element.error(
+                f"<{element.tag}> tag is missing required attribute: '{name}'{f'; {hint}' if hint else '.'} "
+                f"The tag is {source(element)}"
+            )
+        return text
+
+    def check_attributes(self, element: Element, known: Collection[str]) -> None:
+        """Warn of attributes that mean nothing here; reading goes on without them, as in ROS."""
+        for name in element.attributes:
+            if name not in known and name not in CONDITIONS:
+                self.warn(element, f"unknown <{element.tag}> attribute '{name}'", name, known)
+
+    def applies(self, element: Element, scope: Scope) -> bool:
+        """Return whether ``if`` and ``unless`` let an element count. Raises ``LaunchError``."""
+        given = [name for name in CONDITIONS if name in element.attributes]
+        if not given:
+            return True
+        if len(given) == 2:
+            raise element.error("cannot set both 'if' and 'unless' on the same tag")
+        text = self.required(element, scope, given[0])
+        if self.is_incomplete(text):
+            return False  # what is missing was told
+        truth = TRUTHS.get(text.strip().lower())
+        if truth is None:
+            raise element.error(f'<{element.tag}>: {given[0]}="{text}" is neither true nor false, 1 nor 0')
+        return truth == (given[0] == "if")
+
+    def scope_inside(self, element: Element, scope: Scope, node: str | None = None) -> Scope:
+        """Return the scope in an element with ``ns`` and ``clear_params``. Raises ``LaunchError``."""
+        space = self.space(element, scope)
+        inside = scope.child(space)
+        self.clear(
+            element,
+            scope,
+            inside.namespace if node is None else inside.full(node) + "/",
+            named=bool(space or node),
+        )
+        return inside
+
+    def space(self, element: Element, scope: Scope) -> str | None:
+        """Return the namespace that an element names. Raises ``LaunchError``."""
+        space = self.optional(element, scope, "ns")
+        if space == "":
+            raise element.error(f"<{element.tag}> tag has an empty 'ns' attribute")
+        return space
+
+    def clear(self, element: Element, scope: Scope, space: str, *, named: bool) -> None:
+        """Note a namespace whose parameters are to be cleared. Raises ``LaunchError``."""
+        if not flag(element, "clear_params", self.optional(element, scope, "clear_params") or None):
+            return
+        if not named:
+            raise element.error("'ns' attribute must be set in order to use 'clear_params'")
+        if space not in self.plan.cleared:
+            self.plan.cleared.append(space)
+
+    # -- what is found -------------------------------------------------------------------------------------------
+
+    def warn(self, element: Element, message: str, name: str = "", known: Iterable[str] = ()) -> None:
+        """Note what is odd. ``name`` may be one of the ``known`` names, mistyped."""
+        if self._may_warn():
+            hint = nearest(name, known)
+            self.plan.warnings.append(
+                f"{element.path}:{element.line}: {message}{f'; {hint}' if hint else ''}"
+            )
+
+    def _may_warn(self) -> bool:
+        """Return whether one more warning is listed, and count it if it is not."""
+        listed = len(self.plan.warnings) < MOST_WARNINGS
+        self._more_warnings += not listed
+        return listed
+
+    def count_warnings(self) -> None:
+        """Note how many warnings were not listed."""
+        if self._more_warnings:
+            self.plan.warnings.append(f"... and {self._more_warnings} more warnings")
+
+    def lacks(self, missing: Missing) -> None:
+        """Note what is not there, once for each."""
+        if (missing.kind, missing.name) not in self._told:
+            self._told.add((missing.kind, missing.name))
+            self.plan.missing.append(missing)
+            if len(self.plan.missing) > MOST_MISSING:
+                raise not_there(self.plan.missing)
+
+    def lacks_file(self, element: Element, kind: str, path: str, reason: str) -> None:
+        """Note a file that cannot be read, unless something in its name is missing already."""
+        if not self.is_incomplete(path) and ("file", path) not in self._told:
+            folder, name = os.path.split(path)
+            hint = nearest(name, _names_in(folder))
+            message = f"the {kind} [{path}] cannot be read: {reason}{f'; {hint}' if hint else ''}"
+            self.lacks(Missing("file", path, Place(element.path, element.line), message))
+
+    def set(self, name: str, value: Any, place: Place, origin: str = "") -> None:
+        """Set a parameter; the last setting wins. Raises ``ParameterError`` for what cannot be stored."""
+        self._settings += 1
+        if self._settings > MOST_SETTINGS:
+            raise ParameterError(f"more than {MOST_SETTINGS} parameters are set")
+        settings = self.plan.settings
+        before = settings.get(name)
+        overrode = () if before is None else (*before.overrode, replace(before, overrode=()))[-MOST_OVERRODE:]
+        if len(name) > LONGEST_NAME:
+            raise ParameterError(f"a parameter's name of {len(name)} characters; {LONGEST_NAME} are allowed")
+        setting = Setting(name, checked(name, value), place, origin, overrode)
+        above = namespace(name).rstrip("/")
+        while above:
+            if above in settings and self._may_warn():
+                self.plan.warnings.append(
+                    f"{place}: parameter [{name}] conflicts with parent parameter [{above}]"
+                )
+            above = namespace(above).rstrip("/")
+        settings[name] = setting
+        self.at.settings.append(setting)
+
+    def count_copies(self, element: Element, count: int) -> None:
+        """Count what a node gets from the scope around it. Raises ``LaunchError`` if all nodes get too much."""
+        self._copies += count
+        if self._copies > MOST_COPIES:
+            raise element.error(
+                f"more than {MOST_COPIES} remappings and environment variables, those of all nodes together"
+            )
+
+    def machine_needed(self, element: Element, name: str) -> None:
+        """Note that a machine of this name must be declared somewhere."""
+        self.wanted_machines.append((name, element))
+
+
+def source(element: Element) -> str:
+    """Return the opening tag of an element, in one line."""
+    own = type(element)(element.tag, element.attributes)
+    text = own.source()
+    return text if len(text) <= 300 else text[:297] + "..."
+
+
+def global_name(name: str) -> str:
+    """Return a name with a slash before it."""
+    return canonicalize("/" + name)
+
+
+def _names_in(folder: str) -> list[str]:
+    from rosmini.core.files import names_in
+
+    return names_in(folder or ".")

@@ -1,0 +1,318 @@
+"""What a launch file means: the nodes, parameters, machines and tests, before anything runs."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from rosmini.core.errors import nearest
+from rosmini.core.names import canonicalize, join
+from rosmini.core.rosparam import dumps
+
+from .errors import LaunchError, Missing, Place
+
+TIME_LIMIT_S = 60.0
+"""How long a test may take by itself [s]."""
+
+WIDEST = 20
+"""How many characters of a value the summary shows, as roslaunch's."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A parameter that is set: where, and what it overrode.
+
+    ``source`` is the file or the command from which the value came, if it is not written in the launch file.
+    """
+
+    name: str
+    value: Any
+    place: Place
+    source: str = ""
+    overrode: tuple[Setting, ...] = ()
+
+
+@dataclass(frozen=True)
+class NodePlan:
+    """A ``<node>`` (http://wiki.ros.org/roslaunch/XML/node). ``namespace`` ends in a slash."""
+
+    package: str
+    type: str
+    name: str
+    namespace: str
+    place: Place
+    args: str = ""
+    remappings: tuple[tuple[str, str], ...] = ()
+    environment: tuple[tuple[str, str], ...] = ()
+    respawn: bool = False
+    respawn_delay: float = 0.0
+    required: bool = False
+    output: str = "log"
+    cwd: str | None = None
+    launch_prefix: str = ""
+    machine: str = ""
+
+    @property
+    def full_name(self) -> str:
+        """The node's global name."""
+        return join(self.namespace, self.name)
+
+    @property
+    def executable(self) -> str:
+        """``package/type``."""
+        return f"{self.package}/{self.type}"
+
+    def words(self, *, with_namespace: bool = False) -> tuple[str, ...]:
+        """Return its arguments: its own, the remappings, its name; and its namespace, for want of ``ROS_NAMESPACE``."""
+        own = shlex.split(self.args)
+        remaps = [f"{source}:={target}" for source, target in self.remappings]
+        space = [f"__ns:={self.namespace.rstrip('/') or '/'}"] if with_namespace else []
+        return (*own, *remaps, f"__name:={self.name}", *space)
+
+
+@dataclass(frozen=True)
+class TestPlan(NodePlan):
+    """A ``<test>`` (http://wiki.ros.org/roslaunch/XML/test): a node that ends, and tells by its results."""
+
+    __test__ = False  # not one of pytest's
+
+    test_name: str = ""
+    time_limit: float = TIME_LIMIT_S
+    retry: int = 0
+
+
+@dataclass(frozen=True)
+class Machine:
+    """A ``<machine>`` (http://wiki.ros.org/roslaunch/XML/machine). ``password`` is known and never shown."""
+
+    name: str
+    address: str
+    place: Place
+    env_loader: str = ""
+    ssh_port: int = 22
+    user: str = ""
+    password: str = field(default="", repr=False)
+    timeout: float = 10.0
+    is_default: bool = False
+
+    def same_as(self, other: Machine) -> bool:
+        """Return whether another one is declared alike."""
+        return replace(self, place=other.place, is_default=other.is_default) == other
+
+    @property
+    def is_local(self) -> bool:
+        """Whether it is this machine, by its address."""
+        import socket
+
+        return self.address in (
+            "localhost",
+            "127.0.0.1",
+            "::1",
+            socket.gethostname(),
+            os.environ.get("ROS_IP"),
+        )
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An ``<arg>`` of the file that is launched: ``default`` is None where it must be given."""
+
+    name: str
+    default: str | None
+    doc: str
+    place: Place
+
+
+@dataclass(frozen=True)
+class Verb:
+    """A ``<rosparam command="dump">`` or ``"delete"``, which is done before the nodes start."""
+
+    command: str
+    name: str
+    file: str
+    place: Place
+
+
+@dataclass
+class LaunchFile:
+    """A file that was read: what it includes, and what itself says. ``place`` is where it is included."""
+
+    path: str
+    namespace: str = "/"
+    place: Place | None = None
+    args: Mapping[str, str] = field(default_factory=dict)
+    includes: list[LaunchFile] = field(default_factory=list)
+    nodes: list[NodePlan] = field(default_factory=list)
+    settings: list[Setting] = field(default_factory=list)
+
+    def walk(self) -> Iterator[LaunchFile]:
+        """Yield this file and all that it includes, in the order of reading."""
+        yield self
+        for file in self.includes:
+            yield from file.walk()
+
+
+@dataclass
+class Plan:
+    """All that launch files mean; the last setting of a parameter wins."""
+
+    roots: list[LaunchFile] = field(default_factory=list)
+    nodes: list[NodePlan] = field(default_factory=list)
+    tests: list[TestPlan] = field(default_factory=list)
+    settings: dict[str, Setting] = field(default_factory=dict)
+    cleared: list[str] = field(default_factory=list)
+    """Namespaces whose parameters are deleted first; each ends in a slash."""
+    machines: dict[str, Machine] = field(default_factory=dict)
+    verbs: list[Verb] = field(default_factory=list)
+    arguments: dict[str, Argument] = field(default_factory=dict)
+    warnings: list[str] = field(default_factory=list)
+    """What is odd, and does not keep anybody from launching; each begins with its place."""
+    missing: list[Missing] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    # -- looking at it -------------------------------------------------------------------------------------------
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The values of all parameters, by name."""
+        return {name: setting.value for name, setting in self.settings.items()}
+
+    def all_nodes(self) -> list[NodePlan]:
+        """Return the nodes and then the tests."""
+        return [*self.nodes, *self.tests]
+
+    def files(self) -> list[str]:
+        """Return the files that were read, in the order of reading."""
+        return [file.path for root in self.roots for file in root.walk()]
+
+    def node(self, name: str) -> NodePlan:
+        """Return the node or test of a name; a relative one is in the root. Raises ``LaunchError``."""
+        wanted = canonicalize("/" + name)
+        for node in self.all_nodes():
+            if node.full_name == wanted:
+                return node
+        names = [node.full_name for node in self.all_nodes()]
+        hint = nearest(wanted, names)
+        listed = "".join(f"\n * {each}" for each in names) or " none"
+        raise LaunchError(
+            f"Cannot find node named [{wanted}] in [{', '.join(root.path for root in self.roots)}]"
+            f"{f'; {hint}' if hint else ''}.\nNode names are:{listed}"
+        )
+
+    def overridden(self) -> list[Setting]:
+        """Return the settings that overrode others with another value."""
+        return [
+            each for each in self.settings.values() if any(old.value != each.value for old in each.overrode)
+        ]
+
+    def dump(self) -> str:
+        """Return the parameters as `roslaunch --dump-params` prints them."""
+        return dumps(self.parameters)
+
+    def ros_args(self) -> str:
+        """Return the arguments as `roslaunch --ros-args` prints them."""
+        if not self.arguments:
+            return "No arguments."
+        lines = []
+        listed = sorted(self.arguments.values(), key=lambda each: each.name)
+        required = [each for each in listed if not each.default]
+        optional = [each for each in listed if each.default]
+        if required:
+            lines.append("Required Arguments:")
+            lines += [f"  {each.name}: {each.doc or 'undocumented'}" for each in required]
+        if optional:
+            lines.append("Optional Arguments:")
+            lines += [
+                f'  {each.name} (default "{each.default}"): {each.doc or "undocumented"}' for each in optional
+            ]
+        return "\n".join(lines)
+
+    def summary(self, more: Mapping[str, Any] | None = None) -> str:
+        """Return what roslaunch prints before it starts; ``more`` are parameters that are set besides."""
+        lines = ["SUMMARY", "========"]
+        if self.cleared:
+            lines += ["", "CLEAR PARAMETERS", *sorted(f" * {name}" for name in self.cleared)]
+        values = {**(more or {}), **self.parameters}
+        if values:
+            lines += [
+                "",
+                "PARAMETERS",
+                *sorted(f" * {name}: {shortened(value)}" for name, value in values.items()),
+            ]
+        if self.machines:
+            lines += ["", "MACHINES", *sorted(f" * {name}" for name in self.machines)]
+        lines += ["", "NODES"]
+        for space in sorted({node.namespace for node in self.nodes}):
+            lines.append(f"  {space}")
+            lines += sorted(
+                f"    {node.name} ({node.executable})" for node in self.nodes if node.namespace == space
+            )
+        return "\n".join(lines)
+
+    def text(self) -> str:
+        """Return all of it: files, nodes with their remappings, parameters with what they overrode, warnings."""
+        counts = ((len(self.nodes), "node"), (len(self.settings), "parameter"), (len(self.files()), "file"))
+        lines = [", ".join(_many(count, noun) for count, noun in counts)]
+        for root in self.roots:
+            lines += _tree(root, 0)
+        if self.settings:
+            lines.append("parameters:")
+            lines += [
+                f"  {name}: {shortened(each.value, 60)}" for name, each in sorted(self.settings.items())
+            ]
+        overrode = [
+            f"  {each.name}: {shortened(each.value)} ({base(each.place)}) instead of "
+            + ", ".join(f"{shortened(old.value)} ({base(old.place)})" for old in each.overrode)
+            for each in self.overridden()
+        ]
+        if overrode:
+            lines += ["overridden, the last setting wins:", *sorted(overrode)]
+        for title, found in (
+            ("warnings:", self.warnings),
+            ("missing:", [f"{m.kind} {m.name}" for m in self.missing]),
+        ):
+            if found:
+                lines += [title, *(f"  {each}" for each in found)]
+        return "\n".join(lines)
+
+    def show(self, **options: Any) -> Any:
+        """Return a picture: a tree of the files with their nodes, remappings and parameters."""
+        from rosmini.core.graph.show import show
+
+        return show("launch_plan", self, **options)
+
+
+def base(place: Place) -> str:
+    """Return a place by the last part of its path."""
+    return f"{place.file.replace(os.sep, '/').rpartition('/')[2]}:{place.line}"
+
+
+def shortened(value: Any, widest: int = WIDEST) -> str:
+    """Return a value as roslaunch's summary shows it: short, and in one line."""
+    text = str(value)
+    if len(text) > widest:
+        text = text[: widest - 3] + "..."
+    if all(" " <= char <= "~" for char in text.rstrip()):
+        return text.rstrip() if not text.isprintable() else text
+    return "<...>"
+
+
+def _tree(file: LaunchFile, depth: int) -> list[str]:
+    indent = "  " * depth
+    space = "" if file.namespace == "/" else f" in {file.namespace}"
+    lines = [f"{indent}{file.path.replace(os.sep, '/').rpartition('/')[2]}{space}"]
+    for node in file.nodes:
+        lines.append(f"{indent}  {node.full_name} ({node.executable})")
+        lines += [f"{indent}    {source} -> {target}" for source, target in node.remappings]
+    for each in file.includes:
+        lines += _tree(each, depth + 1)
+    return lines
+
+
+def _many(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"

@@ -1,0 +1,183 @@
+"""Connected sockets that the hub's own thread reads while it has nothing else to do.
+
+A message that comes in wakes the I/O thread, which has to wake the hub's: two changes of threads, each as long as the
+rest of a message's way. So the hub, where it would only sleep until it is woken, sleeps at the sockets themselves. When
+it has been busy for a while, the I/O thread reads them again: what comes is taken and bounded although a callback
+computes for long.
+
+The sockets are in one epoll set (``_set``). The I/O thread's loop does not watch that one but another (``_switch``), of
+which it is the only member: so one system call turns the loop's interest on or off. Where there is no epoll (macOS,
+Windows) the I/O thread reads everything.
+"""
+
+from __future__ import annotations
+
+import os
+import select
+import threading
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import asyncio
+    import socket
+    from collections.abc import Callable
+
+    from rosmini.core.graph.scheduler import Scheduler
+
+SELECTABLE = 1024
+"""``select`` takes descriptors below this one only."""
+
+COARSE_S = 0.1
+"""From here on a time-out need not be exact: epoll's are to a millisecond."""
+
+BEAT_S = 0.02
+"""How long the hub may be busy until the I/O thread reads."""
+
+QUIET_BEATS = 10
+"""After so many beats without any change nobody looks how busy the hub is, until something comes."""
+
+
+class IdleReads:
+    """The sockets of one graph. Made and closed in the loop's thread."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, scheduler: Scheduler) -> None:
+        self.is_asleep = False
+        """True while the hub sleeps here, or is about to: only then whoever has work for it has to wake it."""
+        self._loop = loop
+        self._scheduler = scheduler
+        self._lock = threading.RLock()
+        self._readers: dict[int, Callable[[], None]] = {}
+        self._is_closed = False
+        self._is_on = True
+        self.beats = False
+        """Whether the loop looks now and then how busy the hub is."""
+        self._naps = self._seen = self._quiet = 0
+        self._set = select.epoll()
+        self._switch = select.epoll()
+        self._alarm = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
+        self._alarm_lock = threading.RLock()  # of its own: who wakes the hub may hold what a reader wants
+        self._set.register(self._alarm, select.EPOLLIN)
+        self._switch.register(self._set, select.EPOLLIN)
+        loop.add_reader(self._switch, self._read_in_loop)
+        scheduler.sleep_in(self)
+
+    def add(self, sock: socket.socket, reader: Callable[[], None]) -> None:
+        """Call ``reader`` when there is something to read, in the hub's thread or the loop's, one at a time."""
+        with self._lock:
+            if not self._is_closed:
+                self._readers[sock.fileno()] = reader
+                self._set.register(sock, select.EPOLLIN)
+
+    def remove(self, sock: socket.socket) -> None:
+        """Read this one no more. Nobody is in the middle of it then, unless it is the caller."""
+        with self._lock:
+            if not self._is_closed and self._readers.pop(sock.fileno(), None) is not None:
+                self._set.unregister(sock)
+
+    def wake(self) -> None:
+        """Wake the hub. From any thread, and from a signal's handler."""
+        with self._alarm_lock:
+            if not self._set.closed:
+                os.eventfd_write(self._alarm, 1)
+
+    # -- in the hub's thread -------------------------------------------------------------------------------------
+
+    def sleep(self, timeout: float, nothing_came: Callable[[], bool]) -> None:
+        """Sleep until something is sent or the hub is woken, unless something came already; then read what was sent."""
+        with self._lock:
+            if self._is_closed:
+                return
+            if self._is_on:
+                self._turn(on=False)
+            self.is_asleep = True
+        events: list[tuple[int, int]] = []
+        came = True
+        try:
+            if nothing_came():
+                came = False
+                events = self._wait(timeout)
+                came = bool(events)
+        finally:
+            self._wake_up(something_came=came)
+        self._read(events)
+
+    def _wait(self, timeout: float) -> list[tuple[int, int]]:
+        if timeout < COARSE_S and self._set.fileno() < SELECTABLE:
+            if not select.select([self._set], [], [], timeout)[0]:
+                return []
+            timeout = 0
+        return self._set.poll(timeout)
+
+    def _wake_up(self, *, something_came: bool) -> None:
+        with self._lock:
+            self.is_asleep = False
+            self._naps += 1
+            if self._is_closed:
+                self._end()
+            elif self.beats:
+                pass  # if the hub does not sleep again soon, the loop learns it
+            elif something_came:
+                self.beats = True
+                self._loop.call_soon_threadsafe(self._beat)
+            else:
+                self._turn(on=True)
+
+    # -- in either thread ----------------------------------------------------------------------------------------
+
+    def _turn(self, *, on: bool) -> None:
+        """Have the loop read, or not. With the lock held."""
+        self._is_on = on
+        self._switch.modify(self._set, select.EPOLLIN if on else 0)
+
+    def _read(self, events: list[tuple[int, int]]) -> None:
+        with self._lock:
+            for number, _ in [] if self._is_closed else events:
+                if number == self._alarm:
+                    with suppress(BlockingIOError):
+                        os.eventfd_read(number)
+                elif (reader := self._readers.get(number)) is not None:
+                    reader()
+
+    # -- in the loop's thread ------------------------------------------------------------------------------------
+
+    def _read_in_loop(self) -> None:
+        with self._lock:
+            if self._is_on and not self._is_closed:
+                self._read(self._set.poll(0))
+
+    def _beat(self) -> None:
+        """Read from now on if the hub has been awake since the last time."""
+        with self._lock:
+            if self._is_closed:
+                return
+            is_same, self._seen = self._naps == self._seen, self._naps
+            self._quiet = self._quiet + 1 if is_same and self.is_asleep else 0
+            if is_same and not self.is_asleep:
+                self._turn(on=True)
+            self.beats = self._quiet < QUIET_BEATS and not self._is_on
+            if self.beats:
+                self._loop.call_later(BEAT_S, self._beat)
+
+    def close(self) -> None:
+        """Read nothing more; the hub sleeps at its inbox from now on."""
+        self._scheduler.sleep_in(None)
+        self._loop.remove_reader(self._switch)
+        with self._lock:
+            self._is_closed = True
+            self._readers.clear()
+            self.wake()
+            if not self.is_asleep:
+                self._end()
+
+    def _end(self) -> None:
+        with self._alarm_lock:
+            if not self._set.closed:
+                self._set.close()
+                self._switch.close()
+                os.close(self._alarm)
+
+
+def idle_reads(loop: asyncio.AbstractEventLoop, scheduler: Scheduler) -> IdleReads | None:
+    """Return the sockets that the hub reads, too; None where the system has no epoll."""
+    return IdleReads(loop, scheduler) if hasattr(select, "epoll") and hasattr(os, "eventfd") else None

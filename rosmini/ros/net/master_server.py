@@ -1,0 +1,162 @@
+"""A Master of this process, served over XML-RPC as ``rosmaster`` serves its own."""
+
+from __future__ import annotations
+
+import asyncio
+import errno
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph.master_port import METHODS
+
+from .advertised import Advertised
+from .xmlrpc_server import EncodedAnswer, XmlRpcServer
+from .xmlrpc_text import NOT_XML, XmlRpcFault, encode_answers, encode_value
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.core.graph.master import Master
+
+    from .addresses import Addresses
+    from .io_thread import IoThread
+
+MULTICALL = "system.multicall"
+"""The method that makes several calls at once, as roslaunch does to set its parameters."""
+
+MOST_CALLS = 10_000
+"""How many calls one ``system.multicall`` makes; one with more makes none."""
+
+MOST_BYTES = 16 * 1024 * 1024
+"""How long the answers of one ``system.multicall`` are together; it ends at the call whose answer exceeds that."""
+
+
+class AddressInUse(RosminiError):
+    """Another process listens at the Master's port."""
+
+
+class MasterServer:
+    """Answers the Master API at a port of this machine, in the I/O thread: a busy graph delays no answer.
+
+    Between the calls of a ``system.multicall`` other clients have their turn. It has at most :data:`MOST_CALLS` calls
+    and :data:`MOST_BYTES` of answers; beyond that it is answered by a fault.
+
+    Args:
+        io: the thread that reads and writes.
+        master: who answers; its ``uri`` becomes the address at which it is served.
+        where: what others are told of this machine, and where to listen.
+        port: 0 for any that is free.
+        on_shutdown: called in the I/O thread with the reason when somebody shuts the Master down.
+        on_call: called there with the method's name, the arguments and the answer of each call.
+        warn: called there with a line about a node that registers under an address at which others do not find it,
+            or about a client whose request was refused.
+
+    Raises ``AddressInUse`` when another process listens there, and ``RosminiError`` when the address is not this
+    machine's.
+
+    """
+
+    def __init__(
+        self,
+        io: IoThread,
+        master: Master,
+        where: Addresses,
+        port: int,
+        *,
+        on_shutdown: Callable[[str], object] | None = None,
+        on_call: Callable[[str, tuple[Any, ...], Any], object] | None = None,
+        warn: Callable[[str], object] | None = None,
+    ) -> None:
+        self._master = master
+        self._on_shutdown = on_shutdown
+        self._on_call = on_call
+        names = (*where.names, where.master[0])
+        complain = None if warn is None else partial(_complain, warn)
+        try:
+            self._server = XmlRpcServer(
+                io, self._answer, bind=where.bind, port=port, names=names, warn=complain
+            )
+        except OSError as error:
+            raise _refusal(where, port, error) from error
+        self._advertised = None if warn is None else Advertised(warn)
+        self._before, master.uri = master.uri, where.uri(self._server.port)
+
+    @property
+    def port(self) -> int:
+        """The port at which it listens."""
+        return self._server.port
+
+    def close(self) -> None:
+        """Stop serving; the Master keeps what it knows. Harmless when repeated."""
+        self._server.close()
+        self._master.uri = self._before
+
+    def _answer(self, method: str, arguments: tuple[Any, ...]) -> Any:
+        caller = self._server.caller
+        if method == MULTICALL:
+            return self._answer_all(arguments[0] if arguments else [], caller)
+        return self._answer_one(method, arguments, caller)
+
+    async def _answer_all(self, calls: Any, caller: str) -> EncodedAnswer:
+        """Answer several calls, and let the loop's other tasks have their turn after each."""
+        if len(calls) > MOST_CALLS:
+            raise XmlRpcFault(
+                1, f"{MULTICALL} has {len(calls)} calls, at most {MOST_CALLS} are made at once: none was made"
+            )
+        answers: list[bytes] = []
+        room = MOST_BYTES
+        for number, call in enumerate(calls, 1):
+            answer = self._answer_element(call, caller)
+            room -= len(answer)
+            if room < 0:
+                raise XmlRpcFault(
+                    1,
+                    f"the answers of {MULTICALL} exceed {MOST_BYTES} bytes: of its {len(calls)} calls {number} were "
+                    "made. Ask for large parameters one at a time",
+                )
+            answers.append(answer)
+            await asyncio.sleep(0)
+        return EncodedAnswer(encode_answers(answers))
+
+    def _answer_element(self, call: Any, caller: str) -> bytes:
+        """Return the element that answers one of several calls: a list with the answer, or a fault's struct."""
+        try:
+            if call["methodName"] == MULTICALL:
+                raise XmlRpcFault(1, "<class 'RuntimeError'>:Recursive system.multicall forbidden")
+            return encode_value([self._answer_one(call["methodName"], tuple(call["params"]), caller)])
+        except XmlRpcFault as fault:
+            code, text = fault.code, fault.text
+        except Exception as error:  # what the caller sent may be anything
+            code, text = 1, f"{type(error)}:{error}"
+        return encode_value({"faultCode": code, "faultString": NOT_XML.sub("?", text)})
+
+    def _answer_one(self, method: str, arguments: tuple[Any, ...], caller: str) -> Any:
+        if method not in METHODS:
+            raise XmlRpcFault(1, f"<class 'Exception'>:method \"{method}\" is not supported")
+        answer = getattr(self._master, method)(*arguments)
+        if self._advertised is not None and method.startswith("register") and arguments:
+            self._advertised.look(caller, str(arguments[0]), str(arguments[-1]))
+        if self._on_call is not None:
+            self._on_call(method, arguments, answer)
+        reason = self._master.shutdown_reason
+        if method == "shutdown" and reason is not None and self._on_shutdown is not None:
+            self._on_shutdown(reason)
+        return answer
+
+
+def _complain(warn: Callable[[str], object], host: str, reason: str) -> None:
+    warn(f"the Master refused a request from {host}: {reason}")
+
+
+def _refusal(where: Addresses, port: int, error: OSError) -> RosminiError:
+    if error.errno == errno.EADDRINUSE:
+        return AddressInUse(
+            f"port {port} of {where.bind} is in use by another process, perhaps by a Master: its address would be "
+            f"{where.uri(port)}. End that process, or take another port: `rosmini roscore -p {port + 1}` here and "
+            f"ROS_MASTER_URI=http://{where.host}:{port + 1} for all others."
+        )
+    return RosminiError(
+        f"cannot listen at {where.bind}, port {port}: {error.strerror or error}. ROS_IP and ROS_HOSTNAME name an "
+        "address of this machine; ports below 1024 need rights that users do not have."
+    )

@@ -1,0 +1,76 @@
+"""What a graph has of the network: one I/O thread, a client of XML-RPC, and the transport of its nodes."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from rosmini.core.errors import RosminiError
+from rosmini.core.graph.log_gates import LogGates
+
+from .addresses import HERE
+from .io_thread import IoThread
+from .tcp_transport import TcpTransport
+from .xmlrpc_client import XmlRpcClient
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.core.graph.graph_core import GraphCore
+    from rosmini.core.graph.scheduler import Scheduler
+
+    from .addresses import Addresses
+
+
+WARN_NS = 60_000_000_000
+"""How long nothing more is said of what a peer has done wrong in the same way."""
+
+LONGEST_WARNING = 500
+
+
+class Network:
+    """The network of one graph. Nothing runs until a node, or a call, needs it.
+
+    Args:
+        scheduler: the graph's.
+        where: the addresses of this process: under which one others find its nodes, and where these listen.
+
+    """
+
+    def __init__(self, scheduler: Scheduler, where: Addresses = HERE) -> None:
+        self.scheduler = scheduler
+        self.where = where
+        self.io = IoThread(scheduler)
+        self.client = XmlRpcClient(self.io, scheduler)
+        self._gates = LogGates()
+        self.transport = TcpTransport(self)
+
+    def warn(self, text: str, cause: tuple[str, ...] = ()) -> None:
+        """Say what went wrong with a peer that is no node of this graph. From any thread.
+
+        With a ``cause``, such as the node, the peer's host and what that did, it is said once a minute. What a peer
+        may have written itself is shown on one line, in letters that do nothing to a terminal.
+        """
+        if cause and not self._gates.is_due(cause, time.monotonic_ns(), WARN_NS):
+            return
+        line = "".join(letter if letter.isprintable() else "?" for letter in text[:LONGEST_WARNING])
+        sys.stderr.write(f"[WARN] {line}{'...' if len(text) > LONGEST_WARNING else ''}\n")
+
+    def close(self) -> None:
+        """End the I/O thread and close what is open, within two seconds; what is used again is restarted."""
+        self.io.close()
+
+
+def tcp(where: Addresses = HERE) -> Callable[[Scheduler], TcpTransport]:
+    """Return what makes a transport for ``Graph(transports=[LocalTransport, ...])``; see :class:`Network`."""
+    return lambda scheduler: Network(scheduler, where).transport
+
+
+def network_of(graph: GraphCore) -> Network:
+    """Return the network of a graph. Raises ``RosminiError`` if it has none."""
+    for way in graph.transport.ways:
+        if isinstance(way, TcpTransport) and isinstance(way.network, Network):
+            return way.network
+    msg = "this graph has no network: make it with Graph(transports=[LocalTransport, rosmini.ros.net.network.tcp()])"
+    raise RosminiError(msg)

@@ -1,0 +1,285 @@
+"""A graph of this process, in a notebook for instance, becomes part of the ROS graph of other processes, and leaves it.
+
+Where a Master answers, the graph joins it; else it serves its own Master at that address. Nodes get addresses that
+others reach; what connects them in this process stays as it is. In a notebook the graph goes on by itself then. One in
+simulated time tells everybody its time on ``/clock``, which goes no faster than the clock on the wall; its own nodes
+stay on the graph's time.
+"""
+
+from __future__ import annotations
+
+import concurrent.futures
+import sys
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import MasterUnreachable, RosminiError, TransportException
+from rosmini.core.graph.master import Master
+from rosmini.core.graph.master_port import MasterPort
+
+from .addresses import addresses, is_loopback
+from .master_answers import checked, unreachable
+from .master_server import MasterServer
+from .network import Network
+from .pace import Pace
+from .registrations import register_again
+from .remote_master import RemoteMaster, patience
+from .sockets import Unreached
+from .watch import Watch
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from rosmini.core.graph import Graph
+    from rosmini.core.graph.transport import Triple
+
+    from .addresses import Addresses
+
+CLOCK_HZ = 100.0
+"""How often the time is published."""
+
+CLOCK_NODE = "rosmini_clock"
+USE_SIM_TIME = "/use_sim_time"
+ROSCORE = ("/rosdistro", "/rosversion", "/run_id")
+"""The parameters that each Master has of its own."""
+
+
+class _StandingStill(MasterPort):
+    """A Master elsewhere, asked while the graph stands still: for the moments of joining and leaving."""
+
+    keeps_trying = False
+
+    def __init__(self, uri: str, network: Network) -> None:
+        self.uri = uri
+        self._network = network
+
+    def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
+        """Return the Master's answer; blocks, and nothing else goes on. Raises ``MasterUnreachable``."""
+        asked = self._network.io.start(
+            self._network.client.request(self.uri, method, (caller_id, *arguments), patience(method))
+        )
+        try:
+            answer = asked.result()
+        except concurrent.futures.CancelledError:
+            raise MasterUnreachable("the network of this graph was closed") from None
+        except TransportException as error:
+            raise unreachable(self.uri, error) from error
+        return checked(self.uri, method, answer)
+
+
+def _is_absent(error: MasterUnreachable) -> bool:
+    """Tell whether nobody listens at the Master's address, unlike a Master that hangs, or something else there."""
+    cause = error.__cause__
+    return isinstance(cause, Unreached) and not isinstance(cause.__cause__, TimeoutError)
+
+
+def online(
+    graph: Graph,
+    master_uri: str | None = None,
+    environ: Mapping[str, str] | None = None,
+    *,
+    live: bool = True,
+) -> Online:
+    """Connect a graph with others; see :meth:`Graph.online <rosmini.core.graph.graph.Graph.online>`."""
+    return Online(graph, addresses(environ, {"__master": master_uri} if master_uri else None), live=live)
+
+
+class Online:
+    """A graph's part in the ROS graph of other processes. Made by ``graph.online()``, ended by ``graph.offline()``."""
+
+    def __init__(self, graph: Graph, where: Addresses, *, live: bool = True) -> None:
+        if not isinstance(graph.master, Master):
+            raise RosminiError(f"this graph has its Master elsewhere already, at {graph.master_uri}")
+        self.graph = graph
+        self.where = where
+        self.network = Network(graph.scheduler, where)
+        self.joined = False
+        """True where the Master is another process's."""
+        self._own = graph.master
+        self.server: MasterServer | None = None
+        """What serves this graph's Master; None where the graph has joined another one."""
+        self._pace: Pace | None = None
+        self._companions: list[Callable[[], bool]] = []
+        self._is_live_of_ours = False
+        self._had_rosout = False
+        try:
+            self._find_master()
+        except BaseException:
+            self.network.close()
+            raise
+        self._move(self.graph.transport.add)
+        try:
+            if self.joined:
+                self._join()
+            self._begin_clock(live=live)
+        except MasterUnreachable as error:  # it hangs since it was found, or has gone
+            self.end()
+            raise MasterUnreachable(f"{error}. This graph is offline again, as before") from error
+        if live:
+            self._go_on()
+        self._tell()
+
+    def __repr__(self) -> str:
+        how = "joined the Master at" if self.joined else "serves its Master at"
+        return f"<online: {how} {self.graph.master_uri}>"
+
+    # -- going online --------------------------------------------------------------------------------------------
+
+    def _find_master(self) -> None:
+        """Find a Master that answers, or serve ours."""
+        uri = self.where.master_uri
+        try:
+            _StandingStill(uri, self.network).call("getPid", "/rosmini")
+        except MasterUnreachable as error:
+            if not _is_absent(error):
+                raise
+            host, port = self.where.master
+            if not is_loopback(host) and host != self.where.host:
+                raise MasterUnreachable(
+                    f"{error}. If {host} is this machine, set ROS_IP or ROS_HOSTNAME to {host}: then the Master of "
+                    "this graph is served there"
+                ) from error
+            self.server = MasterServer(self.network.io, self._own, self.where, port, warn=self.network.warn)
+        else:
+            self.joined = True
+
+    def _move(self, change: Any) -> None:
+        """Give all nodes the addresses of the ways that there are now."""
+        graph = self.graph
+        nodes = {node.uri: node for node in graph.nodes.values()}
+        moved: dict[str, str] = change(self.network.transport, nodes)
+        for old, node in nodes.items():
+            node.uri = moved[old]
+            node.master.moved(moved)
+        for node in nodes.values():
+            for subscription in node.subscriptions.values():
+                subscription.publishers_moved(moved)
+        self._own.move(moved)
+
+    def _join(self) -> None:
+        graph = self.graph
+        rosout = graph.nodes.get("/rosout")
+        self._had_rosout = rosout is not None
+        if rosout is not None:
+            rosout.shutdown("the Master that this graph joins has its own")
+        still = _StandingStill(self.where.master_uri, self.network)
+        for name in self._own.getParamNames("/rosmini")[2]:
+            if name not in ROSCORE:
+                still.call("setParam", "/rosmini", name, self._own.getParam("/rosmini", name)[2])
+        self._own.forget_nodes()
+        graph.master = still
+        for node in list(graph.nodes.values()):
+            register_again(node)
+        client = self.network.client
+        watch = Watch(graph, still.uri, self.network.io, client)
+        graph.master = RemoteMaster(still.uri, client, watch)
+        watch.begin()
+
+    def _begin_clock(self, *, live: bool) -> None:
+        graph = self.graph
+        if not graph.simulated:
+            return
+        port = graph.master if self.server is not None else _StandingStill(graph.master_uri, self.network)
+        published = [name for name, _ in port.call("getPublishedTopics", "/rosmini", "")[2]]
+        if "/clock" not in published:
+            graph.keeps_time = True
+            node = graph.node(CLOCK_NODE)
+            port.call("setParam", node.name, USE_SIM_TIME, True)
+            publisher = node.publisher("/clock", graph.clock_class, queue_size=1)
+
+            if live:
+                self.keep_pace(lambda: True)
+
+            def tell_time(_: Any) -> None:
+                if not graph.is_live:  # which has a pace of its own
+                    self._keep_pace()
+                if publisher.num_connections():
+                    publisher.publish(clock=graph.now())
+
+            node.timer(1 / CLOCK_HZ, tell_time)
+
+    def keep_pace(self, condition: Callable[[], bool]) -> None:
+        """Let simulated time go no faster than real time while ``condition()`` is true. Has no effect in wall time."""
+        if not self._companions:
+            self._pace = Pace(self.graph.scheduler, self.network.io)
+        self._companions.append(condition)
+
+    def _keep_pace(self) -> None:
+        self._companions = [condition for condition in self._companions if condition()]
+        if self._pace is not None and self._companions:
+            self._pace.keep()
+
+    def _go_on(self) -> None:
+        """Let the graph go on by itself in a notebook."""
+        if self.graph.notebook and not self.graph.is_live:
+            self.graph.live()
+            self._is_live_of_ours = True
+
+    def _tell(self) -> None:
+        for line in self.where.notes:
+            sys.stderr.write(f"rosmini: {line}\n")
+
+    # -- going offline -------------------------------------------------------------------------------------------
+
+    def end(self) -> None:
+        """Leave the others; nodes of this process go on among themselves."""
+        graph = self.graph
+        graph.keeps_time = False
+        port: MasterPort = _StandingStill(self.where.master_uri, self.network) if self.joined else self._own
+        if self._is_live_of_ours and graph._live is not None:  # noqa: SLF001
+            graph._live.stop()  # noqa: SLF001
+        if self.joined:
+            graph.master = port
+        if self._pace is not None:
+            self._pace.end()
+        clock = graph.nodes.get(f"/{CLOCK_NODE}")
+        if clock is not None:
+            clock.shutdown("the graph goes offline")
+            self._ask(port, "deleteParam", "/rosmini", USE_SIM_TIME)
+        if self.joined:
+            for node in graph.nodes.values():
+                self._leave(port, node)
+        graph.master = self._own
+        self._close_connections()
+        self._move(graph.transport.remove)
+        if self.server is not None:
+            self.server.close()
+        if self.joined:
+            for node in list(graph.nodes.values()):
+                register_again(node)
+            if self._had_rosout and not graph.closing:
+                graph.start_rosout()
+        self.network.close()
+
+    def _leave(self, port: MasterPort, node: Any) -> None:
+        services_at = self.graph.transport.service_uri(node.uri)
+        for name in node.services:
+            self._ask(port, "unregisterService", node.name, name, services_at)
+        for topic in node.subscriptions:
+            self._ask(port, "unregisterSubscriber", node.name, topic, node.uri)
+        for topic in node.publications:
+            self._ask(port, "unregisterPublisher", node.name, topic, node.uri)
+        for key in node.watched_parameters:
+            self._ask(port, "unsubscribeParam", node.name, node.uri, key)
+
+    def _ask(self, port: MasterPort, method: str, *arguments: Any) -> None:
+        """Ask, unless a question before was not answered."""
+        if port.leave_by is None:
+            try:
+                port.call(method, *arguments)
+            except MasterUnreachable:
+                port.leave_by = 0
+
+    def _close_connections(self) -> None:
+        """Close the connections with nodes elsewhere: in this process only the others stay."""
+        protocol = self.network.transport.protocol
+        for node in self.graph.nodes.values():
+            for publication in node.publications.values():
+                for number, sender in list(publication.senders.items()):
+                    if sender.protocol == protocol:
+                        publication.remove(number)
+                        sender.close()
+            for subscription in node.subscriptions.values():
+                for connection in list(subscription.connections.values()):
+                    if connection.protocol == protocol:
+                        subscription.forget(connection)
+                        connection.close()

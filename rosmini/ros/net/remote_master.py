@@ -1,0 +1,56 @@
+"""A Master in another process, as a graph asks it: the Master API over XML-RPC."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import TransportException
+from rosmini.core.graph.master_port import MasterPort
+
+from .master_answers import checked, unreachable
+
+if TYPE_CHECKING:
+    from rosmini.core.graph.transport import Triple
+
+    from .watch import Watch
+    from .xmlrpc_client import XmlRpcClient
+
+TIMEOUT_S = 10.0
+"""How long a call waits for the Master, by the clock on the wall."""
+
+LEAVE_S = 2.0
+"""How long a call that takes a registration back waits: a node that ends is not held up by a Master that hangs."""
+
+
+def patience(method: str) -> float:
+    """Return how many seconds a call waits for the Master."""
+    return LEAVE_S if method.startswith(("unregister", "unsubscribe")) else TIMEOUT_S
+
+
+class RemoteMaster(MasterPort):
+    """The way to the Master at ``uri``; a call parks the calling lane, and simulated time goes on meanwhile.
+
+    ``watch`` looks after the registrations that are made through it.
+    """
+
+    def __init__(self, uri: str, client: XmlRpcClient, watch: Watch | None = None) -> None:
+        self.uri = uri
+        self._client = client
+        self._watch = watch
+
+    def __repr__(self) -> str:
+        return f"<the Master at {self.uri}>"
+
+    def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
+        """Return the Master's answer: [code, status, value].
+
+        Raises ``MasterUnreachable``, which says what to do, when there is none.
+        """
+        try:
+            answer = self._client.call(self.uri, method, caller_id, *arguments, timeout=patience(method))
+        except TransportException as error:
+            raise unreachable(self.uri, error) from error
+        triple = checked(self.uri, method, answer)
+        if self._watch is not None and method.startswith("register"):
+            self._watch.begin()
+        return triple

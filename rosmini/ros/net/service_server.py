@@ -1,0 +1,112 @@
+"""The server's end of a service on TCPROS: requests come in; an ok byte and a response, or an error, go out."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rosmini.core.graph.scheduler import Scheduler
+    from rosmini.core.graph.transport import Header, ServiceSession
+
+    from .tcp_stream import Stream
+
+
+class TcpClient:
+    """One client of a service, as its server sees it: one request after another."""
+
+    def __init__(
+        self,
+        scheduler: Scheduler,
+        stream: Stream,
+        session: ServiceSession,
+        header: Header,
+        first: list[bytes],
+    ) -> None:
+        self._scheduler = scheduler
+        self._stream = stream
+        self._session = session
+        self._is_persistent = header.get("persistent", "").lower() in ("1", "true")
+        self._requests = deque(first)
+        self._answers: deque[bytes] = deque()
+        self._is_busy = False
+        self._is_paused = False
+        self._is_stuck = False
+        self._is_over = False
+        stream.source = self._next
+        stream.on_frames = self._arrived
+        stream.on_end = self._ended
+        stream.share()
+
+    def open(self, header: bytes, *, is_probe: bool) -> None:
+        """Send the header, and then answer; one who only probes learns the header."""
+        self._answers.append(header)
+        self._stream.flush()
+        if is_probe:
+            self._close()
+        elif self._requests:
+            self._handle()
+
+    # -- in the I/O thread, or in an idle hub's ---------------------------------------------------------------------
+
+    def _arrived(self, frames: list[bytes]) -> None:
+        self._requests.extend(frames)
+        if len(self._requests) > 1:  # who waits for each answer, as clients do, never has to wait for us
+            self._stream.pause()
+            self._is_paused = True
+        self._scheduler.call_soon(self._handle)
+
+    def _ended(self, _error: Exception | None) -> None:
+        self._scheduler.call_soon_threadsafe(self._gone)
+
+    # -- in the hub's thread -------------------------------------------------------------------------------------
+
+    def _handle(self) -> None:
+        if self._is_busy or self._is_over or self._is_stuck:
+            return
+        if not self._requests:
+            if self._is_paused:
+                self._is_paused = False
+                self._stream.resume()
+            return
+        self._is_busy = True
+        request_class = self._session.service_class._request_class
+        try:
+            request = request_class._decode(self._requests.popleft())
+        except Exception as error:
+            self._answer(None, f"error processing request: these bytes are no {request_class._type}: {error}")
+        else:
+            self._session.handle(request, self._answer)
+
+    def _answer(self, response: Any, problem: str | None) -> None:
+        self._is_busy = False
+        if self._is_over:
+            return
+        body = problem.encode() if problem is not None else response._encode(response)
+        lead = b"\x00" if problem is not None else b"\x01"
+        with self._stream.lock:
+            self._answers.append(b"".join((lead, len(body).to_bytes(4, "little"), body)))
+        self._stream.flush()
+        if not self._is_persistent:
+            self._close()
+            return
+        with self._stream.lock:  # who does not read the answer gets no other one
+            self._is_stuck = self._stream.is_blocked
+        self._scheduler.ready.append(self._handle)
+
+    def _close(self) -> None:
+        self._stream.close()
+        self._gone()
+
+    def _gone(self) -> None:
+        if not self._is_over:
+            self._is_over = True
+            self._session.close()
+
+    def _next(self) -> bytes:
+        if self._answers:
+            return self._answers.popleft()
+        if self._is_stuck:
+            self._is_stuck = False
+            self._scheduler.call_soon_threadsafe(self._handle)
+        return b""

@@ -1,0 +1,152 @@
+"""Sockets that listen and sockets that are connected, with errors that say what to do."""
+
+from __future__ import annotations
+
+import asyncio
+import ipaddress
+import os
+import socket
+import sys
+import threading
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from rosmini.core.errors import TransportException, shown
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+T = TypeVar("T")
+
+BACKLOG = 128
+
+
+class Unreached(TransportException):
+    """Nobody is reached at an address; the cause is what the system said."""
+
+    def __init__(self, text: str, host: str) -> None:
+        super().__init__(text)
+        self.host = host
+        """The host in that address."""
+
+
+Address = tuple[socket.AddressFamily, Any]
+"""A family, and what ``socket.connect`` takes."""
+
+
+def listen(bind: str, port: int) -> socket.socket:
+    """Return a socket that listens at an address of this machine.
+
+    Raises ``OSError``: the port is in use, for instance.
+    """
+    family = socket.AF_INET6 if ":" in bind else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        if sys.platform != "win32":  # there it would let a second process listen at the same port
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind((bind, port))
+        listener.listen(BACKLOG)
+        listener.setblocking(False)
+    except OSError:
+        listener.close()
+        raise
+    return listener
+
+
+KEEPALIVE = {"TCP_KEEPIDLE": 60, "TCP_KEEPINTVL": 10, "TCP_KEEPCNT": 9}
+"""As in rospy and roscpp: after a minute of silence the peer is asked, every ten seconds, nine times at most."""
+
+
+def prepare(connection: socket.socket) -> None:
+    """Set what each connection has: all is sent at once, and a host that has gone is noticed though nothing is sent.
+
+    Who publishes sends what it has at the end of each event, in one piece: to wait for more would only delay it.
+    """
+    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    if all(hasattr(socket, name) for name in KEEPALIVE):
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+        for name, value in KEEPALIVE.items():
+            connection.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
+
+
+def literal(host: str, port: int) -> Address | None:
+    """Return the address that needs no look-up, or None."""
+    try:
+        number = ipaddress.ip_address("127.0.0.1" if host == "localhost" else host)
+    except ValueError:
+        return None
+    return (socket.AF_INET if number.version == 4 else socket.AF_INET6, (str(number), port))
+
+
+async def resolve(host: str, port: int) -> Address:
+    """Return the address of a host; names are looked up in a separate thread, which may take its time.
+
+    Raises :class:`Unreached` for a name that does not resolve.
+    """
+    found = literal(host, port)
+    if found is not None:
+        return found
+    try:
+        addresses = await _look_up(partial(socket.getaddrinfo, host, port, type=socket.SOCK_STREAM), host)
+    except (OSError, ValueError) as error:
+        raise Unreached(
+            f"the host name {shown(host)} does not resolve on this machine ({error}): add it to /etc/hosts here, or "
+            "set ROS_IP or ROS_HOSTNAME, on the machine that calls itself so, to an address that others reach",
+            host,
+        ) from error
+    family, _, _, _, address = addresses[0]
+    return family, address
+
+
+async def full_name() -> str:
+    """Return the fully qualified name of this machine; it is looked up as in :func:`resolve`."""
+    return await _look_up(socket.getfqdn, "of this machine")
+
+
+async def _look_up(look_up: Callable[[], T], what: str) -> T:
+    """Return the result of a function that asks the name service, from a thread that the process does not wait for."""
+    loop = asyncio.get_running_loop()
+    answer: asyncio.Future[T] = loop.create_future()
+
+    def settle(value: Any, error: Exception | None) -> None:
+        if answer.done():
+            return
+        if error is None:
+            answer.set_result(value)
+        else:
+            answer.set_exception(error)
+
+    def work() -> None:
+        found: tuple[T | None, Exception | None]
+        try:
+            found = (look_up(), None)
+        except Exception as error:
+            found = (None, error)
+        if not loop.is_closed():
+            loop.call_soon_threadsafe(settle, *found)
+
+    threading.Thread(target=work, name=f"rosmini-resolver {what}", daemon=True).start()
+    return await answer
+
+
+async def connect(host: str, port: int) -> socket.socket:
+    """Return a connected, non-blocking socket.
+
+    Raises :class:`Unreached` when nobody listens there, or the name or the way there is not known.
+    """
+    if not 0 < port < 65536:
+        raise Unreached(f"nobody can be reached at {shown(host)}, port {port}: ports are 1 to 65535", host)
+    family, address = await resolve(host, port)
+    made = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        made.setblocking(False)
+        prepare(made)
+        await asyncio.get_running_loop().sock_connect(made, address)
+    except OSError as error:
+        made.close()
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise Unreached(f"nobody can be reached at {host}:{port}: {reason}", host) from error
+    except BaseException:
+        made.close()
+        raise
+    return made

@@ -1,0 +1,154 @@
+"""Looks now and then whether the Master still knows the nodes of this process.
+
+A Master that goes away and comes back has forgotten everything. Real nodes do not notice; ours say so, once, and
+register again. In the same way a node learns that another one has its name while the Master's word did not reach it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rosmini.core.errors import MasterUnreachable, ROSException, TransportException
+
+from .master_answers import checked
+from .registrations import register_again
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    from rosmini.core.graph import Graph, Node
+    from rosmini.core.graph.transport import Triple
+
+    from .io_thread import IoThread
+    from .xmlrpc_client import XmlRpcClient
+
+PERIOD_S = 2.0
+"""How often the Master is asked, by the clock on the wall."""
+
+TIMEOUT_S = 5.0
+"""How long it may take to answer."""
+
+
+class _Seen(NamedTuple):
+    """A node, and its address when it was asked for."""
+
+    node: Node
+    uri: str
+
+
+class Watch:
+    """Watches the Master at ``uri`` on behalf of the nodes of ``graph``; begun with the first registration."""
+
+    def __init__(self, graph: Graph, uri: str, io: IoThread, client: XmlRpcClient) -> None:
+        self._graph = graph
+        self._uri = uri
+        self._io = io
+        self._client = client
+        self._task: Future[None] | None = None
+        self._turn = 0
+        self._pid: int | None = None
+        self._is_lost = False
+        self._forgotten: dict[str, int] = {}
+        """How many times in a row the Master did not know a node."""
+
+    def begin(self) -> None:
+        """Begin to watch. Harmless when repeated."""
+        if self._task is None or self._task.done():
+            self._is_lost, self._pid = False, None
+            self._task = self._io.start(self._run())
+
+    def end(self) -> None:
+        """Stop watching. Harmless when repeated."""
+        if self._task is not None:
+            self._task.cancel()
+
+    # -- in the loop's thread ------------------------------------------------------------------------------------
+
+    async def _run(self) -> None:
+        scheduler = self._graph.scheduler
+        while True:
+            await asyncio.sleep(PERIOD_S)
+            nodes = await self._io.on_hub(scheduler, self._nodes)
+            if nodes:
+                await self._look(nodes)
+
+    async def _look(self, nodes: list[_Seen]) -> None:
+        """Ask whether it is the same Master, and for one node, another one each time."""
+        self._turn += 1
+        chosen = nodes[self._turn % len(nodes)]
+        scheduler = self._graph.scheduler
+        try:
+            pid = (await self._ask("getPid", chosen.node.name))[2]
+            code, _, uri = await self._ask("lookupNode", chosen.node.name, chosen.node.name)
+        except (TransportException, MasterUnreachable) as error:
+            if not self._is_lost:
+                self._is_lost = True
+                scheduler.call_soon_threadsafe(partial(self._say_lost, error))
+            return
+        if code == 1:
+            self._forgotten.pop(chosen.node.name, None)
+        is_new = self._is_lost or self._pid not in (None, pid)
+        self._is_lost, self._pid = False, pid
+        if is_new:
+            await self._io.on_hub(scheduler, partial(self._register_again, nodes, "is back"))
+        elif code != 1 and self._may_register(chosen):
+            await self._io.on_hub(scheduler, partial(self._register_again, [chosen], "has forgotten"))
+        elif code == 1 and uri != chosen.uri:
+            await self._io.on_hub(scheduler, partial(self._end_replaced, chosen))
+
+    def _may_register(self, seen: _Seen) -> bool:
+        """Tell whether to register a node that the Master does not know: ever more seldom where that has no effect."""
+        count = self._forgotten[seen.node.name] = self._forgotten.get(seen.node.name, 0) + 1
+        return count & (count - 1) == 0
+
+    async def _ask(self, method: str, caller_id: str, *arguments: Any) -> Triple:
+        answer = await self._client.request(self._uri, method, (caller_id, *arguments), TIMEOUT_S)
+        return checked(self._uri, method, answer)
+
+    # -- in the hub's thread -------------------------------------------------------------------------------------
+
+    def _nodes(self) -> list[_Seen]:
+        """Return the nodes that run and are known; of one that starts, the Master may have a killed one's address."""
+        return [
+            _Seen(node, node.uri)
+            for node in self._graph.nodes.values()
+            if node.shutdown_reason is None and node.is_registered
+        ]
+
+    def _say_lost(self, error: Exception) -> None:
+        self._say(
+            f"the Master at {self._uri} does not answer any more: {error}. Connections stay; this process registers "
+            "again when it is back.",
+            [seen.node for seen in self._nodes()],
+        )
+
+    def _say(self, text: str, nodes: list[Node]) -> None:
+        """Let the first of the nodes say it, for all."""
+        for node in nodes[:1]:
+            node.spawn(f"{node.name} tells of the Master", partial(node.logwarn, text))
+
+    def _end_replaced(self, seen: _Seen) -> None:
+        """End a node whose name another one has."""
+        if seen in self._nodes():
+            seen.node.shutdown_requested(
+                "/master", f"[{seen.node.name}] Reason: new node registered with same name"
+            )
+
+    def _register_again(self, forgotten: list[_Seen], what: str) -> None:
+        present = set(self._nodes())
+        nodes = [seen.node for seen in forgotten if seen in present]
+        for node in nodes:
+            node.spawn(f"{node.name} registers again", partial(_register, node))
+        names = ", ".join(node.name for node in nodes)
+        self._say(f"the Master at {self._uri} {what}: {names} registers again", nodes)
+
+
+def _register(node: Node) -> None:
+    try:
+        register_again(node)
+    except MasterUnreachable:
+        return  # it has ended meanwhile
+    except ROSException as error:
+        node.logerr(error)

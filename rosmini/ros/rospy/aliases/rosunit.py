@@ -1,0 +1,22 @@
+"""``import rosunit``: unit tests whose results are written as JUnit XML (http://wiki.ros.org/rosunit)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+
+def unitrun(
+    package: str,
+    test_name: str,
+    test: Any,
+    sysargs: Sequence[str] | None = None,
+    coverage_packages: Any = None,  # noqa: ARG001 - rosunit's signature
+) -> None:
+    """Run the tests of a class, of a dotted name or of a list of these, and print how they went.
+
+    The results are written where ``--gtest_output=xml:FILE`` says. Raises ``SystemExit`` with 1 if one failed.
+    """
+    from rosmini.ros.rospy.unit_tests import run  # unittest is loaded by those who test
+
+    run(package, test_name, test, sysargs)

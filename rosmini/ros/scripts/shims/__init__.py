@@ -1,0 +1,93 @@
+"""Replacements, one set for each script, of modules that block, tell the time or keep state for the whole process.
+
+``BUILDERS`` makes a module for one script; ``PRIVATE_COPIES`` are modules of the standard library that need no change
+except to stand on those (a private ``logging`` writes to the script's streams with the script's clock and locks).
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from types import FunctionType, ModuleType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.ros.scripts.script import Script
+
+PRIVATE_COPIES = frozenset(
+    {
+        "_threading_local",
+        "concurrent",
+        "concurrent.futures",
+        "concurrent.futures._base",
+        "concurrent.futures.thread",
+        "logging",
+        "logging.config",
+        "logging.handlers",
+        "queue",
+        "random",
+        "sched",
+    }
+)
+
+_BUILDERS_IN = {
+    "_thread": "threads",
+    "atexit": "process",
+    "builtins": "process",
+    "datetime": "clock",
+    "importlib": "process",
+    "msvcrt": "terminal",
+    "os": "leaving",
+    "select": "terminal",
+    "signal": "process",
+    "subprocess": "outside",
+    "sys": "process",
+    "termios": "terminal",
+    "threading": "threads",
+    "time": "clock",
+    "tty": "terminal",
+    "xmlrpc": "outside",
+    "xmlrpc.client": "outside",
+}
+
+
+def _build(name: str, context: Script) -> ModuleType:
+    maker = importlib.import_module(f"{__name__}.{_BUILDERS_IN[name]}")
+    module: ModuleType = getattr(maker, f"make_{name.strip('_').replace('.', '_')}")(context)
+    return module
+
+
+BUILDERS: dict[str, Callable[[Script], ModuleType]] = {
+    name: functools.partial(_build, name) for name in _BUILDERS_IN
+}
+
+
+def finish_copy(context: Script, name: str, module: ModuleType) -> None:
+    """Change what a private copy cannot get from its imports."""
+    if name == "queue":
+        # The one in C blocks the whole process; the standard library has it in Python too.
+        module.SimpleQueue = module._PySimpleQueue  # type: ignore[attr-defined]  # noqa: SLF001
+    elif name == "random":
+        from .randomness import seed_copy
+
+        seed_copy(context, module)
+
+
+def copy_of(real: ModuleType) -> ModuleType:
+    """Return a new module with all that ``real`` holds, to be changed."""
+    module = ModuleType(real.__name__, real.__doc__)
+    module.__dict__.update(vars(real))
+    return module
+
+
+def as_builtins(module: ModuleType, **functions: Callable[..., object]) -> None:
+    """Put ``functions`` into ``module`` in place of functions written in C.
+
+    Those do not become methods when a class keeps one (``converter = time.localtime``), and neither must ours.
+    """
+    for name, function in functions.items():
+        if isinstance(function, FunctionType):
+            function.__name__ = function.__qualname__ = name
+        module.__dict__[name] = staticmethod(function)

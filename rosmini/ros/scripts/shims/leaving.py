@@ -1,0 +1,64 @@
+"""``os`` as one script sees it: ``_exit``, ``abort`` and a signal to itself end the script, never the process.
+
+Everything else is the process's: other processes get their signals, and a forked child leaves as ever.
+"""
+
+from __future__ import annotations
+
+import os as real_os
+import signal
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from . import as_builtins
+
+if TYPE_CHECKING:
+    from rosmini.ros.scripts.script import Script
+
+
+class _ScriptOs(ModuleType):
+    """``os``; what is not the script's own is looked up in the real one, whose ``environ`` is swapped."""
+
+    def __init__(self) -> None:
+        super().__init__("os", real_os.__doc__)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(real_os, name)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*dir(real_os), *self.__dict__})
+
+
+def make_os(context: Script) -> ModuleType:
+    """Make the ``os`` of one script."""
+    module = _ScriptOs()
+    home = real_os.getpid()
+
+    def leave(status: int) -> None:
+        if real_os.getpid() != home:  # the child of a script that forked
+            real_os._exit(status)
+        context.leave_process(status & 0xFF)
+
+    def abort() -> None:
+        if real_os.getpid() != home:
+            real_os.abort()
+        context.leave_process(-signal.SIGABRT)
+
+    def kill(pid: int, signum: int, /) -> None:
+        own = real_os.getpid()
+        if own != home or pid not in (own, 0):  # 0: all of the group, of which the script knows itself
+            real_os.kill(pid, signum)
+        elif signum:
+            context.raise_signal(signum)
+
+    as_builtins(module, _exit=leave, abort=abort, kill=kill)
+    if hasattr(real_os, "killpg"):
+
+        def killpg(group: int, signum: int, /) -> None:
+            if group in (real_os.getpgrp(), 0):
+                kill(0, signum)
+            else:
+                real_os.killpg(group, signum)
+
+        as_builtins(module, killpg=killpg)
+    return module

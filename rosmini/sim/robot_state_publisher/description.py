@@ -1,0 +1,30 @@
+"""The robot that a node finds under `robot_description` on the Parameter Server."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosmini.core.errors import ParameterNotSet
+from rosmini.sim.urdf import Robot, load
+
+if TYPE_CHECKING:
+    from rosmini.core.graph import Node
+
+NAME = "robot_description"
+
+
+def read_description(node: Node) -> Robot:
+    """The robot of the nearest parameter `robot_description`, looked for in the node's own namespace and then upwards.
+
+    Raises `ParameterNotSet`, and `UrdfError` with the parameter's name and the line.
+    """
+    found = node.search_param(NAME)
+    if found is None:
+        raise ParameterNotSet(
+            f"{node.name} needs the parameter {NAME}, a URDF, which is not set; for example: "
+            f'<param name="{NAME}" command="$(find xacro)/xacro FILE"/> in a launch file, or '
+            f'node.set_param("/{NAME}", rosmini.sim.urdf.xacro.expand(FILE))'
+        )
+    # As bytes it is never taken for the name of a file.
+    text = str(node.get_param(found, expect=str)).strip().encode()
+    return load(text, meshes=False, path=found)

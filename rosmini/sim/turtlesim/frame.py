@@ -1,0 +1,122 @@
+"""The turtles of one window and the paper they draw on, without a node. `node.py` puts it into a graph."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rosmini.core.errors import nearest
+
+from .paper import SIZE, Colour, Paper
+from .turtle import METRE, Turtle, TurtleError
+
+MOST_TURTLES = 1000
+"""One window has no more."""
+
+
+class Frame:
+    """What a window of turtlesim shows.
+
+    Args:
+        background: the colour of the paper.
+        choose: returns the number of a new turtle's drawing; the first one's by default.
+
+    """
+
+    def __init__(self, background: Colour | None = None, choose: Callable[[], int] = lambda: 0) -> None:
+        self.paper = Paper() if background is None else Paper(background)
+        self.turtles: dict[str, Turtle] = {}
+        """By name, in the order of the names, which is that of the updates, too."""
+        self.updates = 0
+        """How many steps were made."""
+        self._choose = choose
+        self._counter = 0
+
+    def free_name(self) -> str:
+        """The next of turtle1, turtle2, ... that nobody has. A name is given out once, until a reset."""
+        while True:
+            self._counter += 1
+            if (name := f"turtle{self._counter}") not in self.turtles:
+                return name
+
+    def spawn(self, x: float, y: float, theta: float, name: str = "", *, holonomic: bool = True) -> Turtle:
+        """Put a new turtle somewhere [m, m, rad]; beyond a border the next update puts it there.
+
+        Raises `TurtleError` if the name is taken, if a number is not finite, and if there are too many already.
+        """
+        if name in self.turtles:
+            raise TurtleError(
+                f"there is a turtle {name} already: give another name, or none to get a new one"
+            )
+        if len(self.turtles) >= MOST_TURTLES:
+            raise TurtleError(f"there are {MOST_TURTLES} turtles, and no window has more: kill one, or reset")
+        turtle = Turtle(name, x, y, theta, kind=self._choose())
+        turtle.name = name or self.free_name()
+        turtle.holonomic = holonomic
+        self.turtles[turtle.name] = turtle
+        self.turtles = dict(sorted(self.turtles.items()))
+        return turtle
+
+    def kill(self, name: str) -> Turtle:
+        """Take a turtle away; its drawing stays. Raises `TurtleError` if there is none of this name."""
+        if name not in self.turtles:
+            hint = nearest(name, self.turtles) or f"there are {', '.join(list(self.turtles)[:8]) or 'none'}"
+            raise TurtleError(f"there is no turtle {name!r}: {hint}")
+        return self.turtles.pop(name)
+
+    def reset(self) -> list[Turtle]:
+        """Take all turtles away and number new ones from 1; the paper stays. Return those that were there."""
+        gone, self.turtles, self._counter = list(self.turtles.values()), {}, 0
+        return gone
+
+    def step(self, now_s: float) -> None:
+        """Let all turtles go on by one update."""
+        for turtle in self.turtles.values():
+            turtle.move(now_s, self.paper)
+            turtle.draw(self.paper)
+        self.updates += 1
+
+    def state(self, since: int = 0, clears: int | None = None) -> dict[str, Any]:
+        """What a canvas needs to draw the window: plain numbers, texts, lists and dictionaries.
+
+        Args:
+            since: the number of the first stroke that the caller does not have, `next` of its last state.
+            clears: `clears` of its last state; if the paper was cleared since then, `since` counts as 0.
+
+        Returns:
+            `size` of the window [px], `metre` [px], `background` [r, g, b], `clears`, `updates`; `strokes`, each
+            `[x1, y1, x2, y2, r, g, b, width]` [px, y down], beginning with number `first`; `next`; and
+            `turtles`, each with `name`, `x`, `y` [px, y down], `theta` [rad, counter-clockwise], `kind`
+            (`drawings.DRAWINGS`), `pen` [r, g, b, width], `pen_on`, `pose` [x [m], y [m] up, theta] and
+            `velocity` [m/s, rad/s].
+
+        """
+        paper = self.paper
+        first = max(since if clears in (None, paper.clears) else 0, paper.first)
+        return {
+            "size": SIZE,
+            "metre": METRE,
+            "background": list(paper.background),
+            "clears": paper.clears,
+            "updates": self.updates,
+            "first": first,
+            "next": paper.count,
+            "strokes": [
+                [round(x1, 2), round(y1, 2), round(x2, 2), round(y2, 2), *pen.colour, pen.width]
+                for x1, y1, x2, y2, pen, _ in paper.strokes(first)
+            ],
+            "turtles": [
+                {
+                    "name": turtle.name,
+                    "x": round(turtle.pixel[0], 2),
+                    "y": round(turtle.pixel[1], 2),
+                    "theta": turtle.theta,
+                    "kind": turtle.kind,
+                    "pen": [*turtle.pen.colour, turtle.pen.width],
+                    "pen_on": turtle.pen_on,
+                    "pose": [turtle.x, turtle.y, turtle.theta],
+                    "velocity": [turtle.linear_velocity, turtle.angular_velocity],
+                }
+                for turtle in self.turtles.values()
+            ],
+        }

@@ -1,0 +1,31 @@
+"""`turtlesim/mimic`: one turtle does what another one does.
+
+It hears poses on `input/pose` and publishes their velocities on `output/cmd_vel`; remap both:
+`rosrun turtlesim mimic input:=turtle1 output:=turtle2`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.msgs import message_class
+
+if TYPE_CHECKING:
+    from rosmini.core.graph import Node
+
+
+class Mimic:
+    """The node `turtle_mimic`."""
+
+    node_name = "turtle_mimic"
+
+    def __init__(self, node: Node) -> None:
+        self._twist = message_class("geometry_msgs/Twist")()
+        self._commands = node.publisher(f"{node.resolve('output')}/cmd_vel", type(self._twist), queue_size=1)
+        node.subscriber(
+            f"{node.resolve('input')}/pose", message_class("turtlesim/Pose"), self._heard, queue_size=1
+        )
+
+    def _heard(self, pose: Any) -> None:
+        self._twist.linear.x, self._twist.angular.z = pose.linear_velocity, pose.angular_velocity
+        self._commands.publish(self._twist)

@@ -1,0 +1,269 @@
+"""Reads COLLADA 1.4.1 (https://www.khronos.org/files/collada_spec_1_4.pdf) as far as meshes with plain colours need it.
+
+That is triangles, polylists and polygons below the nodes of the scene, with their transforms, the unit, and the diffuse
+colours of their materials. Textures are ignored, and so is `up_axis`, as in Gazebo
+(https://github.com/gazebosim/gazebo-classic/issues/1305) and RViz (which drops the rotation that assimp puts on the
+root of the scene): robots and worlds made for these stand as the numbers in their files say.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.core.geometry.products import determinant, matrix_product
+from rosmini.core.markup import FARTHEST, Element
+from rosmini.sim.urdf.kinematics import turn
+
+from .surface import Surface
+
+Floats = NDArray[np.float64]
+Colour = tuple[float, float, float, float]
+
+DEEPEST = 50
+"""How deep nodes may hold one another."""
+
+MOST_NODES = 10_000
+"""How many nodes a scene may have, each counted as often as it is shown."""
+
+MOST_CORNERS = 6_000_000
+"""How many corners all triangles may have together."""
+
+MOST_OFFSETS = 100
+"""How many numbers may belong to one corner."""
+
+
+def read(root: Element, part: str = "") -> Iterator[Surface]:
+    """The surfaces of a file, or of its nodes called `part`, in metres. Raises the file's kind of `MarkupError`."""
+    if root.tag != "COLLADA":
+        raise root.error(f"a COLLADA file begins with <COLLADA>, this one with <{root.tag}>")
+    yield from _Reader(root).surfaces(part)
+
+
+class _Reader:
+    """Reads one file. What several elements refer to is worked out once."""
+
+    def __init__(self, root: Element) -> None:
+        self.root = root
+        self.by_id = {each.get("id"): each for each in root.walk() if each.get("id")}
+        meter = root.find("asset/unit")
+        scale = 1.0 if meter is None else meter.number("meter", 1.0, most=FARTHEST)
+        if scale <= 0:
+            raise root.error(f"the unit of a mesh is more than 0 m, not {scale:g}")
+        self.base = np.diag([scale, scale, scale, 1.0])
+        self.nodes = self.corners = 0
+        self.places: dict[Element, Floats] = {}
+        self.bound: dict[Element, dict[str, Colour | None]] = {}
+        self.colours: dict[Element, Colour | None] = {}
+        self.pieces: dict[Element, tuple[Surface | None, int]] = {}
+        self.points: dict[Element, Floats] = {}
+
+    def target(self, element: Element, attribute: str) -> Element:
+        """What a reference `#id` is to."""
+        name = element.attribute(attribute).removeprefix("#")
+        if name not in self.by_id:
+            raise element.error(f"there is nothing with the id {name!r} in this file")
+        return self.by_id[name]
+
+    def surfaces(self, part: str) -> Iterator[Surface]:
+        shown = self.root.find("scene/instance_visual_scene")
+        scene = self.root.find("library_visual_scenes/visual_scene")
+        if shown is not None:
+            scene = self.target(shown, "url")
+        if scene is not None:
+            for node in scene.all("node"):
+                yield from self.node(node, self.base, part, 0)
+        elif not part:
+            for geometry in self.root.walk():
+                if geometry.tag == "geometry":
+                    yield from self.geometry(geometry, self.base, {})
+
+    def node(self, node: Element, above: Floats, part: str, depth: int) -> Iterator[Surface]:
+        self.nodes += 1
+        if depth > DEEPEST or self.nodes > MOST_NODES:
+            raise node.error("nodes of the scene hold one another without end")
+        with np.errstate(over="ignore", invalid="ignore"):
+            if node not in self.places:
+                self.places[node] = _transform(node)
+            place = matrix_product(above, self.places[node])
+            size = abs(determinant(place[:3, :3]))
+        if not (np.abs(place).max() <= FARTHEST and size > 0):
+            raise node.error("the transforms of this node make it infinitely large, or flat")
+        if part in (node.get("name"), node.get("id")):
+            part = ""
+        for child in node:
+            if child.tag == "node":
+                yield from self.node(child, place, part, depth + 1)
+            elif child.tag == "instance_node":
+                yield from self.node(self.target(child, "url"), place, part, depth + 1)
+            elif child.tag == "instance_geometry" and not part:
+                if child not in self.bound:
+                    self.bound[child] = {
+                        each.get("symbol"): self.colour(self.target(each, "target"))
+                        for each in child.walk()
+                        if each.tag == "instance_material"
+                    }
+                yield from self.geometry(self.target(child, "url"), place, self.bound[child])
+
+    def colour(self, material: Element) -> Colour | None:
+        if material not in self.colours:
+            self.colours[material] = self.diffuse(material)
+        return self.colours[material]
+
+    def diffuse(self, material: Element) -> Colour | None:
+        effect = material.find("instance_effect")
+        if effect is None:
+            return None
+        for each in self.target(effect, "url").walk():
+            if each.tag == "diffuse":
+                value = each.find("color")
+                if value is None:
+                    return None
+                r, g, b, a = value.floats(value.text, 4)
+                return (r, g, b, a)
+        return None
+
+    def geometry(
+        self, geometry: Element, place: Floats, bound: dict[str, Colour | None]
+    ) -> Iterator[Surface]:
+        mesh = geometry.find("mesh")
+        if mesh is None:
+            return
+        for piece in mesh.all("triangles", "polylist", "polygons"):
+            if piece not in self.pieces:
+                self.pieces[piece] = self.piece(piece)
+            found, corners = self.pieces[piece]
+            self.corners += corners
+            if self.corners > MOST_CORNERS:
+                raise piece.error(f"this mesh has more than {MOST_CORNERS} vertices of triangles")
+            if found is not None:
+                yield replace(found.moved(place), colour=bound.get(piece.get("material")))
+
+    def piece(self, piece: Element) -> tuple[Surface | None, int]:
+        """The surface of a piece, and how many vertices its polygons have."""
+        inputs = piece.all("input")
+        stride = 1 + max((_offset(each) for each in inputs), default=0)
+        streams = {each.get("semantic"): each for each in inputs}
+        if "VERTEX" not in streams:
+            raise piece.error(f"<{piece.tag}> has no input VERTEX")
+        index, sizes = _indices(piece, stride)
+        if not len(index):
+            return None, 0
+        at = self.target(streams["VERTEX"], "source")
+        position = next((each for each in at.all("input") if each.get("semantic") == "POSITION"), None)
+        if position is None:
+            raise at.error("these vertices have no POSITION")
+        points = self.floats(self.target(position, "source"))
+        corners = self.column(piece, index, streams["VERTEX"], len(points))
+        faces = _fans(sizes)
+        normals = None
+        if "NORMAL" in streams:
+            directions = self.floats(self.target(streams["NORMAL"], "source"))
+            normals = directions[self.column(piece, index, streams["NORMAL"], len(directions))]
+        return _welded(points[corners], normals, faces), len(index)
+
+    def column(
+        self, piece: Element, index: NDArray[np.int64], stream: Element, count: int
+    ) -> NDArray[np.int64]:
+        found = index[:, _offset(stream)]
+        if found.min() < 0 or found.max() >= count:
+            raise piece.error(
+                f"<p> counts to {found.max()}, but there are {count} of {stream.get('semantic')}"
+            )
+        return np.asarray(found)
+
+    def floats(self, source: Element) -> Floats:
+        if source not in self.points:
+            self.points[source] = self.rows(source)
+        return self.points[source]
+
+    def rows(self, source: Element) -> Floats:
+        array = source.need("float_array")
+        values = np.array(array.floats(array.text, most=FARTHEST))
+        accessor = source.find("technique_common/accessor")
+        stride = 3 if accessor is None else int(accessor.number("stride", 3))
+        if stride < 3 or len(values) % stride:
+            raise array.error(f"{len(values)} numbers are no rows of {stride}")
+        rows: Floats = values.reshape(-1, stride)[:, :3]
+        return rows
+
+
+def _offset(stream: Element) -> int:
+    found = stream.number("offset", 0)
+    if found not in range(MOST_OFFSETS):
+        raise stream.error(f"an offset is a whole number from 0 to {MOST_OFFSETS - 1}, not {found:g}")
+    return int(found)
+
+
+def _indices(piece: Element, stride: int) -> tuple[NDArray[np.int64], list[int]]:
+    """The indices (corners, stride), and how many corners each polygon has."""
+    lists = []
+    for each in piece.all("p"):
+        try:
+            values = np.array(each.text.split(), dtype=np.int64)
+        except (ValueError, OverflowError):
+            raise each.error("<p> holds whole numbers") from None
+        if len(values) % stride:
+            raise each.error(f"<p> holds {len(values)} numbers, which are no rows of {stride}")
+        lists.append(values.reshape(-1, stride))
+    if not lists:
+        return np.empty((0, stride), dtype=np.int64), []
+    index = np.vstack(lists)
+    if piece.tag == "polygons":
+        sizes = [len(rows) for rows in lists]
+    elif piece.tag == "polylist":
+        sizes = [int(size) for size in piece.floats(piece.need("vcount").text)]
+    else:
+        sizes = [3] * (len(index) // 3)
+    if sum(sizes) != len(index) or min(sizes, default=3) < 3:
+        raise piece.error(f"<{piece.tag}> has polygons of {sum(sizes)} vertices, but <p> has {len(index)}")
+    return index, sizes
+
+
+def _fans(sizes: list[int]) -> NDArray[np.int64]:
+    """Triangles of polygons with these numbers of corners, which follow one another."""
+    faces = []
+    first = 0
+    for size in sizes:
+        faces += [(first, first + i, first + i + 1) for i in range(1, size - 1)]
+        first += size
+    return np.array(faces, dtype=np.int64)
+
+
+def _welded(points: Floats, normals: Floats | None, faces: NDArray[np.int64]) -> Surface:
+    """Corners that are alike in position and normal become one vertex: between flat faces, edges stay sharp."""
+    rows = points if normals is None else np.hstack([points, normals])
+    places: dict[bytes, int] = {}
+    firsts: list[int] = []
+    which = np.empty(len(rows), dtype=np.int64)
+    for i, row in enumerate(rows):
+        key = row.tobytes()
+        if key not in places:
+            places[key] = len(firsts)
+            firsts.append(i)
+        which[i] = places[key]
+    return Surface(points[firsts], which[faces])
+
+
+def _transform(node: Element) -> Floats:
+    """Where a node stands in the one above it: its transforms in the order in which they are written."""
+    result = np.eye(4)
+    for child in node:
+        own = np.eye(4)
+        if child.tag == "matrix":
+            own = np.array(child.floats(child.text, 16, most=FARTHEST)).reshape(4, 4)
+        elif child.tag == "translate":
+            own[:3, 3] = child.floats(child.text, 3, most=FARTHEST)
+        elif child.tag == "scale":
+            own[:3, :3] = np.diag(child.floats(child.text, 3, most=FARTHEST))
+        elif child.tag == "rotate":
+            x, y, z, degrees = child.floats(child.text, 4, most=FARTHEST)
+            length = math.sqrt(x * x + y * y + z * z)
+            if length > 0:
+                own[:3, :3] = turn((x / length, y / length, z / length), math.radians(degrees))
+        result = matrix_product(result, own)
+    return result

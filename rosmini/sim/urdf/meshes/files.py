@@ -1,0 +1,139 @@
+"""Read meshes: STL (text and binary), COLLADA and Wavefront OBJ, as surfaces in the file's own coordinates."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.core import files
+from rosmini.core.errors import shown
+from rosmini.core.markup import FARTHEST, MarkupError, parse_file
+
+from . import collada
+from .surface import Surface
+
+Floats = NDArray[np.float64]
+
+LONGEST_INDEX = 9
+"""How many digits the number of a corner may have."""
+
+
+class MeshError(MarkupError):
+    """A mesh file is broken, or of a kind that is not read."""
+
+
+def read(path: str | PathLike[str], part: str = "") -> tuple[Surface, ...]:
+    """The surfaces of a ``.stl``, ``.dae`` or ``.obj`` file. STL and OBJ have no colours here.
+
+    With `part`, only those of the COLLADA nodes, or of the OBJ objects and groups, that have this name.
+
+    Raises `MeshError`, with the line where there are lines, also for a file without triangles.
+    """
+    file = Path(path)
+    try:
+        changed = files.check(file)
+    except OSError as error:
+        raise MeshError(f"cannot be read: {error.strerror}", file) from error
+    return _read(file, part, changed.st_mtime_ns)
+
+
+@lru_cache(maxsize=64)
+def _read(file: Path, part: str, _changed: int) -> tuple[Surface, ...]:
+    kind = file.suffix.lower()
+    if kind == ".dae":
+        found = tuple(collada.read(parse_file(file, MeshError), part))
+    elif kind == ".stl":
+        found = (_flat(_stl(file)),)
+    elif kind == ".obj":
+        found = (_flat(_obj(file, part)),)
+    else:
+        raise MeshError(f"a mesh is a .dae, .stl or .obj file, not {kind or 'one without an ending'}", file)
+    if not any(len(surface.faces) for surface in found):
+        raise MeshError(f"there is no triangle in it{f' called {part!r}' if part else ''}", file)
+    return found
+
+
+def _bytes(file: Path) -> bytes:
+    try:
+        return files.read(file)
+    except OSError as error:
+        raise MeshError(f"cannot be read: {error.strerror}", file) from error
+
+
+def _flat(triangles: Floats) -> Surface:
+    """Triangles (m, 3, 3) that share no corners."""
+    return Surface(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+
+
+def _stl(file: Path) -> Floats:
+    data = _bytes(file)
+    count = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
+    if count >= 0 and len(data) == 84 + 50 * count:
+        rows = np.frombuffer(
+            data, dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")], offset=84
+        )
+        return _finite(rows["corners"].astype(np.float64), file)
+    if not data.lstrip().startswith(b"solid"):
+        raise MeshError(
+            f"this is not an STL file: {max(count, 0)} triangles would be {84 + 50 * max(count, 0)} bytes, "
+            f"not {len(data)}",
+            file,
+        )
+    corners = []
+    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), start=1):
+        words = line.split()
+        if words[:1] == ["vertex"]:
+            corners.append(_three(words[1:], file, number))
+    if len(corners) % 3:
+        raise MeshError(f"{len(corners)} corners are no triangles", file)
+    return _finite(np.array(corners).reshape(-1, 3, 3), file)
+
+
+def _obj(file: Path, part: str) -> Floats:
+    points: list[tuple[float, float, float]] = []
+    triangles = []
+    wanted = not part
+    for number, line in enumerate(_bytes(file).decode("utf-8", "replace").splitlines(), start=1):
+        words = line.split("#")[0].split()
+        if words[:1] == ["v"]:
+            points.append(_three(words[1:4], file, number))
+        elif words[:1] in (["o"], ["g"]) and part:
+            wanted = " ".join(words[1:]) == part
+        elif words[:1] == ["f"] and wanted:
+            found = [re.match(rf"-?\d{{1,{LONGEST_INDEX}}}(?!\d)", word) for word in words[1:]]
+            places = [int(each[0]) if each else 0 for each in found]
+            places = [place - 1 if place > 0 else len(points) + place for place in places]
+            if len(places) < 3 or not all(0 <= place < len(points) for place in places):
+                raise MeshError(
+                    f"the face {shown(' '.join(words[1:]))} is invalid: there are {len(points)} vertices",
+                    file,
+                    number,
+                )
+            triangles += [(places[0], places[i], places[i + 1]) for i in range(1, len(places) - 1)]
+    if not triangles:
+        return np.empty((0, 3, 3))
+    return _finite(np.array(points)[np.array(triangles)], file)
+
+
+def _three(words: list[str], file: Path, line: int) -> tuple[float, float, float]:
+    try:
+        x, y, z = (float(word) for word in words)
+    except ValueError:
+        raise MeshError(f"a corner has three numbers, not {shown(' '.join(words))}", file, line) from None
+    return (x, y, z)
+
+
+def _finite(triangles: Floats, file: Path) -> Floats:
+    if not np.isfinite(triangles).all():
+        raise MeshError("a corner is not finite", file)
+    if (np.abs(triangles) > FARTHEST).any():
+        raise MeshError(f"a corner is further away than {FARTHEST:g} m", file)
+    return triangles
+
+
+__all__ = ["MeshError", "read"]

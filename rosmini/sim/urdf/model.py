@@ -1,0 +1,336 @@
+"""A robot by its description: links, and the joints between them (http://wiki.ros.org/urdf/XML).
+
+Units and axes are REP 103's: metres, radians, kilograms, seconds; fixed-axis roll, pitch, yaw. `rosmini.sim.urdf.load`
+makes a `Robot` of a file; nothing here reads or writes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.core.errors import nearest
+from rosmini.core.geometry.products import matrix_product
+from rosmini.core.graph.show import show
+from rosmini.core.markup import Element
+
+from . import kinematics
+from .errors import UnknownJoint
+
+Floats = NDArray[np.float64]
+Vector = tuple[float, float, float]
+Colour = tuple[float, float, float, float]
+"""Red, green, blue and opacity, each from 0 to 1."""
+JointType = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a frame stands in another."""
+
+    xyz: Vector = (0.0, 0.0, 0.0)
+    rpy: Vector = (0.0, 0.0, 0.0)
+
+    @cached_property
+    def matrix(self) -> Floats:
+        """The transform (4, 4)."""
+        return kinematics.origin(self.xyz, self.rpy)
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box around its origin."""
+
+    size: Vector
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A cylinder around its origin, its axis z."""
+
+    radius: float
+    length: float
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """A sphere around its origin."""
+
+    radius: float
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A shape from a file."""
+
+    filename: str
+    """As written: ``package://...``, ``file://...`` or a path."""
+    scale: Vector = (1.0, 1.0, 1.0)
+    path: Path | None = None
+    """The file; None if it was not looked for (`load(..., meshes=False)`)."""
+
+
+Geometry = Box | Cylinder | Sphere | Mesh
+
+
+@dataclass(frozen=True)
+class Material:
+    """A colour, or a picture, with a name."""
+
+    name: str = ""
+    colour: Colour | None = None
+    texture: str = ""
+
+
+@dataclass(frozen=True)
+class Inertial:
+    """Mass [kg], its centre, and the moments of inertia about it [kg m2] along the axes of `origin`."""
+
+    mass: float
+    ixx: float = 0.0
+    ixy: float = 0.0
+    ixz: float = 0.0
+    iyy: float = 0.0
+    iyz: float = 0.0
+    izz: float = 0.0
+    origin: Origin = Origin()
+
+    @property
+    def matrix(self) -> Floats:
+        """The tensor of inertia (3, 3)."""
+        return np.array(
+            [
+                [self.ixx, self.ixy, self.ixz],
+                [self.ixy, self.iyy, self.iyz],
+                [self.ixz, self.iyz, self.izz],
+            ]
+        )
+
+
+@dataclass(frozen=True)
+class Visual:
+    """What one sees of a link."""
+
+    geometry: Geometry
+    origin: Origin = Origin()
+    material: Material | None = None
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Collision:
+    """What of a link touches others."""
+
+    geometry: Geometry
+    origin: Origin = Origin()
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid body with a frame of its name."""
+
+    name: str
+    inertial: Inertial | None = None
+    visuals: tuple[Visual, ...] = ()
+    collisions: tuple[Collision, ...] = ()
+    line: int = 0
+
+
+@dataclass(frozen=True)
+class Limit:
+    """How far, how hard and how fast a joint moves: radians or metres, N m or N, rad/s or m/s."""
+
+    lower: float = 0.0
+    upper: float = 0.0
+    effort: float = 0.0
+    velocity: float = 0.0
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """A joint follows another: ``multiplier * position + offset``."""
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """Damping [N m s/rad or N s/m] and friction [N m or N] of a joint."""
+
+    damping: float = 0.0
+    friction: float = 0.0
+
+
+@dataclass(frozen=True)
+class Joint:
+    """How a child link is connected to its parent: `origin` is the child's frame in the parent's at position 0."""
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    origin: Origin = Origin()
+    axis: Vector = (1.0, 0.0, 0.0)
+    """Of turning, of sliding, or the normal of the plane, in the child's frame; of length 1."""
+    limit: Limit | None = None
+    mimic: Mimic | None = None
+    dynamics: Dynamics | None = None
+    line: int = 0
+
+    @property
+    def moves(self) -> bool:
+        """True if one number says where it is: revolute, continuous and prismatic joints."""
+        return self.type in {"revolute", "continuous", "prismatic"}
+
+    @property
+    def rest(self) -> float:
+        """Its default position: 0, or the middle of its limits if 0 is outside (as joint_state_publisher has it)."""
+        if self.type == "continuous" or self.limit is None or self.limit.lower <= 0 <= self.limit.upper:
+            return 0.0
+        return (self.limit.lower + self.limit.upper) / 2
+
+    def transform(self, position: float = 0.0) -> Floats:
+        """The child's frame in the parent's (4, 4) at `position` [rad or m]; floating and planar joints stay at 0."""
+        if not self.moves:
+            return self.origin.matrix
+        return matrix_product(
+            self.origin.matrix, kinematics.motion(self.axis, position, slides=self.type == "prismatic")
+        )
+
+
+@dataclass(frozen=True)
+class Extension:
+    """A ``<gazebo>`` element, raw, about the link or joint `reference`; about the whole robot where that is empty."""
+
+    reference: str
+    element: Element
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A tree of links. `links` and `joints` are in the order in which they were written."""
+
+    name: str
+    links: Mapping[str, Link]
+    joints: Mapping[str, Joint]
+    root: str
+    """The link that is nobody's child."""
+    materials: Mapping[str, Material] = field(default_factory=dict)
+    extensions: tuple[Extension, ...] = ()
+    notes: tuple[str, ...] = ()
+    """What is doubtful, or left out, each with file and line: an inertia that no body has, a missing mesh..."""
+    left_out: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    """What is left out, by its kind ("a visual"): those of the notes that say so."""
+    path: str = ""
+
+    def __repr__(self) -> str:
+        return f"Robot({self.name!r}, {len(self.links)} links, {len(self.joints)} joints)"
+
+    def link(self, name: str) -> Link:
+        """The link of this name. Raises `UnknownJoint`."""
+        if name not in self.links:
+            raise UnknownJoint(self._unknown("link", name, list(self.links)))
+        return self.links[name]
+
+    def joint(self, name: str) -> Joint:
+        """The joint of this name. Raises `UnknownJoint`."""
+        if name not in self.joints:
+            raise UnknownJoint(self._unknown("joint", name, list(self.joints)))
+        return self.joints[name]
+
+    def _unknown(self, what: str, name: str, there: list[str]) -> str:
+        hint = nearest(name, there) or f"it has: {', '.join(there) or 'none'}"
+        return f"the robot {self.name!r} has no {what} {name!r}; {hint}"
+
+    @cached_property
+    def above(self) -> dict[str, Joint]:
+        """From the name of each link but the root to the joint of which it is the child."""
+        return {joint.child: joint for joint in self.joints.values()}
+
+    @cached_property
+    def order(self) -> tuple[Joint, ...]:
+        """The joints from the root outwards: each after the joint of its parent."""
+        below: dict[str, list[Joint]] = {}
+        for joint in self.joints.values():
+            below.setdefault(joint.parent, []).append(joint)
+        found: list[Joint] = []
+        waiting = [self.root]
+        while waiting:
+            joints = below.get(waiting.pop(0), [])
+            found += joints
+            waiting += [joint.child for joint in joints]
+        return tuple(found)
+
+    def children(self, link: str) -> list[str]:
+        """The child links of a link, in the order in which their joints were written."""
+        return [joint.child for joint in self.joints.values() if joint.parent == link]
+
+    @property
+    def mass(self) -> float:
+        """Of all links together [kg]."""
+        return sum(link.inertial.mass for link in self.links.values() if link.inertial)
+
+    def positions(self, joints: Mapping[str, float] | None = None) -> dict[str, float]:
+        """The positions of all joints that move [rad or m]: as given, or at rest; one that mimics another follows it.
+
+        Raises `UnknownJoint` for a joint that the robot does not have, and for one that does not move.
+        """
+        given = dict(joints or {})
+        for name in given:
+            if not self.joint(name).moves:
+                raise UnknownJoint(
+                    f"the joint {name!r} of {self.name!r} is {self.joints[name].type}: no number moves it"
+                )
+        found: dict[str, float] = {}
+
+        def position(joint: Joint) -> float:  # chains of mimics end: the reader made sure of it
+            if joint.name not in found:
+                if joint.mimic is not None:
+                    followed = position(self.joints[joint.mimic.joint])
+                    found[joint.name] = joint.mimic.multiplier * followed + joint.mimic.offset
+                else:
+                    found[joint.name] = float(given.get(joint.name, joint.rest))
+            return found[joint.name]
+
+        return {joint.name: position(joint) for joint in self.joints.values() if joint.moves}
+
+    def transforms(self, joints: Mapping[str, float] | None = None) -> dict[str, Floats]:
+        """Where every link's frame is in the root's (4, 4), by the positions of joints [rad or m]; see `positions`.
+
+        Raises `UnknownJoint`.
+        """
+        at = self.positions(joints)
+        found = {self.root: np.eye(4)}
+        for joint in self.order:
+            found[joint.child] = matrix_product(found[joint.parent], joint.transform(at.get(joint.name, 0.0)))
+        return found
+
+    def show(self, **options: Any) -> Any:
+        """A picture of the tree of links and joints.
+
+        Options, with what they are unless given:
+            title=None: a caption under the picture, and the first words of its text form
+        """
+        return show("robot", self, **options)
+
+    def show3d(self, joints: Mapping[str, float] | None = None, **options: Any) -> Any:
+        """The robot in three dimensions, its joints at these positions [rad or m] or at rest.
+
+        Options, with what they are unless given:
+            collisions=False: show the shapes that touch others in place of those that one sees
+            distance=None: of the camera from what it looks at [m]; None: what shows it well
+            azimuth=None: where the camera is [deg]: 0 towards x, 90 towards y; None: what shows it well
+            elevation=None: how high above the horizon it is [deg]; None: what shows it well
+            title=None: a caption under the picture, and the first words of its text form
+            height=420: of the viewer [CSS px]
+        """
+        return show("robot_3d", self, joints=joints, **options)

@@ -1,0 +1,325 @@
+"""xacro: macros of robot descriptions (http://wiki.ros.org/xacro), by ROS's own program of that name from PyPI.
+
+That package finds packages as ROS 2 does; here ``$(find ...)`` asks our `PackageIndex`. Each file is first read by
+`rosmini.core.markup`, which reports bad XML with its line and refuses hostile XML. Expressions are confined (see
+`rosmini.sim.urdf.confined`) unless the caller says otherwise.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+import threading
+import xml.dom.minidom
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.expressions import ExpressionError, NotAllowed
+from rosmini.core.files import exists
+from rosmini.core.markup import Element, parse, parse_file
+from rosmini.core.packages import SCHEME, PackageIndex
+
+from .confined import Confined
+from .errors import UrdfError
+from .old_xacro import OldStyle
+
+USAGE = "usage: xacro [-o FILE] [--unconfined] INPUT [name:=value ...]"
+
+UNCONFINED = (
+    "in xacro's expressions rosmini allows what computes, and no more of it than a robot needs; if you trust this file "
+    "with all that Python can do on this computer, add --unconfined to the command, or confined=False to the call"
+)
+
+MOST_MACROS = 5
+"""So many macros, one in another, an error names."""
+
+SHOWN = 1000
+"""How many characters of the beginning and of the end of xacro's message an error has."""
+
+_one_at_a_time = threading.Lock()
+"""xacro keeps what it works on in its module."""
+
+
+def expand(
+    path: str | PathLike[str],
+    mappings: Mapping[str, Any] | None = None,
+    *,
+    packages: PackageIndex | None = None,
+    confined: bool = True,
+) -> str:
+    """The URDF that a xacro file means.
+
+    Args:
+        path: the file; also ``package://...``.
+        mappings: arguments by name, as ``name:=value`` on the command line.
+        packages: where packages of ``$(find ...)`` are; by default `PackageIndex()`.
+        confined: False hands expressions to Python's ``eval``, as ROS does: they can do whatever you can do here.
+
+    Raises:
+        UrdfError: a file cannot be read or is not XML; a macro, property, argument or package is unknown; an expression
+            fails or is not allowed.
+
+    """
+    index = packages if packages is not None else PackageIndex()
+    try:
+        file = index.resolve(fspath(path)) if fspath(path).startswith(SCHEME) else Path(path)
+    except RosminiError as error:
+        raise UrdfError(str(error)) from error
+    given = {name: _written(value) for name, value in (mappings or {}).items()}
+    with _one_at_a_time:
+        document = _process(file, given, index, confined=confined)
+    root = document.documentElement
+    assert root is not None  # noqa: S101 (a document has one)
+    return f'<?xml version="1.0" ?>\n{root.toprettyxml(indent="  ")}'
+
+
+def _written(value: Any) -> str:
+    """An argument as launch files write it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _process(
+    file: Path, mappings: dict[str, str], index: PackageIndex, *, confined: bool
+) -> xml.dom.minidom.Document:
+    """What xacro makes of a file, with our eyes for packages and for XML."""
+    import xacro
+    from xacro import substitution_args
+
+    known: list[str] = []
+    with _lent(xacro, substitution_args, file if confined else None, index, known):
+        try:
+            document: xml.dom.minidom.Document = xacro.process_file(str(file), mappings=dict(mappings))
+        # Expressions are Python: whatever they raise, the description is broken.
+        except Exception as error:
+            cause = _cause(error)
+            if isinstance(cause, UrdfError) and (cause.file in (None, str(file)) or exists(str(cause.file))):
+                if cause is error:
+                    raise
+                raise cause from error
+            stack = [name for name in reversed(xacro.filestack or []) if name and exists(name)]
+            known = [name for name in known if exists(name)]
+            where = stack[0] if stack else str(file)
+            message = _message(error, mappings, known)
+            line = _line(error, [*stack, *known])
+            macros = [each.body.getAttribute("name") for each in reversed(xacro.macrostack or [])]
+            line = line or _call(message, macros, known)
+            told = [*macros[:MOST_MACROS], *(["..."] if len(macros) > MOST_MACROS else [])]
+            inside = f" (in the macro {', called by '.join(told)})" if macros else ""
+            raise UrdfError(message + inside, *(line or (where, None))) from error
+    return document
+
+
+@contextmanager
+def _lent(
+    xacro: Any, substitution: Any, confined: Path | None, index: PackageIndex, known: list[str]
+) -> Iterator[None]:
+    """Inside, xacro finds packages by our index, reads files as we do, and is confined; its globals are restored after.
+
+    `confined` is the expanded file, or None if it may do whatever it likes.
+    """
+
+    def find(name: str) -> str:
+        return str(index.path(name))
+
+    limits = None if confined is None else Confined(xacro, substitution, confined, find)
+    old_style = OldStyle(xacro)
+
+    def read(text: Any, filename: str | None = None) -> xml.dom.minidom.Document:
+        if text is not None or filename is None:
+            source = text if isinstance(text, str | bytes) else text.read()
+            parse(source, "<text>", UrdfError)
+            return xml.dom.minidom.parseString(source)  # noqa: S318 (found harmless in the line above)
+        if not exists(filename):  # xacro lets it pass where an include is optional
+            xacro.filestack.pop()
+            missing = OSError(f"{filename}: cannot be read: No such file or directory")
+            raise xacro.XacroException(exc=missing)
+        known.append(filename)
+        if limits is not None:
+            limits.opened(filename)
+        parse_file(filename, UrdfError)
+        document = xml.dom.minidom.parse(filename)  # noqa: S318 (found harmless in the line above)
+        old_style.add_prefixes(document, filename)
+        return document
+
+    arguments = xacro.substitution_args_context
+    symbols = substitution._eval_dict  # noqa: SLF001 (there is no other way in)
+    kept = dict(arguments), symbols["find"]
+    for_xacro = {} if limits is None else limits.for_xacro()
+    for_substitution = {} if limits is None else limits.for_substitution()
+    with (
+        _set(substitution, _eval_find=find, **for_substitution),
+        _set(
+            xacro,
+            parse=read,
+            filestack=None,
+            macrostack=None,
+            all_includes=[],
+            handle_macro_call=old_style.handle_macro_call,
+            **for_xacro,
+        ),
+    ):
+        try:
+            symbols["find"] = find
+            arguments.clear()
+            yield
+        finally:
+            arguments.clear()
+            arguments.update(kept[0])
+            symbols["find"] = kept[1]
+
+
+@contextmanager
+def _set(module: Any, **values: Any) -> Iterator[None]:
+    """While it lasts, names in a module stand for other things."""
+    before = {name: getattr(module, name) for name in values}
+    for name, value in values.items():
+        setattr(module, name, value)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            setattr(module, name, value)
+
+
+def _cause(error: BaseException) -> BaseException:
+    """What xacro wrapped."""
+    while getattr(error, "exc", None) is not None:
+        error = error.exc  # type: ignore[attr-defined]  # as was just asked
+    return error
+
+
+def _is_refused(error: BaseException | None) -> bool:
+    """Tell whether something was not allowed, at the bottom of it all."""
+    while error is not None:
+        if isinstance(error, NotAllowed):
+            return True
+        error = getattr(error, "exc", None) or error.__cause__
+    return False
+
+
+def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]) -> str:
+    """What xacro says, with what helps."""
+    said = " ".join(_ends(str(error)).split()) or repr(error)
+    unknown = re.search(r"unknown macro name: xacro:(\S+)", said)
+    if unknown:
+        there = re.findall(r"<(?:xacro:)?macro[^>]*\bname=[\"']([^\"']+)", _text(files))
+        hint = nearest(unknown[1], there)
+        return f"there is no macro xacro:{unknown[1]}{f'; {hint}' if hint else ''}"
+    argument = re.search(r"Undefined substitution argument (\S+)", said)
+    if argument:
+        hint = nearest(argument[1], mappings)
+        return (
+            f"$(arg {argument[1]}) was not given and has no default: say {argument[1]}:=VALUE, or add "
+            f'<xacro:arg name="{argument[1]}" default="..."/>{f"; {hint}" if hint else ""}'
+        )
+    cause = _cause(error)
+    if _is_refused(error):
+        return f"{said}: {UNCONFINED}"
+    if isinstance(cause, RosminiError) and not isinstance(cause, ExpressionError):
+        return str(cause)
+    if isinstance(cause, RecursionError):
+        return "macros call or include one another without end"
+    return re.sub(r"<class '[\w.]+'>: ", "", said)
+
+
+def _ends(text: str) -> str:
+    """The beginning and the end of a text: expressions may be long, and patterns take the square of their length."""
+    return text if len(text) <= 2 * SHOWN else f"{text[:SHOWN]} ... {text[-SHOWN:]}"
+
+
+def _text(files: Sequence[str]) -> str:
+    return "\n".join(Path(name).read_text(encoding="utf-8", errors="replace") for name in files)
+
+
+def _line(error: Exception, files: Sequence[str]) -> tuple[str, int] | None:
+    """File and line of what xacro complains about: it does not say, but what it quotes is found in one of the files."""
+    said = _ends(str(error))
+    patterns = (
+        (r"when evaluating expression '(.+)'", "{}"),
+        (r"unknown macro name: (\S+)", "<{}"),
+        (r"Undefined substitution argument (\S+)", "$(arg {})"),
+        (r"there is no package '(\S+)'", "$(find {})"),
+        (r'Undefined block "(\S+)"', "{}"),
+        (r"No such file or directory: (\S+)", "{}"),
+        (r"([^/\s]+): cannot be read", "/{}"),
+        (r"Unknown substitution command \[(.+?)\]", "$({}"),
+        (r"accepts exactly one argument \[(.+?)\]", "$({}"),
+        (r"invalid expression: (.+)", "{}"),
+    )
+    unbound = re.search(r"unbound prefix: line (\d+)", said)
+    if unbound:
+        return files[-1], int(unbound[1])
+    lacking = re.search(r"(xacro:\w+): missing attribute '(\w+)'", said)
+    if lacking:
+        return _element(files, lacking[1], lambda found: lacking[2] not in found.attributes)
+    for pattern, wanted in patterns:
+        found = re.search(pattern, said)
+        if found:
+            text = wanted.format(found[1])
+            for name in files:
+                for number, line in enumerate(_text([name]).splitlines(), start=1):
+                    if text in line:
+                        return name, number
+    return None
+
+
+def _call(message: str, macros: Sequence[str], files: Sequence[str]) -> tuple[str, int] | None:
+    """File and line of the call of a macro that lacks parameters, or that has one too many."""
+    lacking = re.search(r"Undefined parameters \[(.+?)\]", message)
+    wrong = re.search(r'Invalid parameter "(.+?)"', message)
+    if not macros or not (lacking or wrong):
+        return None
+    tag = f"xacro:{macros[0]}"
+    if wrong:
+        return _element(files, tag, lambda found: wrong[1] in found.attributes)
+    names = lacking[1].split(",") if lacking else []
+    return _element(files, tag, lambda found: not any(name in found.attributes for name in names))
+
+
+def _element(files: Sequence[str], tag: str, wanted: Callable[[Element], bool]) -> tuple[str, int] | None:
+    """File and line of the first element of this tag that is as wanted."""
+    for name in dict.fromkeys(files):
+        for found in parse_file(name, UrdfError).walk():
+            if found.tag == tag and wanted(found):
+                return name, found.line
+    return None
+
+
+def main(arguments: Sequence[str]) -> int:
+    """`rosrun xacro xacro FILE name:=value ...`: print the URDF or write it to the file after `-o`; the exit status.
+
+    Obsolete options (`--inorder`, `-i`) are ignored, as there.
+    """
+    mappings: dict[str, str] = {}
+    files: list[str] = []
+    output = None
+    confined = True
+    rest = list(arguments)
+    while rest:
+        word = rest.pop(0)
+        if word == "-o" and rest:
+            output = Path(rest.pop(0))
+        elif word == "--unconfined":
+            confined = False
+        elif ":=" in word:
+            name, _, value = word.partition(":=")
+            mappings[name] = value
+        elif word not in {"--inorder", "-i", "--xacro-ns"}:
+            files.append(word)
+    if len(files) != 1 or files[0].startswith("-"):
+        print(f"xacro takes one file, not {' '.join(files) or 'none'}\n{USAGE}", file=sys.stderr)
+        return 2
+    try:
+        text = expand(files[0], mappings, confined=confined)
+        if output is not None:
+            output.write_text(text, encoding="utf-8")
+    except (RosminiError, OSError) as error:
+        print(f"xacro: {error}", file=sys.stderr)
+        return 2
+    if output is None:
+        print(text.rstrip("\n"))
+    return 0

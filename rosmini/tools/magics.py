@@ -1,0 +1,161 @@
+"""ROS's commands as line magics: ``%rostopic echo -n 3 /scan`` in a cell is ``rosmini rostopic echo -n 3 /scan``.
+
+``%load_ext rosmini`` registers those of :data:`rosmini.tools.main.COMMANDS` that are magics. They act on the default
+graph, print what the command prints, and return its result: ``found = %rosnode list`` and then ``found.names``. Of a
+line only ``$name`` is replaced, by the value of that variable; braces are YAML's. There is no shell behind it.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from contextlib import nullcontext
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import UsageError, nearest
+from rosmini.core.graph.notebook import mark_as_shown
+
+from . import failing
+from .completion import candidates
+from .main import COMMANDS, chosen
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from contextlib import AbstractContextManager
+
+    from .verbs import Result, Tool
+
+OPERATORS = "|<>;&"
+"""What a shell would take as its own."""
+
+SLIPS = ("roscpp", "rosmmsg", "rostop")
+"""What is often typed for a command; the error names the right one."""
+
+_VARIABLE = re.compile(r"\$(?:(\$)|([A-Za-z_]\w*))")
+
+
+def register(
+    shell: Any,
+    *,
+    say: Callable[[str], object] = print,
+    warn: Callable[[str], object] = print,
+    around: Callable[[], AbstractContextManager[object]] = nullcontext,
+) -> None:
+    """Register the commands as line magics of an IPython shell, with completion of their words.
+
+    ``say`` prints, ``warn`` what is amiss, and each command runs in what ``around`` makes.
+    """
+    from IPython.core.magic import no_var_expand
+
+    for name, entry in COMMANDS.items():
+        if entry.is_magic:
+            magic = partial(run, shell, name, say=say, warn=warn)
+            shell.register_magic_function(
+                no_var_expand(_documented(magic, name, entry.summary, around)), "line", name
+            )
+            shell.set_hook("complete_command", _complete, str_key=f"%{name}")
+    for name in SLIPS:
+        shell.register_magic_function(no_var_expand(_slip(name)), "line", name)
+    failing.register(shell)
+
+
+def _slip(name: str) -> Callable[[str], None]:
+    def act(line: str) -> None:
+        chosen([name, *line.split()])
+
+    act.__name__, act.__doc__ = name, "This is no command; its error names the one that is meant."
+    return act
+
+
+def _documented(
+    magic: Callable[[str], Result],
+    name: str,
+    summary: str,
+    around: Callable[[], AbstractContextManager[object]],
+) -> Callable[[str], Result]:
+    """Return the magic as a function with a name and a help text."""
+
+    def act(line: str) -> Result:
+        with around():
+            return magic(line)
+
+    act.__name__, act.__doc__ = name, f"{summary}. `%{name} -h` lists the verbs."
+    return act
+
+
+def _complete(_shell: Any, event: Any) -> list[str]:
+    """Return what the word before the cursor may become."""
+    from rosmini.core.graph import running_graph
+
+    before = event.text_until_cursor.lstrip().removeprefix("%").split()
+    if event.text_until_cursor[-1:].isspace():
+        before.append("")
+    return candidates(before, running_graph())
+
+
+def tool(name: str) -> Tool:
+    """Return the tool that a magic runs."""
+    loaded: Any = COMMANDS[name].load()
+    found: Tool = getattr(loaded, "TOOL", loaded)
+    return found
+
+
+def run(
+    shell: Any,
+    name: str,
+    line: str,
+    *,
+    say: Callable[[str], object] = print,
+    warn: Callable[[str], object] = print,
+    console: Mapping[str, Any] | None = None,
+) -> Result:
+    """Do what a line says, print it, and return the result; ``console`` is for nodes that it starts.
+
+    What is amiss is printed as all else: a notebook shows standard error after standard output. Raises as
+    :meth:`rosmini.tools.verbs.Tool.run` does.
+    """
+    split = words(line, name, shell.user_ns)
+    result = tool(name).run(*split, say=say, warn=warn, tells_time=True, console=console)
+    view = getattr(result, "view", None)
+    if view is not None:
+        from IPython.core.display_functions import display
+
+        display(view)  # type: ignore[no-untyped-call]
+    for text in filter(None, ("" if view else str(result), *result.complaints)):
+        say(text)
+    mark_as_shown(result, shell)
+    return result
+
+
+def words(line: str, name: str, variables: Mapping[str, Any]) -> list[str]:
+    """Return the words of a line as a shell splits it, with ``$name`` replaced; ``$$`` is a dollar sign.
+
+    Raises ``UsageError`` for what only a shell can do, for a quotation without end, and for an unknown variable.
+    """
+    lexer = shlex.shlex(line, posix=True, punctuation_chars=OPERATORS)
+    lexer.whitespace_split, lexer.commenters = True, ""
+    if os.name == "nt":
+        lexer.escape = ""  # it separates folders there
+    try:
+        split = list(lexer)
+    except ValueError as error:
+        raise UsageError(f"%{name}: {error}: a quotation mark in the line has no partner") from error
+    for word in split:
+        if word and not word.strip(OPERATORS):
+            raise UsageError(
+                f"%{name} runs no shell, and `{word}` is a shell's. Quote it if it belongs to an argument; "
+                f"the result itself is what `result = %{name} ...` returns"
+            )
+    return [_VARIABLE.sub(partial(_value, variables, name), word) for word in split]
+
+
+def _value(variables: Mapping[str, Any], name: str, match: re.Match[str]) -> str:
+    if match[1]:
+        return "$"
+    if match[2] not in variables:
+        own = [known for known in variables if not known.startswith("_")]
+        hint = nearest(match[2], own) or "write $$ for a dollar sign"
+        raise UsageError(f"%{name}: there is no variable {match[2]}; {hint}")
+    return str(variables[match[2]])

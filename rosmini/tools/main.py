@@ -1,0 +1,340 @@
+"""The `rosmini` command: finds the subcommand that was asked for and imports that one only.
+
+A subcommand is a module with `add_parser(subparsers)`, which adds its own parser, and `main(args) -> int`,
+which does the work and returns the exit status.
+"""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import importlib
+import io
+import os
+import sys
+import textwrap
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
+
+from rosmini import __version__
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.names import ROS_RELEASE
+
+from .checkout import find_checkout
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+
+class Command(Protocol):
+    """What the module of a subcommand provides."""
+
+    def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
+        """Add the subcommand's parser."""
+
+    def main(self, args: argparse.Namespace) -> int:
+        """Do it; the exit status."""
+
+
+ROS, OWN, BUILD, BOOK = "ROS's own commands", "Run and look", "Packages", "The book"
+"""The headings of `rosmini --help`."""
+
+WELCOME = """\
+Learn ROS by driving a robot.
+
+  rosmini lab                                       the chapters, in JupyterLab
+  rosmini run talker.py + listener.py               your own rospy scripts
+  rosmini roslaunch rosmini_sim navigation.launch   a robot that finds its way;
+  rosmini rviz                                      then click a goal for it
+
+`rosmini --help` lists all commands."""
+"""What `rosmini` prints without arguments."""
+
+
+class Entry(NamedTuple):
+    """Where a subcommand lives, and the line that `rosmini --help` shows without importing it."""
+
+    module: str
+    summary: str
+    folder: str | None = None
+    """The folder of a checkout from which the module is imported; None: it is in the installed package."""
+    is_magic: bool = False
+    """Whether notebooks have it as a line magic, too: its module has a ``TOOL``."""
+    only: str = ""
+    """The verb of that tool that the subcommand stands for, if it is one verb only."""
+    group: str = ROS
+    """The heading under which `rosmini --help` lists it."""
+
+    def load(self) -> Command:
+        """Import the subcommand. Raises `NoCheckout` if it needs a checkout and there is none."""
+        if self.folder is not None and (home := str(find_checkout() / self.folder)) not in sys.path:
+            sys.path.insert(0, home)
+        module = importlib.import_module(self.module)
+        return cast("Command", vars(module)["TOOL"].alone(self.only) if self.only else module)
+
+
+RQT = {
+    "graph": "the computation graph",
+    "plot": "numbers in messages over time",
+    "topic": "topics with types, bandwidths, rates and values",
+    "msg": "the fields of a message type",
+    "srv": "the fields of a service type",
+    "action": "the fields of an action type",
+    "console": "what nodes log",
+    "bag": "what is in a bag, over time",
+    "tf_tree": "the tree of frames",
+    "image_view": "the next image on a topic",
+    "gui": "several plugins in one window",
+    "robot_steering": "drive a robot, with keys",
+    "publisher": "publish on topics, from a form",
+    "service_caller": "call services, from a form",
+    "logger_level": "how much each node logs, from a form",
+    "reconfigure": "parameters of nodes that run, from a form",
+}
+"""The tools of rqt, each a verb of `rosmini rqt`."""
+
+COMMANDS: dict[str, Entry] = {
+    "roscore": Entry("rosmini.tools.roscore", "start the Master, the Parameter Server and /rosout"),
+    "rosrun": Entry("rosmini.tools.rosrun", "run a node in a process of its own"),
+    "roslaunch": Entry(
+        "rosmini.tools.roslaunch",
+        "start the nodes of launch files, or show what the files mean",
+        is_magic=True,
+    ),
+    "test": Entry("rosmini.tools.test", "run the tests in launch files", group=OWN),
+    "run": Entry(
+        "rosmini.tools.run", "run rospy scripts as nodes of one graph, also faster than real time", group=OWN
+    ),
+    "rosnode": Entry("rosmini.tools.rosnode", "list, describe, ping and end nodes", is_magic=True),
+    "rostopic": Entry(
+        "rosmini.tools.rostopic", "list topics, print and publish messages, measure rates", is_magic=True
+    ),
+    "rosservice": Entry("rosmini.tools.rosservice", "list, describe and call services", is_magic=True),
+    "rosmsg": Entry("rosmini.tools.rosmsg", "show message types", is_magic=True),
+    "rossrv": Entry("rosmini.tools.rossrv", "show service types", is_magic=True),
+    "roswtf": Entry(
+        "rosmini.tools.roswtf", "find probable mistakes in the graph, and say how to fix them", is_magic=True
+    ),
+    "roswhy": Entry(
+        "rosmini.tools.roswhy", "explain why the last message on a topic was sent", is_magic=True, group=OWN
+    ),
+    "rossequence": Entry(
+        "rosmini.tools.rossequence",
+        "show who called whom and who sent what to whom",
+        is_magic=True,
+        group=OWN,
+    ),
+    "fault": Entry(
+        "rosmini.tools.fault",
+        "cause a fault: lost, late or repeated messages, a dead node, a clock that jumps",
+        is_magic=True,
+        group=OWN,
+    ),
+    "rosparam": Entry(
+        "rosmini.tools.rosparam", "get, set, load, dump, delete and list parameters", is_magic=True
+    ),
+    "rqt": Entry("rosmini.tools.rqt", "the tools of rqt as pictures", is_magic=True),
+    **{
+        f"rqt_{verb}": Entry("rosmini.tools.rqt", f"rqt: {summary}", is_magic=True, only=verb)
+        for verb, summary in RQT.items()
+    },
+    "logo": Entry(
+        "rosmini.tools.logo", "run a Logo program that drives turtles and robots", is_magic=True, group=OWN
+    ),
+    "rviz": Entry(
+        "rosmini.tools.rviz",
+        "show a robot, its sensors and its plans in the browser, and send it goals",
+        is_magic=True,
+    ),
+    "rosbag": Entry("rosmini.tools.rosbag", "record, play and inspect bags", is_magic=True),
+    "rospack": Entry(
+        "rosmini.tools.rospack",
+        "find packages, and list what they depend on and export",
+        is_magic=True,
+        group=BUILD,
+    ),
+    "rosstack": Entry(
+        "rosmini.tools.rosstack",
+        "find stacks and metapackages, and list their contents",
+        is_magic=True,
+        group=BUILD,
+    ),
+    "roscd": Entry("rosmini.tools.roscd", "go to the folder of a package", is_magic=True, group=BUILD),
+    "rosls": Entry("rosmini.tools.rosls", "list the folder of a package", is_magic=True, group=BUILD),
+    "rosversion": Entry(
+        "rosmini.tools.rosversion", "print the version of a package", is_magic=True, group=BUILD
+    ),
+    "aliases": Entry(
+        "rosmini.tools.aliases",
+        "print shell lines that define the bare names (rostopic ...) and completion",
+        group=OWN,
+    ),
+    "catkin_init_workspace": Entry(
+        "rosmini.tools.catkin_init_workspace",
+        "make a folder the source space of a workspace",
+        is_magic=True,
+        group=BUILD,
+    ),
+    "catkin_create_pkg": Entry(
+        "rosmini.tools.catkin_create_pkg", "create a package", is_magic=True, group=BUILD
+    ),
+    "catkin_make": Entry("rosmini.tools.catkin_make", "build a workspace", is_magic=True, group=BUILD),
+    "stubs": Entry("rosmini.tools.stubs", "write type stubs of rospy and of messages for editors", group=OWN),
+    "mcap": Entry(
+        "rosmini.tools.mcap", "convert between bags and MCAP files, which Foxglove opens", group=OWN
+    ),
+    "gz": Entry("rosmini.tools.gz", "Gazebo's own tool: topics, models, time, SDF files", group=OWN),
+    "world": Entry(
+        "rosmini.tools.world", "list worlds, and check files of worlds, maps and robots", group=OWN
+    ),
+    "book": Entry("book.tools.book", "build this book and open it", ".", group=BOOK),
+    "lab": Entry("book.tools.lab", "open the chapters in JupyterLab", ".", group=BOOK),
+    "bench": Entry(
+        "rosmini_bench",
+        "measure rosmini beside real ROS and other simulators",
+        "tests/benchmarks",
+        group=BOOK,
+    ),
+}
+
+
+NO_COMMANDS = {
+    "roscpp": "that is the library for nodes in C++; `rosnode` lists nodes, tells about them and ends them",
+    "rospy": "that is the library for nodes in Python; `rosrun PACKAGE SCRIPT` starts a script that imports it",
+    "rosmake": "packages are built by `catkin_make`",
+    "roscreate-pkg": "packages are created by `catkin_create_pkg`",
+}
+"""What is taken for a command, or was one, and what to write."""
+
+
+def chosen(argv: Sequence[str]) -> str | None:
+    """The subcommand that `argv` names: its first word that is not an option; None if there is no such word.
+
+    Raises `RosminiError` if that word is no subcommand.
+    """
+    words = [word for word in argv if not word.startswith("-")]
+    if not words or words[0] in COMMANDS:
+        return words[0] if words else None
+    word, *rest = words
+    guess = NO_COMMANDS.get(word) or nearest(word, COMMANDS)
+    if rest and f"ros{rest[0]}" in COMMANDS:  # `rostop node list`
+        guess = f"did you mean `{' '.join(['ros' + rest[0], *rest[1:]])}`?"
+    raise RosminiError(f"there is no command {word!r}; {guess or '`rosmini --help` lists all commands'}")
+
+
+def build_parser(loaded: dict[str, Command], *, others: bool = True) -> argparse.ArgumentParser:
+    """The parser, with the options of the `loaded` subcommands and, with ``others``, the names of all the rest.
+
+    A tool that starts does not need the others: making sixty parsers takes longer than answering its question.
+    """
+    parser = argparse.ArgumentParser(
+        prog="rosmini",
+        usage="rosmini COMMAND ..." if others else None,
+        description="ROS 1 that you can read, run and test.",
+        epilog=grouped_commands() if others else None,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="store_true", help="print the version and exit")
+    subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", help=argparse.SUPPRESS)
+    for name in COMMANDS:
+        if name in loaded:
+            loaded[name].add_parser(subparsers)
+        elif others:
+            subparsers.add_parser(name, add_help=False)
+    return parser
+
+
+def grouped_commands() -> str:
+    """The commands with their summaries, under headings; the tools of rqt are one line."""
+    lines = []
+    for group in (ROS, OWN, BUILD, BOOK):
+        lines.append(f"{group}:")
+        shown = {name: entry.summary for name, entry in COMMANDS.items() if entry.group == group}
+        tools = [name for name in shown if name.startswith("rqt_")]
+        width = max(len(name) for name in shown if name not in tools)
+        for name, summary in shown.items():
+            if name not in tools:
+                lines.append(f"  {name:{width}}  {summary}")
+            if name == "rqt":
+                lines += textwrap.wrap(
+                    ", ".join(tools), 78, initial_indent=" " * 4, subsequent_indent=" " * 4
+                )
+        lines.append("")
+    return "\n".join([*lines, "`rosmini COMMAND --help` says more about a command."])
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run `rosmini` with `argv` (default: the command line) and return its exit status.
+
+    0 is success, 1 a failure that was reported, 2 a command line that makes no sense, 130 Ctrl-C.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a message's letter that the locale lacks ends no command
+            stream.reconfigure(errors="backslashreplace")
+    argv = sys.argv[1:] if argv is None else list(argv)
+    try:
+        name = chosen(argv)
+    except RosminiError as error:
+        print(f"rosmini: {error}", file=sys.stderr)
+        return 2
+    with _ros_release():
+        return _run(name, argv)
+
+
+@contextmanager
+def _ros_release() -> Iterator[None]:
+    """Set the environment variables that name the ROS release, as a setup file of ROS does."""
+    missing = ROS_RELEASE.keys() - os.environ.keys()
+    os.environ.update({variable: ROS_RELEASE[variable] for variable in missing})
+    try:
+        yield
+    finally:
+        for variable in missing:
+            os.environ.pop(variable, None)
+
+
+def _run(name: str | None, argv: list[str]) -> int:
+    """Run a subcommand and return its exit status; errors are reported."""
+    try:
+        loaded = {name: COMMANDS[name].load()} if name else {}
+        parser = build_parser(loaded, others=argv[:1] != [name])
+        args = parser.parse_args(argv)
+        if args.version:
+            print(f"rosmini {__version__}")
+            return 0
+        if name is None:
+            print(WELCOME)
+            return 2
+        status = loaded[name].main(args)
+        sys.stdout.flush()
+        return status
+    except RosminiError as error:
+        print(f"rosmini {name}: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        return _system_refused(error, name)
+    except KeyboardInterrupt:
+        print(file=sys.stderr)
+        return 130
+
+
+def _system_refused(error: OSError, name: str | None) -> int:
+    """Return the exit status after an error of the operating system that has a simple cause, and report it.
+
+    Such causes are a file that cannot be opened, a reader of the output that has ended (`head`), and a full disk.
+    Raises any other error again.
+    """
+    if error.filename is not None:
+        print(f"rosmini {name}: cannot open {error.filename}: {error.strerror}", file=sys.stderr)
+        return 1
+    if not isinstance(error, BrokenPipeError) and error.errno != errno.ENOSPC:
+        raise error
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left of the output is not wanted
+    if isinstance(error, BrokenPipeError):
+        return 0
+    print(f"rosmini {name}: the output cannot be written: {error.strerror}", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

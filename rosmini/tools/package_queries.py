@@ -1,0 +1,264 @@
+"""What `rospack` and `rosstack` are asked, which is nearly the same (http://docs.ros.org/independent/api/rospkg)."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from rosmini.core.errors import DefinitionError, RosminiError, UnknownPackage, UsageError, nearest
+from rosmini.core.packages import PackageIndex, crawl
+from rosmini.core.packages.dependencies import Dependencies
+
+from .verbs import ArgumentParser, Call, Lines, Result, Tool, VerbError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+SHOWN = 20
+"""The number of folders that `profile` shows by default."""
+
+
+@dataclass(frozen=True)
+class Queries:
+    """One of the two tools, and what it asks of the packages that can be found now."""
+
+    tool: Tool
+    stacks: bool
+
+    @property
+    def noun(self) -> str:
+        """What it is asked about."""
+        return "stack" if self.stacks else "package"
+
+    def known(self) -> Dependencies:
+        """All that can be found."""
+        return Dependencies(PackageIndex(), self.stacks)
+
+    def error(self, text: str) -> VerbError:
+        """An error in the form of the original tool, to be raised."""
+        return VerbError(f"[{self.tool.name}] Error: {text}")
+
+    @contextmanager
+    def told(self, missing: str) -> Iterator[None]:
+        """Raise errors in the form of the original tool; ``missing`` is its text for a name that is not there."""
+        try:
+            yield
+        except UnknownPackage as error:
+            raise self.error(f"{missing}\n{error}".rstrip()) from error
+        except VerbError:
+            raise
+        except RosminiError as error:
+            raise self.error(str(error)) from error
+
+    def name(self, given: argparse.Namespace, known: Dependencies) -> str:
+        """The package or stack that is asked about: by default the one around the working folder."""
+        if given.name:
+            return str(given.name)
+        here = Path.cwd()
+        around = {known.path(name).resolve(): name for name in known.names()}
+        for folder in (here, *here.parents):
+            if folder.resolve() in around:
+                return around[folder.resolve()]
+        raise self.error(f"no {self.noun} given")
+
+    def lines(self, given: argparse.Namespace, ask: Callable[[Dependencies, str], Sequence[str]]) -> Lines:
+        """The answer to a question about one of them."""
+        known = self.known()
+        name = self.name(given, known)
+        with self.told(f"no such {self.noun} {name}"):
+            return Lines(lines=tuple(ask(known, name)))
+
+    def parser(self, verb: str, *options: str, named: str = "") -> Callable[[], ArgumentParser]:
+        """The parser of a verb with these options; ``named`` is what it takes a name of, if anything."""
+
+        def make() -> ArgumentParser:
+            epilog = f"for example: rosmini {self.tool.name} {verb}{' std_msgs' if named else ''}"
+            parser = ArgumentParser(
+                f"rosmini {self.tool.name} {verb}", self.tool.verbs[verb].summary, epilog=epilog
+            )
+            if named:
+                parser.add_argument(
+                    "name", nargs="?", help=f"the {named}; by default that of the working folder"
+                )
+            for option in options:
+                if option.endswith("?"):
+                    parser.add_argument(f"--{option[:-1]}", action="store_true")
+                else:
+                    parser.add_argument(f"--{option}")
+            return parser
+
+        return make
+
+    def register(self) -> None:
+        """Add the verbs that both tools have, under all their names."""
+        noun = self.noun
+
+        def add(
+            names: str,
+            summary: str,
+            act: Callable[[argparse.Namespace, Call], Result],
+            *options: str,
+            named: str = noun,
+        ) -> None:
+            for name in names.split():
+                parser = self.parser(name, *options, named=named)
+                self.tool.verb(summary, name=name, parser=parser)(act)
+
+        add("find", f"print the folder of a {noun}", self._find)
+        add("list", f"list {noun}s and their folders", self._list, named="")
+        add("list-names", f"list the names of {noun}s", self._list_names, named="")
+        add("depends deps", f"list all that a {noun} needs", self._depends)
+        add("depends1 deps1", f"list what a {noun} needs directly", self._depends1)
+        add("depends-indent deps-indent", f"list all that a {noun} needs, as a tree", self._indent)
+        add(
+            "depends-manifests deps-manifests",
+            f"list the manifests of all that a {noun} needs",
+            self._manifests,
+        )
+        add("depends-why deps-why", f"list every way in which a {noun} needs another", self._why, "target")
+        add("depends-on", f"list all {noun}s that need one", self._depends_on)
+        add("depends-on1", f"list the {noun}s that need one directly", self._depends_on1)
+        add("profile", "time the search, by folder", self._profile, "length", "zombie-only?", named="")
+
+    # -- verbs -------------------------------------------------------------------------------------------------
+
+    def _find(self, given: argparse.Namespace, _call: Call) -> Lines:
+        known = self.known()
+        name = self.name(given, known)
+        with self.told(f"{self.noun} '{name}' not found"):
+            return Lines(lines=(str(known.path(name)),))
+
+    def _list(self, _given: argparse.Namespace, _call: Call) -> Lines:
+        known = self.known()
+        return Lines(
+            lines=tuple(f"{name} {known.path(name)}" for name in known.names()),
+            complaints=self._broken(known),
+        )
+
+    def _list_names(self, _given: argparse.Namespace, _call: Call) -> Lines:
+        known = self.known()
+        return Lines(lines=tuple(known.names()), complaints=self._broken(known))
+
+    def _broken(self, known: Dependencies, more: Sequence[DefinitionError] = ()) -> tuple[str, ...]:
+        """What to say of manifests that could not be read."""
+        return tuple(f"[{self.tool.name}] Warning: {each}" for each in (*known.index.problems(), *more))
+
+    def _depends(self, given: argparse.Namespace, _call: Call) -> Lines:
+        return self.lines(given, lambda known, name: known.all_of(name))
+
+    def _depends1(self, given: argparse.Namespace, _call: Call) -> Lines:
+        return self.lines(given, lambda known, name: known.direct(name))
+
+    def _indent(self, given: argparse.Namespace, _call: Call) -> Lines:
+        return self.lines(given, lambda known, name: known.tree(name))
+
+    def _manifests(self, given: argparse.Namespace, _call: Call) -> Lines:
+        return self.lines(
+            given, lambda known, name: [" ".join(str(known.manifest(each)) for each in known.all_of(name))]
+        )
+
+    def _why(self, given: argparse.Namespace, _call: Call) -> Lines:
+        if not given.target:
+            raise self.error(f"no {self.noun} or target given")
+        target = given.target
+
+        def ask(known: Dependencies, name: str) -> list[str]:
+            with self.told(f"{self.noun} '{target}' not found"):
+                known.path(target)
+            known.path(name)
+            chains = [f"* {' -> '.join(chain)} " for chain in known.chains(name, target)]
+            if not chains:
+                return [f"No dependency chains from {name} to {target}"]
+            return [f"Dependency chains from {name} to {target}:", *chains]
+
+        return self.lines(given, ask)
+
+    def _depends_on(self, given: argparse.Namespace, _call: Call) -> Lines:
+        return self._dependents(given, direct=False)
+
+    def _depends_on1(self, given: argparse.Namespace, _call: Call) -> Lines:
+        return self._dependents(given, direct=True)
+
+    def _dependents(self, given: argparse.Namespace, *, direct: bool) -> Lines:
+        known = self.known()
+        name = self.name(given, known)
+        with self.told(f"no such {self.noun} {name}"):
+            known.path(name)
+            found, broken = known.dependents(name, direct=direct)
+        return Lines(lines=tuple(found), complaints=self._broken(known, broken))
+
+    def _profile(self, given: argparse.Namespace, _call: Call) -> Lines:
+        try:
+            length = SHOWN if given.length is None else int(given.length)
+        except ValueError as error:
+            raise self.error(f"--length is a number of folders, not {given.length!r}") from error
+        timed = []
+        start = perf_counter()
+        for root in PackageIndex().paths:
+            timed.append(_timed(root))
+            below = [] if timed[-1][2] else _folders_in(root)
+            timed += [_timed(folder) for folder in below]
+        total = perf_counter() - start
+        timed.sort(key=lambda each: -each[0])
+        if given.zombie_only:
+            return Lines(lines=tuple([str(folder) for _, folder, _, empty in timed if empty][:length]))
+        heading = (
+            f"Full tree crawl took {total:.6f} seconds.",
+            "Directories marked with (*) contain no manifest.  You may",
+            "want to delete these directories.",
+            "To get just of list of directories without manifests,",
+            "re-run the profile with --zombie-only",
+            "-" * 61,
+        )
+        rows = (f"{time:.6f} {'*' if empty else ' '} {folder}" for time, folder, _, empty in timed[:length])
+        return Lines(lines=(*heading, *rows))
+
+    # -- in a terminal ------------------------------------------------------------------------------------------
+
+    def main(self, args: argparse.Namespace) -> int:
+        """Do what the words say, as the original tool takes them: `-q` anywhere, options before the verb."""
+        words = [word for word in args.words if word != "-q"]
+        quiet = len(words) < len(args.words)
+        verb = next((word for word in words if not word.startswith("-")), None)
+        if quiet:
+            sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115, PTH123 (until the process ends)
+        if verb is None and not {"-h", "--help"} & set(words):
+            print(
+                f"[{self.tool.name}] Error: no command given.  Try '{self.tool.name} help'", file=sys.stderr
+            )
+            return 0
+        if verb is None or verb == "help":
+            print(self.tool.help())
+            raise SystemExit(0)  # as argparse ends after a help text
+        if verb not in self.tool.verbs:
+            hint = nearest(verb, self.tool.verbs)
+            print(f"[{self.tool.name}] Error: command {verb} not implemented", file=sys.stderr)
+            print(hint or f"Try 'rosmini {self.tool.name} help'", file=sys.stderr)
+            return 1
+        words.remove(verb)
+        try:
+            return self.tool.main(argparse.Namespace(words=[verb, *words]))
+        except UsageError as error:
+            print(error, file=sys.stderr)
+            return 1
+
+
+def _timed(folder: Path) -> tuple[float, Path, bool, bool]:
+    """The time to search a folder, whether it is a package itself, and whether there is nothing in it."""
+    start = perf_counter()
+    found = list(crawl(folder))
+    return perf_counter() - start, folder, any(each.folder == folder for each in found), not found
+
+
+def _folders_in(root: Path) -> list[Path]:
+    try:
+        return sorted(path for path in root.iterdir() if path.is_dir() and not path.name.startswith("."))
+    except OSError:
+        return []

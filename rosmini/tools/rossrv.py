@@ -1,0 +1,10 @@
+"""`rosmini rossrv`: what `rosmini rosmsg` is for messages, for services (http://wiki.ros.org/rossrv)."""
+
+from __future__ import annotations
+
+from rosmini.ros.introspection.types import SERVICE
+
+from .rosmsg import tool_of
+
+TOOL = tool_of(SERVICE, "service types: which there are, and their definitions")
+add_parser, main = TOOL.add_parser, TOOL.main

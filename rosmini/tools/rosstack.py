@@ -1,0 +1,63 @@
+"""`rosmini rosstack`: stacks and metapackages, as ROS's tool tells of them (http://wiki.ros.org/rosstack)."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from rosmini.core.packages import PackageIndex
+
+from .package_queries import Queries
+from .verbs import Call, Lines, Tool
+
+TOOL = Tool(
+    "rosstack", "stacks and metapackages: where they are, what is in them", usage_status=1, needs_graph=False
+)
+QUERIES = Queries(TOOL, stacks=True)
+QUERIES.register()
+add_parser, main = TOOL.add_parser, QUERIES.main
+
+
+def _container(index: PackageIndex, package: str) -> str:
+    """The stack that a package is in; a package of catkin is its own. Raises ``VerbError`` if there is none."""
+    if package in index:
+        if package in QUERIES.known().names():
+            return package
+        folders = {index.find_stack(name).path: name for name in index.stacks()}
+        for folder in index.path(package).parents:
+            if folder in folders:
+                return folders[folder]
+    raise QUERIES.error(f"stack containing package {package} not found")
+
+
+@TOOL.verb("list the packages in a stack", parser=QUERIES.parser("contents", named="stack"))
+def contents(given: argparse.Namespace, _call: Call) -> Lines:
+    """Return the packages below the folder of a stack; for a metapackage, those that it gathers."""
+    known = QUERIES.known()
+    name = QUERIES.name(given, known)
+    index = known.index
+    with QUERIES.told(f"no such stack {name}"):
+        folder: Path = known.path(name)
+        if name in index.stacks():
+            return Lines(lines=tuple(each for each in index.names() if folder in index.path(each).parents))
+        gathered = index.find(name).exec_depends if name in index.metapackages() else ()
+        return Lines(lines=gathered)
+
+
+@TOOL.verb("print the stack that a package is in", parser=QUERIES.parser("contains", named="package"))
+def contains(given: argparse.Namespace, _call: Call) -> Lines:
+    """Return the name of the stack that a package is in."""
+    index = PackageIndex()
+    return Lines(lines=(_container(index, given.name or QUERIES.name(given, QUERIES.known())),))
+
+
+@TOOL.verb(
+    "print the folder of the stack that a package is in",
+    name="contains-path",
+    parser=QUERIES.parser("contains-path", named="package"),
+)
+def contains_path(given: argparse.Namespace, _call: Call) -> Lines:
+    """Return the folder of the stack that a package is in."""
+    known = QUERIES.known()
+    name = _container(known.index, given.name or QUERIES.name(given, known))
+    return Lines(lines=(str(known.path(name)),))

@@ -1,0 +1,59 @@
+"""`rosmini rosversion`: the version of a package, or the name of the distribution."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from rosmini.core.errors import UnknownPackage, nearest
+from rosmini.core.packages import PackageIndex
+
+from .verbs import ArgumentParser, Call, Lines, Tool
+
+if TYPE_CHECKING:
+    import argparse
+
+DISTRIBUTION = "noetic"
+"""The ROS that rosmini is, where ROS_DISTRO names no other."""
+
+TOOL = Tool("rosversion", "the version of a package", needs_graph=False, only_verb="version")
+add_parser, main = TOOL.add_parser, TOOL.main
+
+
+def _parser() -> ArgumentParser:
+    parser = ArgumentParser(
+        "rosmini rosversion",
+        "The version of a package, or the name of the distribution.",
+        epilog="for example: rosmini rosversion std_msgs",
+    )
+    parser.add_argument("-s", "--skip-newline", action="store_true", help="end without a newline")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("package", nargs="?", help="the name of a package")
+    what.add_argument("-d", "--distro", action="store_true", help="the name of the distribution")
+    what.add_argument("-a", "--all", action="store_true", help="all packages and their versions")
+    return parser
+
+
+def version(package: str, index: PackageIndex) -> str:
+    """The version of a package or of a stack. Raises `UnknownPackage`."""
+    if package in index.stacks():
+        return index.find_stack(package).version or "<unversioned>"
+    return index.find(package).version or "<unversioned>"
+
+
+@TOOL.verb("the version of a package", name="version", parser=_parser, takes="location")
+def _version(given: argparse.Namespace, _call: Call) -> Lines:
+    """The version; the status is 1 if there is no such package."""
+    end = "" if given.skip_newline else "\n"
+    if given.distro:
+        return Lines(lines=(os.environ.get("ROS_DISTRO") or DISTRIBUTION,), end=end)
+    index = PackageIndex()
+    if given.all:
+        return Lines(lines=tuple(f"{name}: {version(name, index)}" for name in index.names()), end=end)
+    try:
+        return Lines(lines=(version(given.package, index),), end=end)
+    except UnknownPackage:
+        hint = nearest(given.package, [*index.names(), *index.stacks()])
+        return Lines(
+            lines=(f"Cannot locate [{given.package}]",), complaints=(hint,) if hint else (), status=1
+        )

@@ -1,0 +1,108 @@
+"""`rosmini rviz`: what RViz shows of a graph (http://wiki.ros.org/rviz).
+
+In a terminal it is a page on this machine that follows the graph until Ctrl-C. In a notebook `%rviz -d FILE` shows a
+view of this moment that can be turned, with `--still` a picture, and with `--live` the window that goes on; the first
+two are a page in a terminal, too. ``TOOL.run("-d", "my.rviz", graph=graph).view`` is the view in Python.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosmini.ros.introspection.options import Parser
+
+from .listening import Span
+from .rqt import Shown, shown
+from .verbs import Call, Result, Tool
+
+if TYPE_CHECKING:
+    from optparse import Values
+
+TOOL = Tool(
+    "rviz", "robots, sensors and maps as displays in a scene, from a .rviz file or for what is published",
+    purpose="looking at what a robot sees and plans", only_verb="show", example="rosmini_sim/simulator",
+)  # fmt: skip
+add_parser, main = TOOL.add_parser, TOOL.main
+
+DURATION = 2.0
+"""How long it listens if nobody says how long [s]."""
+
+
+def _parser() -> Parser:
+    parser = Parser(
+        "rviz", "rosmini rviz [options]",
+        "What RViz shows: displays of a .rviz file, or one for each topic that can be shown, and the status of each.",
+        example="  rosmini rviz -f map --still",
+    )  # fmt: skip
+    parser.add_option("-d", "--display-config", metavar="FILE", help="a .rviz file")
+    parser.add_option("-f", "--fixed-frame", metavar="FRAME", help="the frame in which everything is drawn")
+    parser.add_option(
+        "--duration", type="float", metavar="S",
+        help=f"show what there is after S seconds of graph time ({DURATION:g} if not given)",
+    )  # fmt: skip
+    parser.flag(
+        "--live", help="the window that goes on; in a terminal that is so without any of the other options"
+    )
+    parser.flag("--no-browser", help="in a terminal: say the address of the window, and open nothing")
+    parser.flag("--still", help="a picture that is not to be turned")
+    parser.flag("--fit", help="from above and around everything, whatever the view of the file is")
+    parser.add_option(
+        "--view",
+        metavar="KIND",
+        help="from a view of this kind around everything: Orbit (from the side), TopDownOrtho",
+    )
+    parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
+    parser.add_option(
+        "-o", "--output", metavar="FILE", help="write the page (or .svg, .txt) there, and open nothing"
+    )
+    return parser
+
+
+@TOOL.verb("show what there is", parser=_parser)
+def show(given: Values, call: Call) -> Result:
+    """Open the window, or listen for some time and show what there is then."""
+    from rosmini.viz.rviz import Scene, look_from, still, turnable
+    from rosmini.viz.rviz.suggestions import suggested
+
+    if given.words:
+        _parser().error(
+            f"rviz takes no words but options, not {given.words[0]!r}; a file is given by -d FILE"
+        )
+    config, graph = given.display_config, call.graph
+    is_still = given.still or given.view or given.output or given.title or given.duration is not None
+    if given.live or (call.in_terminal and not is_still):
+        return _live(given, call)
+    duration = DURATION if given.duration is None else max(given.duration, 0.0)
+    chosen = suggested(graph, given.fixed_frame) if config is None else config
+    with Scene(graph, chosen, fixed_frame=given.fixed_frame) as scene:
+        for _ in Span.of(graph, round(duration * 1e9)).every(100_000_000):
+            pass
+        if scene.warning:
+            call.warn(f"[WARN] {scene.config.source}: {scene.warning}")
+        if given.view:
+            look_from(scene, given.view)
+        make = still if given.still else turnable
+        return shown(make(scene, title=given.title, fit=given.fit), "rviz", given, call)
+
+
+def _live(given: Values, call: Call) -> Result:
+    """Open the window: in a notebook a widget, in a terminal a page that is served until Ctrl-C."""
+    from rosmini.viz.live.rviz import RVizWindow
+
+    window = RVizWindow(call.graph, given.display_config, fixed_frame=given.fixed_frame)
+    if window.scene.warning:
+        call.warn(f"[WARN] {window.scene.config.source}: {window.scene.warning}")
+    if not call.in_terminal:
+        return Shown(view=window)
+    import webbrowser
+
+    from rosmini.viz.live.loopback import PageServer, has_screen
+
+    with PageServer(window.link.widget, title="RViz") as server:
+        call.say(f"RViz: {server.url}\nThis page follows the graph until Ctrl-C.")
+        if has_screen() and not given.no_browser:
+            webbrowser.open(server.url)
+        for _ in Span.of(call.graph, None).every(100_000_000):
+            pass
+    window.close()
+    return Result()

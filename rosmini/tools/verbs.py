@@ -1,0 +1,465 @@
+"""Verbs of the command line: each is a function that returns a result, with two front ends, the terminal and Python.
+
+    TOOL = Tool("rosdemo", "say hello")
+
+    @TOOL.verb("greet somebody", parser=greet_parser)
+    def hello(given: Namespace, call: Call) -> Greeting: ...
+
+`rosmini rosdemo hello Ada` prints the result and exits with its status; ``TOOL.run("hello", "Ada", graph=graph)``
+returns it, and ``TOOL.on(graph)("hello", "Ada")`` prints it in a notebook.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, cast
+
+from rosmini.core.errors import CommandError, MasterUnreachable, RosminiError, UsageError, nearest
+from rosmini.core.names import is_remapping
+
+from .signals import end_as_ctrl_c
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from rosmini.core.graph import Graph
+    from rosmini.ros.introspection.peers import Peers
+
+SETTLE_S = 0.1
+"""How long the nodes after a `+` run before the verb acts [s]."""
+
+
+NOT_A_VERB = 64
+"""The exit status of ROS's tools where the first word is none of their commands."""
+
+
+class VerbError(CommandError):
+    """A verb could not do what it was asked to; ``status`` is the exit status."""
+
+    def __init__(self, message: str, status: int = 1) -> None:
+        super().__init__(message)
+        self.status = status
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result:
+    """What a verb found or did. Its text is what the tool prints; ``complaints`` are what went wrong in parts."""
+
+    complaints: tuple[str, ...] = ()
+    status: int = 0
+    """The exit status."""
+    end: str = "\n"
+    """What a terminal prints after the text."""
+    always_printed: ClassVar[bool] = False
+    """True if an empty text is printed, too, as an empty line: ROS's tools do that with lists."""
+
+    def __str__(self) -> str:
+        return ""
+
+    def _repr_pretty_(self, printer: Any, _cycle: bool) -> None:
+        """Be shown by IPython as in a terminal."""
+        printer.text("\n".join(filter(None, (str(self), *self.complaints))))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lines(Result):
+    """A result whose data are the lines that are printed."""
+
+    lines: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines)
+
+
+def _to_stderr(text: str) -> None:
+    print(text, file=sys.stderr)
+
+
+@dataclass(frozen=True)
+class Call:
+    """What a verb is given beside its options.
+
+    ``say`` prints what it prints as it goes, ``warn`` what is amiss; ``read_line`` reads what somebody types in a
+    terminal, and is None where nobody can.
+    """
+
+    peers: Peers
+    """The graph on which the verb acts; for a verb that only asks, perhaps only the way to Master and nodes."""
+    say: Callable[[str], object] = print
+    warn: Callable[[str], object] = _to_stderr
+    read_line: Callable[[], str] | None = None
+    tells_time: bool = False
+    """Whether a verb says for how long it goes on by itself."""
+    console: Mapping[str, Any] = field(default_factory=dict)
+    """The options of the :class:`rosmini.ros.scripts.Console` of nodes that a verb starts."""
+
+    @property
+    def graph(self) -> Graph:
+        """The graph. Not for verbs that only ask."""
+        return cast("Graph", self.peers)
+
+    @property
+    def in_terminal(self) -> bool:
+        """True in a terminal, where a verb goes on until Ctrl-C; in Python it ends after some time by itself."""
+        return self.read_line is not None
+
+
+class Parser(Protocol):
+    """The options of a verb."""
+
+    def parse(self, words: Sequence[str], /) -> Any:
+        """Return what was given. Raises ``UsageError`` or another error that says what is wrong."""
+
+    def format_help(self) -> str:
+        """Return the help text."""
+
+
+class ArgumentParser(argparse.ArgumentParser):
+    """argparse's, which raises ``UsageError`` and leaves `--help` to the tool."""
+
+    def __init__(self, prog: str, description: str, **options: Any) -> None:
+        super().__init__(prog=prog, description=description, add_help=False, **options)
+
+    def parse(self, words: Sequence[str], /) -> argparse.Namespace:
+        """Return what was given. Raises ``UsageError``."""
+        return self.parse_args(list(words))
+
+    def error(self, message: str) -> NoReturn:
+        """Raise ``UsageError``."""
+        raise UsageError(f"{self.prog}: {message}. {self.format_usage().strip()}")
+
+
+@dataclass(frozen=True)
+class Verb:
+    """One verb: its summary, its options, and the function that acts."""
+
+    name: str
+    summary: str
+    parser: Callable[[], Parser]
+    act: Callable[[Any, Call], Result]
+    needs_graph: bool = False
+    only_asks: bool | Callable[[Any], bool] = False
+    """Whether the verb needs no node of its own, with these options: it only asks the Master and the nodes."""
+    in_terminal: Callable[[Sequence[str]], int] | None = None
+    """What a terminal does instead: for verbs that run nodes there until Ctrl-C."""
+    is_listed: bool = True
+    """Whether the list of verbs has it."""
+    takes: str = ""
+    """What its arguments name, for completion: kinds of :mod:`rosmini.tools.completion`; the last one may repeat."""
+
+    def do(self, given: Any, call: Call) -> Result:
+        """Return what the verb did. Raises ``VerbError`` for a file that cannot be opened, and what the verb raises."""
+        try:
+            return self.act(given, call)
+        except OSError as error:
+            if error.filename is None:
+                raise
+            raise VerbError(f"ERROR: cannot open {error.filename}: {error.strerror}") from error
+
+
+@dataclass(frozen=True)
+class Overview:
+    """What a tool of ROS prints where the first word is none of its commands."""
+
+    has_heading: bool = True
+    closing: str = "Type {tool} <command> -h for more detailed usage, e.g. '{tool} {example} -h'"
+    status: int = NOT_A_VERB
+    """The exit status without any word."""
+    unknown_status: int = NOT_A_VERB
+    """The exit status where the first word is no command."""
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A tool and the table of its verbs.
+
+    ``usage_status`` is the exit status for a command line that makes no sense; ``elsewhere`` are verbs of ROS's tool
+    that are not here; ``example`` is what to write after a `+` for the nodes on which a verb can act. ``purpose`` makes
+    it a tool on the wire, which acts on the graph of the Master at ``ROS_MASTER_URI``: what it is a tool for, in the
+    ``overview`` that it prints, as ROS's do, where the first word is none of its commands. ``failure_status`` is the
+    exit status where no Master answers. A tool that ``needs_graph`` not only reads files. One that
+    ``reads_files`` does so in a terminal; what else it does there has an ``in_terminal`` of its own.
+    A tool that does one thing only, as roswtf, names its ``only_verb``, which is then not among the words. One that
+    ``takes_arguments`` of launch files, ``name:=value``, gets them; of others such words are remappings.
+    """
+
+    name: str
+    summary: str
+    usage_status: int = 2
+    elsewhere: tuple[str, ...] = ()
+    why_elsewhere: str = ""
+    example: str = "rosmini_sim/simulator"
+    purpose: str = ""
+    overview: Overview = field(default_factory=Overview)
+    failure_status: int = 1
+    needs_graph: bool = True
+    reads_files: bool = False
+    only_verb: str = ""
+    takes_arguments: bool = False
+    verbs: dict[str, Verb] = field(default_factory=dict)
+
+    def verb(
+        self,
+        summary: str,
+        *,
+        parser: Callable[[], Parser],
+        name: str | None = None,
+        needs_graph: bool = False,
+        only_asks: bool | Callable[[Any], bool] = False,
+        in_terminal: Callable[[Sequence[str]], int] | None = None,
+        is_listed: bool = True,
+        takes: str = "",
+    ) -> Callable[[Callable[[Any, Call], Result]], Callable[[Any, Call], Result]]:
+        """Add the decorated function, under its own name if none is given."""
+
+        def add(act: Callable[[Any, Call], Result]) -> Callable[[Any, Call], Result]:
+            known = name or act.__name__
+            self.verbs[known] = Verb(
+                known, summary, parser, act, needs_graph, only_asks, in_terminal, is_listed, takes
+            )
+            return act
+
+        return add
+
+    def find(self, name: str) -> Verb:
+        """Return a verb. Raises ``UsageError`` if there is none of this name, with the nearest."""
+        if name in self.verbs:
+            return self.verbs[name]
+        if name in self.elsewhere:
+            reason = f": {self.why_elsewhere}" if self.why_elsewhere else ""
+            raise UsageError(
+                f"`{self.name} {name}` is a command of the original tool, which rosmini does not have{reason}"
+            )
+        hint = nearest(name, self.verbs) or f"there are: {', '.join(self.verbs)}"
+        raise UsageError(f"Unknown command: '{name}'\n{self.name}: there is no command {name!r}; {hint}")
+
+    def help(self) -> str:
+        """Return the list of verbs."""
+        width = max(map(len, self.verbs))
+        listed = "\n".join(f"   {verb.name:<{width}}   {verb.summary}" for verb in self.verbs.values())
+        return (
+            f"usage: rosmini {self.name} <verb> [options] [args]\n\n{self.summary}\n\n"
+            f"verbs:\n{listed}\n\n`rosmini {self.name} <verb> -h` says more about one."
+        )
+
+    def _overview(self) -> str:
+        """Return the list of verbs as a tool of ROS prints it."""
+        heading = f"{self.name} is a command-line tool for {self.purpose}.\n\n"
+        listed = "\n".join(
+            f"\t{self.name} {verb.name}\t{verb.summary}" for verb in self.verbs.values() if verb.is_listed
+        )
+        closing = self.overview.closing.format(tool=self.name, example=self.example)
+        return f"{heading if self.overview.has_heading else ''}Commands:\n{listed}\n" + (
+            f"\n{closing}\n" if closing else ""
+        )
+
+    # -- in Python -----------------------------------------------------------------------------------------------
+
+    def run(
+        self,
+        *words: object,
+        graph: Graph | None = None,
+        say: Callable[[str], object] = print,
+        warn: Callable[[str], object] = _to_stderr,
+        tells_time: bool = False,
+        console: Mapping[str, Any] | None = None,
+    ) -> Result:
+        """Do what the words say, on ``graph`` (the default graph if not given), and return the result.
+
+        ``say`` and ``warn`` are those of :class:`Call`.
+
+        Raises ``UsageError`` for words that make no sense, and what the verb raises.
+        """
+        text = [os.fspath(word) if isinstance(word, os.PathLike) else str(word) for word in words]
+        text = self._with_verb(text)
+        asked = self._help_for(text)
+        if asked is not None:
+            return Lines(lines=(asked,))
+        verb = self.find(text[0])
+        given = verb.parser().parse(text[1:])
+        if not self.needs_graph:
+            return verb.do(given, Call(cast("Peers", None), say, warn))
+        from rosmini.core.graph import running_graph
+
+        used = running_graph() if graph is None else graph
+        return verb.do(given, Call(used, say, warn, tells_time=tells_time, console=console or {}))
+
+    def alone(self, verb: str) -> Tool:
+        """Return the tool that does one of the verbs only: ``rqt_graph`` for ``graph`` of ``rqt``."""
+        return replace(self, name=f"{self.name}_{verb}", only_verb=verb)
+
+    def on(self, graph: Graph | None = None) -> Prompt:
+        """Return what does verbs on ``graph`` in a notebook."""
+        return Prompt(self, graph)
+
+    def _with_verb(self, words: Sequence[str]) -> list[str]:
+        """Return the words with the verb that is understood, in front."""
+        return [self.only_verb, *words] if self.only_verb else list(words)
+
+    def _help_for(self, words: Sequence[str]) -> str | None:
+        """Return the help that the words ask for, if they do."""
+        helps = {"-h", "--help", "help"}
+        if not words or (words[0] in helps and len(words) == 1):
+            return self.help()
+        if words[0] in helps:
+            return self.find(words[1]).parser().format_help()
+        if {"-h", "--help"} & set(words[1:]):
+            return self.find(words[0]).parser().format_help()
+        return None
+
+    # -- in a terminal -------------------------------------------------------------------------------------------
+
+    def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
+        """Add the tool to the parser of `rosmini`: no word of it is an option for that one."""
+        parser = subparsers.add_parser(self.name, help=self.summary, add_help=False, prefix_chars="\0")
+        parser.add_argument("words", nargs=argparse.REMAINDER)
+        return parser
+
+    def main(self, args: argparse.Namespace) -> int:
+        """Do what the words say, print it, and return the exit status."""
+        words: list[str] = args.words
+        own, nodes = _before_plus(words)
+        own = self._with_verb(own)
+        if self.purpose:
+            own = [word for word in own if self.takes_arguments or not is_remapping(word)]
+            if not own or (own[0] not in {*self.verbs, *self.elsewhere, "--help", "help"}):
+                return self._not_a_verb(own)
+
+        def act() -> Result | int:
+            asked = self._help_for(own)
+            if asked is not None:
+                print(asked)
+                if words and not nodes and words[0] in ("-h", "--help"):
+                    raise SystemExit(0)  # as argparse ends after a help text
+                return 0
+            verb = self.find(own[0])
+            if verb.in_terminal is not None:
+                verb.parser()
+                return verb.in_terminal(self._with_verb(words)[1:])
+            return self._in_terminal(verb, own[1:], nodes)
+
+        return self._reported(act)
+
+    def in_script(self, words: Sequence[str]) -> int:
+        """Do what the words say on the graph that runs the caller, print it, and return the exit status.
+
+        It is found by its name in the entry points `rosmini.tools`, by ``rostopic.rostopicmain`` on a floor below.
+        """
+        return self._reported(lambda: self.run(*(word for word in words if not is_remapping(word))))
+
+    def _reported(self, act: Callable[[], Result | int]) -> int:
+        """Print what was done, or why it was not, and return the exit status."""
+        try:
+            result = act()
+        except VerbError as error:
+            print(error, file=sys.stderr)
+            return error.status
+        except UsageError as error:
+            print(error, file=sys.stderr)
+            return self.usage_status
+        except MasterUnreachable as error:
+            if not self.purpose:
+                raise
+            print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
+            return self.failure_status
+        if isinstance(result, int):
+            return result
+        text = str(result)
+        if text or result.always_printed:
+            print(text, end=result.end)
+        for complaint in result.complaints:
+            print(complaint, file=sys.stderr)
+        return result.status
+
+    def _not_a_verb(self, words: Sequence[str]) -> int:
+        """Print the overview, and what was probably meant."""
+        print(self._overview())
+        if words and words[0] not in ("-h", "--help"):
+            hint = nearest(words[0], self.verbs)
+            print(
+                f"{self.name}: there is no command {words[0]!r}{f'; {hint}' if hint else ''}", file=sys.stderr
+            )
+        return self.overview.unknown_status if words else self.overview.status
+
+    def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
+        given = verb.parser().parse(own)
+        if not self.needs_graph or (self.reads_files and not nodes):
+            return verb.do(given, Call(cast("Peers", None), read_line=sys.stdin.readline))
+        if self.purpose and not nodes:
+            return self._on_wire(verb, given)
+        if verb.needs_graph and not nodes:
+            raise RosminiError(
+                f"{self.name} {verb.name} acts on a graph, and none is running in this process: name it after a +, "
+                f"for example `rosmini {' '.join((self.name, verb.name, *own))} + {self.example}`"
+            )
+        from rosmini.core.graph import Graph
+
+        with Graph(
+            strict=False
+        ) as graph:  # what goes wrong in a node is told by that node, and the tool goes on
+            if nodes:
+                _start(nodes, graph)
+            return verb.do(given, Call(graph))
+
+    def _on_wire(self, verb: Verb, given: Any) -> Result:
+        """Act on the graph of the Master that the environment names."""
+        say = partial(print, flush=True)
+        only_asks = verb.only_asks(given) if callable(verb.only_asks) else verb.only_asks
+        if only_asks:
+            from rosmini.ros.introspection.direct import DirectWire
+            from rosmini.ros.net.addresses import addresses
+
+            with DirectWire(addresses().master_uri) as wire:
+                return verb.do(given, Call(wire, say, read_line=sys.stdin.readline))
+        from rosmini.ros.net.connecting import connect
+
+        end_as_ctrl_c()
+        with connect(announce=False) as graph:
+            try:
+                return verb.do(given, Call(graph, say, read_line=sys.stdin.readline))
+            except KeyboardInterrupt:  # it came between two waits: no failure, as in ROS's tools
+                return Lines()
+
+
+@dataclass(frozen=True)
+class Prompt:
+    """A tool and the graph on which it acts (None: the default graph). Called with words, it prints the result."""
+
+    tool: Tool
+    graph: Graph | None = None
+
+    def __call__(self, *words: object) -> None:
+        """Do what the words say, and print it. Raises as `Tool.run` does."""
+        result = self.run(*words)
+        for line in filter(None, (str(result), *result.complaints)):
+            print(line)
+
+    def run(self, *words: object) -> Result:
+        """Do what the words say, and return the result. Raises as `Tool.run` does."""
+        return self.tool.run(*words, graph=self.graph)
+
+
+def _before_plus(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Split words at the first `+`: the tool's, and those of the nodes that it acts on."""
+    if "+" not in words:
+        return list(words), []
+    at = words.index("+")
+    return list(words[:at]), list(words[at + 1 :])
+
+
+def _start(nodes: Sequence[str], graph: Graph) -> None:
+    """Start what stands after a `+`, and let it settle."""
+    from rosmini.ros.scripts import NodeHandle, rosrun
+
+    while nodes:
+        words, nodes = _before_plus(nodes)
+        package, _, executable = words[0].partition("/")
+        handle = rosrun(package, executable, *words[1:], graph=graph)
+        if isinstance(handle, NodeHandle):
+            handle.instance()
+    graph.run(SETTLE_S)

@@ -1,0 +1,166 @@
+"""Which key does what: the keys of ROS's teleoperation programs, for a pad.
+
+The tables are those of the programs that rosmini brings for terminals, and are read from them: keys, steps, factors
+and speeds are the literals at the top of the scripts in `assets/ros`. Of ours are the arrow keys where a program has
+none, and the buttons.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from types import MappingProxyType
+from typing import Any
+
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.packages import assets_dir
+
+Move = tuple[float, float, float, float]
+"""Ahead, to the left, up, and a turn to the left."""
+
+ARROWS = {"up": "ArrowUp", "down": "ArrowDown", "left": "ArrowLeft", "right": "ArrowRight"}
+SPOKEN = MappingProxyType({"space": " ", **ARROWS})
+"""What keys are called that have no letter; browsers have the other names."""
+
+
+class TeleopError(RosminiError, ValueError):
+    """A key that the pad does not know, invalid limits, or a robot that is no longer there."""
+
+
+@dataclass(frozen=True)
+class KeyMap:
+    """The keys of one program, named as browsers name them, and what they do."""
+
+    name: str
+    """Of the program: `turtlebot3_teleop_key`."""
+    moves: Mapping[str, Move]
+    """In steps, if they add up; else a direction, -1 to 1 each."""
+    linear: float
+    """A step, or the speed at first [m/s]."""
+    angular: float
+    """A step, or the speed at first [rad/s]."""
+    stops: tuple[str, ...]
+    """The keys that stop."""
+    buttons: tuple[str, ...]
+    """Of a page: three rows of three keys, "" where there is none."""
+    adds: bool = False
+    """Whether each key adds a step to what is wanted; else it says what is wanted."""
+    others_stop: bool = False
+    """Whether a key without a meaning stops."""
+    factors: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """By how much keys multiply the linear and the angular speed."""
+    holds: float | None = None
+    """How long what is driven follows one message, after which it rests [s]; None: the message is sent again and
+    again."""
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """All keys that have a meaning."""
+        return (*self.moves, *self.factors, *self.stops)
+
+    def named(self, name: str) -> str:
+        """The key that `name` means: as browsers name it, in any case, or "space", "up", "down", "left", "right".
+
+        Raises `TeleopError` with the nearest name, or with all of them.
+        """
+        lower = name.lower()
+        arrows = (arrow for arrow in ARROWS.values() if arrow.lower() == lower)
+        for key in (name, lower, SPOKEN.get(lower), *arrows):
+            if key in self.keys:
+                return key
+        if self.others_stop and len(name) == 1:
+            return self.stops[0]
+        spoken = {key: word for word, key in SPOKEN.items()}
+        names = [spoken.get(key, key) for key in self.keys]
+        guess = nearest(name, names) if len(name) > 1 else None
+        raise TeleopError(
+            f"the pad has no key {name!r}; {guess or 'it has ' + ', '.join(dict.fromkeys(names))}. {self.help}"
+        )
+
+    @property
+    def help(self) -> str:
+        """What the keys do, in a sentence."""
+        return _HELP[self.name]
+
+
+_HELP = MappingProxyType(
+    {
+        "turtlebot3_teleop_key": "w and x: faster and slower, a and d: left and right, s or space: stop.",
+        "teleop_twist_keyboard": "i and ,: ahead and back, j and l: turn, u, o, m and .: both, k or space: stop; "
+        "with Shift sideways; t and b: up and down; q and z, w and x, e and c: faster and slower.",
+        "turtle_teleop_key": "the arrow keys: ahead, back and turns, a second each; space: stop.",
+    }
+)
+NAMES = tuple(_HELP)
+"""Of the programs whose keys a pad can have."""
+
+
+@cache
+def key_map(name: str = "turtlebot3_teleop_key") -> KeyMap:
+    """The keys of a program. Raises `TeleopError` for another name, with the nearest."""
+    if name == "turtlebot3_teleop_key":
+        told = _literals("turtlebot3_teleop", name)
+        steps = {key: (ahead, 0.0, 0.0, turn) for key, (ahead, turn) in told["STEPS"].items()}
+        linear = max(ahead for ahead, *_ in steps.values())
+        angular = max(turn for *_, turn in steps.values())
+        moves = {key: (v / linear, 0.0, 0.0, w / angular) for key, (v, _, _, w) in steps.items()}
+        buttons = ("", "w", "", "a", "s", "d", "", "x", "")
+        return KeyMap(
+            name, _with_arrows(moves, "wxad"), linear, angular, told["STOP"][::-1], buttons, adds=True
+        )
+    if name == "teleop_twist_keyboard":
+        told = _literals(name, f"{name}.py")
+        return KeyMap(
+            name, _with_arrows(told["MOVES"], "i,jl"), told["SPEED"], told["TURN"], ("k", " "), tuple("uiojklm,."),
+            others_stop=True, factors=MappingProxyType(told["FACTORS"]),
+        )  # fmt: skip
+    if name == "turtle_teleop_key":
+        told = _literals("turtlesim", name)
+        codes = dict(
+            zip("ABDC", ARROWS.values(), strict=True)
+        )  # the ends of what a terminal sends for arrow keys
+        moves = {codes[key]: (ahead, 0.0, 0.0, turn) for key, (ahead, turn) in told["KEYS"].items()}
+        buttons = ("", "ArrowUp", "", "ArrowLeft", " ", "ArrowRight", "", "ArrowDown", "")
+        scale = told["SCALE"]
+        return KeyMap(name, MappingProxyType(moves), scale, scale, (" ",), buttons, holds=told["HOLD"])
+    guess = nearest(name, NAMES) or f"there are those of {', '.join(NAMES)}"
+    raise TeleopError(f"there are no keys of a program {name!r}; {guess}")
+
+
+def burger_limits() -> tuple[float, float]:
+    """How fast a TurtleBot3 Burger is sent at most: linear [m/s], angular [rad/s]."""
+    linear, angular = _literals("turtlebot3_teleop", "turtlebot3_teleop_key")["LIMITS"]["burger"]
+    return linear, angular
+
+
+def _with_arrows(moves: Mapping[str, Any], keys: str) -> Mapping[str, Move]:
+    """Let the arrows up, down, left and right do what these keys do."""
+    known = {key: tuple(float(part) for part in move) for key, move in moves.items()}
+    arrows = {arrow: known[key] for arrow, key in zip(ARROWS.values(), keys, strict=True)}
+    return MappingProxyType(known | arrows)  # type: ignore[arg-type]  # four parts each
+
+
+@cache
+def _literals(package: str, script: str) -> Mapping[str, Any]:
+    """What the script of a package of ours assigns at its top, as far as it is literals; nothing of it is run."""
+    path = assets_dir() / "ros" / package / "nodes" / script
+    found: dict[str, Any] = {}
+    for statement in ast.parse(path.read_text(encoding="utf-8")).body:
+        if not isinstance(statement, ast.Assign):
+            continue
+        try:
+            value = ast.literal_eval(statement.value)
+        except ValueError:
+            continue
+        for target in statement.targets:
+            if isinstance(target, ast.Tuple):
+                found.update(
+                    (each.id, part)
+                    for each, part in zip(target.elts, value, strict=True)
+                    if isinstance(each, ast.Name)
+                )
+            elif isinstance(target, ast.Name):
+                found[target.id] = value
+    return found

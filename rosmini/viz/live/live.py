@@ -1,0 +1,270 @@
+"""A pad in a live notebook: what goes between the node in the kernel and the page that shows it.
+
+The page is sent a frame at 30 Hz of the graph's time while it is open.
+
+A page that shows a robot in motion has to say that it is still there. This is about the reader at the browser, so it
+is wall time that counts, in a graph in simulated time too; what a script presses needs no page, and goes on without
+one.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.msgs import message_class
+
+from .page import Pad, module, pad_data, scripts_of
+from .teleop import TeleopError
+
+try:
+    from .page_link import LEFT_S, PageLink
+except ImportError as error:
+    raise TeleopError(
+        "a pad in a live notebook needs anywidget, which is not installed here: `pip install anywidget`. "
+        "pad.press() and pad.stop() work without it."
+    ) from error
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from rosmini.core.graph import Node
+    from rosmini.core.graph.clock import Timer
+    from rosmini.core.graph.subscriber import Subscriber
+
+FRAME_HZ = 30.0
+DEAD_MAN_S = 1.0
+"""After so long without a word from the page the robot stops."""
+QUIET_S = 0.2
+"""So often a frame is sent in which nothing has changed: the page sees by it that the kernel answers."""
+SHORTEST_S = 0.015
+"""No two frames follow one another faster: a graph that runs ahead of the clock sends no more than a page can show."""
+
+
+AROUND_S = 1.0
+"""No two looks for other drivers follow one another faster [s]."""
+
+
+class Link(PageLink):
+    """Takes what the page of a pad sends (see `rosmini-pad-kernel.js`), and sends it frames."""
+
+    acts = frozenset({"key", "steer", "start", "reset", "choose", "keys"})
+    signs = frozenset({"beat"})
+
+    def __init__(self, pad: Pad, clock: Callable[[], float] = time.monotonic) -> None:
+        self.pad = pad
+        self._driven_by_page = False
+        self._timer: Timer | None = None
+        self._messages: list[list[float]] = []
+        self._last: tuple[Any, ...] = ()
+        self._others: tuple[str, ...] = ()
+        self._choices: tuple[str, ...] = ()
+        """What can be driven, as the page knows it."""
+        self._drawn: tuple[int, int | None] = (0, None)
+        """Which strokes of turtles the page has: their number, and how often the paper was cleared before."""
+        self._last_sent = 0.0
+        self._looked = -AROUND_S
+        self._scan: NDArray[np.float32] | None = None
+        """A scan that the page has not got: ranges (beams,), then the robot's pose at each beam (beams, 3)."""
+        self._scans: Subscriber | None = None
+        script = module((*scripts_of(pad), "rosmini-pad-kernel.js"), "rosminiPadKernel")
+        super().__init__(script, self._data(), clock)
+        pad.on_publish(self._published)
+
+    def _data(self) -> dict[str, Any]:
+        pad = self.pad
+        self._choices = tuple(pad.choices)
+        data = pad_data(pad) | {"choices": list(self._choices), "chosen": pad.chosen}
+        if pad.sight is not None and pad.gone is None:
+            # It also has the laser's code loaded now, while the cell runs, and not at the first key.
+            data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
+        return data
+
+    @property
+    def node(self) -> Node:
+        """The pad's."""
+        return self.pad.node
+
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to drive any more, or None."""
+        return self.pad.gone
+
+    # -- in the graph --------------------------------------------------------------------------------------------
+
+    def _take(self, kind: str | None, content: dict[str, Any]) -> None:
+        try:
+            self._begin()
+            if kind == "key":
+                self._driven_by_page = True
+                self.pad.press(str(content.get("key")))
+                self._look_around()
+            elif kind == "steer":
+                self._driven_by_page = True
+                self.pad.steer(float(content.get("linear", 0)), float(content.get("angular", 0)))
+            elif kind == "keys":
+                self.pad.use(str(content.get("name")))
+            elif kind == "choose":
+                self._choose(str(content.get("name")))
+            elif kind == "stop":
+                self._stop()
+            elif kind == "reset":
+                self.pad.reset()
+            elif kind == "hello":
+                self._hello()
+        except (TeleopError, TypeError, ValueError) as error:
+            why = self.gone
+            if why is None:
+                self._refuse(content, str(error))
+            else:
+                self._tell_gone(why)
+
+    def _look_around(self) -> None:
+        """Find out who else drives: not at each key, and no key waits for it, since the Master may be far away."""
+        now = self._clock()
+        if now - self._looked >= AROUND_S:
+            self._looked = now
+            self.node.spawn(f"{self.node.name} other drivers", self._note_others)
+
+    def _note_others(self) -> None:
+        if not self.node.is_shutdown():
+            self._others = tuple(self.pad.others)
+
+    def _choose(self, name: str) -> None:
+        self.pad.choose(name)
+        if self._scans is not None:
+            self._scans.unregister()
+            self._scans = None
+        if self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+        self._scan, self._messages, self._last, self._others = None, [], (), ()
+        self._begin()
+        data = self._data()
+        ranges = data.pop("ranges", None)
+        self._send({"type": "pad", "data": data}, None if ranges is None else [ranges])
+
+    def _begin(self) -> None:
+        """Send frames from now on, unless that goes on already."""
+        pad = self.pad
+        if self._timer is not None:
+            return
+        if pad.gone is not None:
+            raise TeleopError(pad.gone)
+        self._timer = pad.node.timer(1 / FRAME_HZ, self._frame)
+        if pad.sight is not None and self._scans is None:
+            self._scans = pad.node.subscriber(
+                pad.sight.scan_topic, message_class("sensor_msgs/LaserScan"), self._seen
+            )
+
+    def _seen(self, scan: Any) -> None:
+        sight = self.pad.sight
+        if sight is not None and self.pad.gone is None:
+            ranges = np.asarray(scan.ranges, dtype=np.float32)
+            poses = np.broadcast_to(sight.scan_poses, (len(ranges), 3)).astype(np.float32)
+            self._scan = np.concatenate([ranges, poses.ravel()])
+
+    def _hello(self) -> None:
+        sight = self.pad.sight
+        if sight is not None and sight.trail:
+            self._send({"type": "trail"}, [np.array(sight.trail, dtype=np.float32).tobytes()])
+        self._drawn = (0, None)
+        self._last, self._choices = (), ()
+
+    def _stop(self) -> None:
+        """Stop what the page drives; what a script drives goes on."""
+        driven, self._driven_by_page = self._driven_by_page, False
+        if driven and self.pad.gone is None and not self.pad.teleop.at_rest:
+            self.pad.stop()
+
+    def _published(self, twist: Any) -> None:
+        aside = [twist.linear.y, twist.linear.z]
+        self._messages.append([twist.linear.x, twist.angular.z, *(aside if any(aside) else ())])
+        del self._messages[:-8]
+
+    def _frame(self, _event: object) -> None:
+        now = self._clock()
+        self._driven_by_page &= not self.pad.teleop.at_rest
+        if self._driven_by_page and now - self._heard > DEAD_MAN_S:
+            self._stop()
+        if now - self._heard > LEFT_S and self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+            return
+        if now - self._last_sent < SHORTEST_S:
+            return
+        why = self.pad.gone
+        if why is None:
+            self._show(now)
+        else:
+            self._tell_gone(why)
+
+    def _tell_gone(self, why: str) -> None:
+        if self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+        self._send({"type": "gone", "text": why})
+
+    def _show(self, now: float) -> None:
+        pad = self.pad
+        pose, blocked, pushed = (np.nan, np.nan, np.nan), False, None
+        if pad.turtle is not None:
+            pose, blocked = pad.turtle.look(), pad.turtle.blocked
+        if pad.sight is not None:
+            pose, blocked, pushed = pad.sight.look(), pad.sight.blocked, pad.sight.pushed()
+        scan, self._scan = self._scan, None
+        teleop = pad.teleop
+        window = None if pad.turtle is None else pad.turtle.state(*self._drawn)
+        drawn = (
+            ()
+            if window is None
+            else (window["next"], window["clears"], *(t["pose"] for t in window["turtles"]))
+        )
+        shown = (
+            *pose,
+            *drawn,
+            *teleop.target,
+            *teleop.command,
+            *teleop.speed,
+            teleop.keys.name,
+            blocked,
+            pad.sent,
+        )
+        # Of topics the Master knows, who may be far away: they are asked for when the pad is opened.
+        choices = self._choices if pad.turtle is None and pad.sight is None else tuple(pad.choices)
+        is_new, self._choices = choices != self._choices, choices
+        if (
+            shown == self._last
+            and scan is None
+            and pushed is None
+            and not is_new
+            and now - self._last_sent < QUIET_S
+        ):
+            return
+        self._last, self._last_sent = shown, now
+        content = {
+            "type": "frame",
+            "messages": self._messages,
+            "sent": pad.sent,
+            "at_rest": pad.teleop.at_rest,
+            "blocked": blocked,
+            "scan": scan is not None,
+            "keys": teleop.keys.name,
+            "speed": list(teleop.speed),
+            "others": list(self._others),
+        }
+        if window is not None:
+            content["window"] = window
+            self._drawn = window["next"], window["clears"]
+        if pushed is not None:
+            content["pushed"] = pushed
+        if is_new:
+            content["choices"] = list(choices)
+        numbers = np.array([*pad.teleop.target, *pad.teleop.command, *pose], dtype=np.float64)
+        buffers = [numbers.tobytes()] if scan is None else [numbers.tobytes(), scan.tobytes()]
+        self._send(content, buffers)
+        self._messages = []

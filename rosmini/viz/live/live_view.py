@@ -1,0 +1,36 @@
+"""What goes live in a notebook: the pad, the view of a simulation, the panels of rqt."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Collection
+from typing import Any
+
+from rosmini.core.graph.notebook import kernel_shell
+from rosmini.viz.book_form import book_form
+from rosmini.viz.view import MimeBundle, View
+
+
+class LiveView(View):
+    """A view that is a widget in a live notebook; in the book, and where no kernel runs, it is its page or picture."""
+
+    _link: Any = None
+
+    @abstractmethod
+    def _new_link(self) -> Any:
+        """Make what goes between the kernel and the page."""
+
+    @property
+    def link(self) -> Any:
+        """What goes between this and its page in a live notebook. Raises `RosminiError` without anywidget."""
+        if self._link is None:
+            self._link = self._new_link()
+        return self._link
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> MimeBundle:
+        if book_form() or kernel_shell() is None:
+            return super()._repr_mimebundle_(include, exclude)
+        data, metadata = self.link.widget._repr_mimebundle_() or ({}, {})
+        return {**data, "text/plain": self.text}, metadata

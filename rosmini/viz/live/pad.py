@@ -1,0 +1,375 @@
+"""The teleoperation pad: keys that become `geometry_msgs/Twist` on a topic, in a notebook and in a script.
+
+>>> from rosmini import Graph
+>>> from rosmini.msgs.geometry_msgs.msg import Twist
+>>> graph = Graph()
+>>> robot = graph.node("robot")
+>>> heard = []
+>>> _ = robot.subscriber("cmd_vel", Twist, lambda twist: heard.append(twist.linear.x))
+>>> pad = TeleopPad(graph)
+>>> pad.press("w")
+>>> pad.press("w")
+>>> _ = graph.run(0.3)
+>>> heard
+[0.005, 0.01, 0.015, 0.02]
+>>> pad.stop()
+>>> pad
+teleop_pad publishes geometry_msgs/Twist on /cmd_vel
+wanted 0.00 m/s and 0.0 rad/s; sent 0.00 m/s and 0.0 rad/s; 5 messages
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import ROSException, ROSInterruptException, RosminiError
+from rosmini.core.graph import Graph, Node
+from rosmini.core.graph.graph_core import GraphCore
+from rosmini.core.names import resolve
+from rosmini.msgs import message_class
+from rosmini.sim.simulation import Simulation
+from rosmini.sim.turtlesim import TurtleSim
+
+from .chosen import Chosen
+from .driven_turtle import DrivenTurtle
+from .key_maps import key_map
+from .live_view import LiveView
+from .teleop import PERIOD, Limits, Teleop, TeleopError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.core.graph.clock import Timer
+
+    from .loopback import PageServer
+
+CONNECT_S = 1.0
+"""So long a new pad waits for those who listen already, so that its first message is not lost."""
+
+
+class PadNode(Node):
+    """The node of a pad. A new pad of its name takes its place without a complaint: a cell was run again."""
+
+
+class TeleopPad(LiveView):
+    """An ordinary node that publishes velocities as ROS's teleoperation programs do; in a notebook a pad with keys.
+
+    A key publishes at once, and then every 0.1 s what has come nearer to the target. When nothing is wanted and
+    nothing is sent any more, the pad is silent (the original goes on with zeros, in the way of any other node that
+    drives), until the next key.
+
+    `press`, `release`, `steer` and `stop` are what the keys, buttons, touches and gamepads of a browser call too.
+
+    Args:
+        driven: a simulator, stageros or gzserver, whose robot is driven and shown; a turtlesim, whose turtle is; or a
+            graph, and then only the messages are shown.
+        robot: which robot or turtle; without it the first. One without a laser is driven, but not shown: `view()`
+            shows all.
+        topic: where to publish, resolved and remapped as by the simulation's node; by default where the robot
+            listens, and on a graph ``cmd_vel``.
+        name: the name of the node.
+        limits: how fast at most, and how fast that changes; those of the simulator's robot by default, and of a Burger
+            without one.
+        keys: whose keys it has: `turtlebot3_teleop_key`, the default for robots, `turtle_teleop_key`, the default for
+            turtles, or `teleop_twist_keyboard`. (The last sends each message
+            once; the pad sends it ten times a second, as with `_repeat_rate:=10` there.)
+        hold: whether a key has to be held, as a dead man's switch has: the robot stops when it is released.
+        solid: whether the robot is shown in three dimensions, from behind, in the place of the map; where a browser
+            cannot, the map stays.
+        title: a caption under the pad, and the first line of its text form.
+
+    Raises:
+        TeleopError: `driven` is neither, there is no such robot, or no program of that name.
+
+    """
+
+    def __init__(
+        self,
+        driven: Simulation | TurtleSim | Graph,
+        *,
+        robot: str = "",
+        topic: str | None = None,
+        name: str = "teleop_pad",
+        limits: Limits | None = None,
+        keys: str = "",
+        hold: bool = False,
+        solid: bool = False,
+        title: str | None = None,
+    ) -> None:
+        self.sight: Chosen | None = None
+        self.turtle: DrivenTurtle | None = None
+        self.chosen = ""
+        """Which of the `choices` is driven."""
+        self.hold = hold
+        self.solid = solid
+        self._driven, self._limits = driven, limits
+        namespace = "/"
+        if isinstance(driven, Graph):
+            self.graph: GraphCore = driven
+        elif isinstance(driven, Simulation | TurtleSim):
+            self.graph = driven.node.graph
+            chosen = self._see(driven, robot)
+            namespace = chosen.namespace
+            topic = chosen.topic if topic is None else driven.node.resolve(topic)
+        else:
+            raise TeleopError(
+                f"a pad drives the robot of a simulator, a turtle, or what listens on a graph, not a "
+                f"{type(driven).__name__}. Give it rosrun('rosmini_sim', 'simulator').instance(), that of stageros, "
+                "gzserver or turtlesim_node, or a Graph."
+            )
+        self.title = title
+        usual = "turtlebot3_teleop_key" if self.turtle is None else "turtle_teleop_key"
+        self.teleop = Teleop(self._limits_now(), key_map(keys or usual))
+        self.sent = 0
+        """How many messages were published."""
+        self.twist_class = message_class("geometry_msgs/Twist")
+        before = self.graph.nodes.get(resolve(name, namespace))
+        if isinstance(before, PadNode):
+            before.shutdown("a new pad took its place")
+        self.node = PadNode(name, self.graph, namespace=namespace)
+        self._publisher = self.node.publisher(topic or "cmd_vel", self.twist_class, queue_size=10)
+        if isinstance(driven, Graph):
+            self.chosen = self.topic
+        self._twist = self.twist_class()
+        self._timer: Timer | None = None
+        self._listeners: list[Callable[[Any], object]] = []
+        self._meet_listeners()
+
+    def _see(self, driven: Simulation | TurtleSim, robot: str) -> Chosen | DrivenTurtle:
+        chosen: Chosen | DrivenTurtle
+        if isinstance(driven, TurtleSim):
+            chosen = self.turtle = DrivenTurtle(driven, robot)
+        else:
+            chosen = Chosen(driven, robot)
+            self.sight = chosen if chosen.sees else None
+        self.chosen, self._robot_limits = chosen.name, chosen.limits
+        return chosen
+
+    def _limits_now(self) -> Limits | None:
+        return self._limits or getattr(self, "_robot_limits", None)
+
+    def _meet_listeners(self) -> None:
+        if self.topic in dict(self.node.master.ask("getSystemState")[1]):
+            try:
+                self._publisher.wait_for_subscribers(timeout=CONNECT_S)
+            except ROSInterruptException:
+                raise
+            except (
+                ROSException
+            ):  # a listener that does not answer: the publisher warns of lost messages itself
+                pass
+
+    # -- driving -------------------------------------------------------------------------------------------------
+
+    @property
+    def topic(self) -> str:
+        """Where it publishes, as a global name."""
+        return self._publisher.topic
+
+    @property
+    def twist(self) -> Any:
+        """What was published last; zero before that."""
+        return self._twist
+
+    def press(self, key: str, times: int = 1) -> None:
+        """Take a key (`w`, `x`, `a`, `d`, `s`, `space`, or an arrow: `up`, `down`, `left`, `right`) `times` times, now.
+
+        Those are the keys of `turtlebot3_teleop_key`; with others (`use`) it is the keys of that program.
+
+        Raises `TeleopError` for another key and when the robot has been removed, `ROSException` when the node was
+        shut down.
+        """
+        named = self.teleop.keys.named(key)
+        if times < 1:
+            raise TeleopError(f"a key is pressed once or more often, not {times} times")
+        self._require_robot()
+        for _ in range(times):
+            self._publish(self.teleop.press(named))
+
+    def stop(self) -> None:
+        """Stop at once, as the key `s` does. Raises as `press` does."""
+        self.press("space")
+
+    def release(self) -> None:
+        """Release all keys: with `hold` the robot stops. Raises as `press` does."""
+        if self.hold and not self.teleop.at_rest:
+            self.stop()
+
+    def steer(self, linear: float, angular: float) -> None:
+        """Want these velocities [m/s, rad/s], within the limits, as a gamepad does. Raises as `press` does."""
+        self._require_robot()
+        self._publish(self.teleop.steer(linear, angular))
+
+    def use(self, keys: str) -> None:
+        """Have the keys of another program, and stop. Raises as `press` does, also if there is no such program."""
+        found = key_map(keys)
+        self._rest()
+        self.teleop.use(found)
+
+    @property
+    def keys(self) -> str:
+        """Whose keys it has: the name of a program."""
+        return self.teleop.keys.name
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """What can be driven: the robots of the simulation, the turtles, or the topics of the graph that are heard."""
+        if isinstance(self._driven, Simulation):
+            return Chosen.names(self._driven)
+        if isinstance(self._driven, TurtleSim):
+            return DrivenTurtle.names(self._driven)
+        master = self.node.master
+        types = dict(master.ask("getTopicTypes"))
+        heard = {topic for topic, _ in master.ask("getSystemState")[1]}
+        found = {topic for topic in heard if types.get(topic) == self.twist_class._type}
+        return tuple(sorted(found | {self.topic}))
+
+    def choose(self, name: str) -> None:
+        """Stop what is driven, and drive another one of the `choices`, with its own limits.
+
+        Raises `TeleopError` if it is none of them, and `ROSException` when the node was shut down.
+        """
+        if isinstance(self._driven, Simulation | TurtleSim):
+            kind = Chosen if isinstance(self._driven, Simulation) else DrivenTurtle
+            if name not in self.choices:
+                kind(self._driven, name)  # type: ignore[arg-type]  # which says what there is
+            self._rest()
+            topic = self._see(self._driven, name).topic
+        else:
+            if name not in self.choices:
+                raise TeleopError(f"nobody hears {name!r}; {', '.join(self.choices)} can be driven")
+            self._rest()
+            topic = self.chosen = name
+        self.teleop = Teleop(self._limits_now(), self.teleop.keys)
+        if topic != self.topic:
+            self._publisher.unregister()
+            self._publisher = self.node.publisher(topic, self.twist_class, queue_size=10)
+            self._meet_listeners()
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        """The other nodes that publish on the topic: a robot obeys the last word, whoever says it."""
+        publishers = dict(self.node.master.ask("getSystemState")[0]).get(self.topic, ())
+        return tuple(sorted(name for name in publishers if name != self.node.name))
+
+    def _rest(self) -> None:
+        if self.gone is None and not self.teleop.at_rest:
+            self.stop()
+
+    def reset(self) -> None:
+        """Stop, and reset the simulator's robot. Raises `TeleopError` without a simulator, and as `press` does."""
+        if self.turtle is not None:
+            self.stop()
+            self.turtle.reset()
+            return
+        if self.sight is None:
+            raise TeleopError(
+                "this pad has no simulator, so it cannot put a robot back; give it one: TeleopPad(simulator)"
+            )
+        self.stop()
+        self.sight.reset()
+        self.sight.trail.clear()
+
+    def on_publish(self, callback: Callable[[Any], object]) -> None:
+        """Call `callback(twist)` for each message from now on."""
+        self._listeners.append(callback)
+
+    def _publish(self, velocity: tuple[float, float]) -> None:
+        if self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+        twist = self.twist_class()
+        twist.linear.x, twist.angular.z = velocity
+        twist.linear.y, twist.linear.z = self.teleop.aside
+        self._publisher.publish(twist)
+        self._twist = twist
+        self.sent += 1
+        for listener in self._listeners:
+            listener(twist)
+        if not self.teleop.at_rest:
+            until = PERIOD if self.teleop.repeats else self.teleop.keys.holds or PERIOD
+            self._timer = self.node.timer(until, self._cycle, oneshot=True)
+
+    def _cycle(self, _event: object) -> None:
+        self._timer = None
+        if self.gone is not None:
+            return
+        if self.teleop.repeats:
+            self._publish(self.teleop.cycle())
+        else:
+            self.teleop.stop()  # what is driven has forgotten the message by now
+
+    # -- the robot -----------------------------------------------------------------------------------------------
+
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to drive any more (the robot was removed, or the node shut down), or None."""
+        if self.node.is_shutdown():
+            return f"the node {self.node.name} was shut down."
+        if self.sight is not None or self.turtle is not None:
+            try:
+                _ = self.sight.truth() if self.sight is not None else self.turtle and self.turtle.turtle
+            except RosminiError as error:
+                return str(error)
+        return None
+
+    def _require_robot(self) -> None:
+        why = self.gone
+        if why is not None:
+            self.teleop.stop()
+            raise TeleopError(f"the pad has nothing to drive: {why} The graph goes on.")
+
+    # -- to look at ----------------------------------------------------------------------------------------------
+
+    @property
+    def text(self) -> str:
+        """What is wanted, what was sent, and how the robot is."""
+        return self._state() if self.title is None else f"{self.title}\n{self._state()}"
+
+    def _state(self) -> str:
+        (v, w), (sent_v, sent_w) = self.teleop.target, self.teleop.command
+        messages = "1 message" if self.sent == 1 else f"{self.sent} messages"
+        lines = [
+            f"{self.node.name.lstrip('/')} publishes {self.twist_class._type} on {self.topic}",
+            f"wanted {v:.2f} m/s and {w:.1f} rad/s; sent {sent_v:.2f} m/s and {sent_w:.1f} rad/s; {messages}",
+        ]
+        why = self.gone
+        if why is not None:
+            lines.append(f"nothing to drive: {why}")
+        elif self.sight is not None or self.turtle is not None:
+            lines.append((self.sight or self.turtle).describe())  # type: ignore[union-attr]  # one of them is there
+        return "\n".join(lines)
+
+    @property
+    def alt(self) -> str:
+        """The pad in a sentence or two."""
+        drives = "" if self.sight is None else f" the {self.sight.model.name} in its world and"
+        if self.turtle is not None:
+            drives = " turtles in their window and"
+        keys = "w, a, s, d and x" if self.teleop.keys.adds else f"of {self.keys}"
+        return f"A pad with the keys {keys} that shows{drives} the messages on {self.topic}. {self._state()}"
+
+    def _images(self) -> dict[str, bytes]:
+        return {}
+
+    @property
+    def html(self) -> str:
+        """The pad as a page: it drives a robot of its own there, in the same world."""
+        from .page import static_html
+
+        return static_html(self, caption=self.title)
+
+    def serve(self, port: int = 0) -> PageServer:
+        """Serve the live pad as a page on loopback, for a program in a terminal that drives the graph.
+
+        `with pad.serve() as page:` print `page.url` and let the graph run, in wall time for a person at the keys; the
+        end of the block ends the page. Raises `TeleopError` without anywidget, `OSError` if the port is in use.
+        """
+        from .loopback import PageServer
+
+        return PageServer(self.link.widget, title=self.title or f"Drive on {self.topic}", port=port)
+
+    def _new_link(self) -> Any:
+        from .live import Link
+
+        return Link(self)

@@ -1,0 +1,144 @@
+"""Perspectives: which plugins of rqt run, and how they are set, in the files that the real rqt exports and imports.
+
+Such a file is JSON: groups within groups, whose keys hold Python literals as texts
+(http://wiki.ros.org/rqt/UserGuide/Perspectives; qt_gui's perspective manager). Of a literal nothing is executed.
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from rosmini.core import files
+from rosmini.viz.view import ViewError
+
+LARGEST = 4_000_000
+"""How many characters a file may have."""
+LONGEST = 100_000
+"""How many characters a literal in it may have."""
+MOST = 100
+"""How many plugins may run."""
+
+
+def _no_group() -> dict[str, Any]:
+    return {"keys": {}, "groups": {}}
+
+
+@dataclass(frozen=True)
+class Running:
+    """A plugin that runs: ``plugin`` is ``rqt_graph/RosGraph``, and ``settings`` are what it keeps."""
+
+    plugin: str
+    number: int = 1
+    settings: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def group(self) -> str:
+        """What its settings are under."""
+        return f"plugin__{self.plugin.replace('/', '__')}__{self.number}"
+
+
+@dataclass(frozen=True)
+class Perspective:
+    """An arrangement of plugins."""
+
+    running: tuple[Running, ...] = ()
+    docks: dict[str, Any] = field(default_factory=_no_group)
+    """Where the docks are in the window of the real rqt, in Qt's own form: kept for it, and not shown here."""
+
+    @classmethod
+    def read(cls, path: str | Path) -> Perspective:
+        """Read a file. Raises ``ViewError`` with its name."""
+        try:
+            text = files.read(path, 4 * LARGEST).decode("utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise ViewError(f"{path} cannot be read: {error}") from error
+        try:
+            return cls.parse(text)
+        except ViewError as error:
+            raise ViewError(f"{path}: {error}") from error
+
+    @classmethod
+    def parse(cls, text: str) -> Perspective:
+        """Read the text of a file. Raises ``ViewError`` if it is no perspective."""
+        if len(text) > LARGEST:
+            raise ViewError(f"a perspective has at most {LARGEST} characters")
+        try:
+            found = json.loads(text)
+        except (ValueError, RecursionError) as error:
+            raise ViewError(
+                f"a perspective is JSON, as `Perspectives > Export` writes it: {error}"
+            ) from error
+        manager = _group(found, "pluginmanager")
+        plugins = _literal(_part(manager, "keys").get("running-plugins"))
+        if not isinstance(plugins, dict):
+            raise ViewError("it does not say which plugins run (pluginmanager: running-plugins)")
+        running = [
+            Running(str(plugin), int(number), _settings(manager, Running(str(plugin), int(number)).group))
+            for plugin, numbers in plugins.items()
+            for number in (numbers if isinstance(numbers, list | tuple) else ())
+            if isinstance(number, int)
+        ]
+        if len(running) > MOST:
+            raise ViewError(f"it runs {len(running)} plugins; {MOST} are allowed")
+        return cls(tuple(running), _group(found, "mainwindow") or _no_group())
+
+    def dumps(self) -> str:
+        """Return the text of a file."""
+        plugins: dict[str, list[int]] = {}
+        for each in self.running:
+            plugins.setdefault(each.plugin, []).append(each.number)
+        groups = {
+            each.group: {"keys": {}, "groups": {"plugin": {"keys": _keys(each.settings), "groups": {}}}}
+            for each in self.running
+        }
+        manager = {"keys": _keys({"running-plugins": plugins}), "groups": groups}
+        whole = {
+            "keys": {},
+            "groups": {"mainwindow": self.docks, "pluginmanager": manager},
+        }
+        return json.dumps(whole, indent=2, sort_keys=True) + "\n"
+
+    def write(self, path: str | Path) -> None:
+        """Write a file. Raises ``ViewError``."""
+        try:
+            Path(path).write_text(self.dumps(), encoding="utf-8")
+        except OSError as error:
+            raise ViewError(f"{path} cannot be written: {error}") from error
+
+
+def _keys(values: dict[str, Any]) -> dict[str, dict[str, str]]:
+    return {name: {"type": "repr", "repr": repr(value)} for name, value in values.items()}
+
+
+def _part(found: Any, name: str) -> dict[str, Any]:
+    part = found.get(name) if isinstance(found, dict) else None
+    return part if isinstance(part, dict) else {}
+
+
+def _group(found: Any, name: str) -> dict[str, Any]:
+    return _part(_part(found, "groups"), name)
+
+
+def _settings(manager: dict[str, Any], group: str) -> dict[str, Any]:
+    keys = _part(_group(_group(manager, group), "plugin"), "keys")
+    values = {name: _literal(value) for name, value in keys.items()}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _literal(value: Any) -> Any:
+    """Return the value of a key; None if it holds none that is a plain literal, such as the state of a Qt window."""
+    return literal(value.get("repr")) if isinstance(value, dict) and value.get("type") == "repr" else None
+
+
+def literal(text: object) -> Any:
+    """Return the value that a text is the literal of; None if it is none."""
+    if not isinstance(text, str) or len(text) > LONGEST:
+        return None
+    try:
+        return ast.literal_eval(text)
+    except (ValueError, SyntaxError, TypeError, RecursionError, MemoryError):  # {[]: 1} is a TypeError
+        return None

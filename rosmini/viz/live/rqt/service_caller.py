@@ -1,0 +1,135 @@
+"""`rqt_service_caller`: call a service with values from a form (http://wiki.ros.org/rqt_service_caller)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from rosmini.core.errors import ServiceException, TransportException, nearest
+from rosmini.ros.introspection.fields import service_class_of
+from rosmini.ros.introspection.services import services, type_of
+from rosmini.viz.rqt.topics import value_text
+from rosmini.viz.view import ViewError
+
+from .fields import Fields, value_table
+from .panel import Panel, bar
+from .parts import Box, Control
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rosmini.core.graph import Graph
+
+    from .parts import Part
+
+
+class ServiceCaller(Panel):
+    """Choose a service, fill in its request, call it, and see the response.
+
+    >>> from rosmini import Graph
+    >>> from rosmini.msgs.std_srvs.srv import SetBool
+    >>> graph = Graph()
+    >>> lamp = graph.node("lamp")
+    >>> _ = lamp.service("switch", SetBool, lambda request: (request.data, "it is on" if request.data else "it is off"))
+    >>> caller = ServiceCaller(graph, service="/switch")
+    >>> caller.fill("data", "True")
+    >>> caller.call().message
+    'it is on'
+
+    Args:
+        graph: the graph.
+        service: the service that is chosen first.
+        name: of the panel's node.
+
+    Raises:
+        ViewError: there is no such service, or its type is not known here.
+
+    """
+
+    tool: ClassVar[str] = "rqt_service_caller"
+    heading: ClassVar[str] = "Service Caller"
+    plugin: ClassVar[str] = "rqt_service_caller/ServiceCaller"
+
+    def __init__(self, graph: Graph, service: str = "", *, name: str | None = None) -> None:
+        super().__init__(graph, name=name)
+        self.service = ""
+        self._type: Any = None
+        self._fields: Fields | None = None
+        self.response: Any = None
+        """What the service answered last."""
+        self._calls = 0
+        if service:
+            self.choose(service)
+
+    def names(self) -> list[str]:
+        """Return the names of all services, sorted; those that every node has for its loggers come last."""
+        found = sorted(each.name for each in services(self.graph))
+        return sorted(found, key=lambda name: name.endswith(("/get_loggers", "/set_logger_level")))
+
+    def choose(self, service: str) -> None:
+        """Take another service. Raises ``ViewError``."""
+        if service not in self.names():
+            hint = nearest(service, self.names()) or "`rosservice list` lists those that there are"
+            raise ViewError(f"nobody offers a service {service!r:.80}; {hint}")
+        try:
+            kind = type_of(self.graph, service)
+        except TransportException as error:
+            raise ViewError(f"the server of {service} does not answer: {error}") from error
+        cls = service_class_of(kind) if kind else None
+        if cls is None:
+            raise ViewError(
+                f"{service} is a {kind or 'service of a type that nobody names'}, which no package here defines"
+            )
+        self.service, self._type, self._fields, self.response = service, cls, Fields(cls._request_class), None
+
+    def fill(self, field: str, expression: str) -> None:
+        """Give a field of the request a value. Raises ``ViewError``."""
+        self._form.fill(field, expression)
+
+    def call(self) -> Any:
+        """Call the service, and return what it answers. Raises ``ViewError``, ``ServiceException``."""
+        self._require()
+        request = self._form.message(self._calls)
+        self._calls += 1
+        self.response = None
+        try:
+            self.response = self.node.service_client(self.service, self._type, numpy=False).call(request)
+        except ServiceException as error:
+            raise ServiceException(f"{self.service} gave no answer: {error}") from error
+        return self.response
+
+    @property
+    def _form(self) -> Fields:
+        if self._fields is None:
+            raise ViewError("no service is chosen: choose() one of those in names()")
+        return self._fields
+
+    def parts(self) -> Sequence[Part]:
+        """The service, its request, and its response."""
+        choices = tuple(dict.fromkeys((self.service, *self.names())))
+        service = Control("service", "Service", "choice", self.service, choices)
+        if self._fields is None:
+            return [bar(service)]
+        found: list[Part] = [
+            bar(service, Control("call", "Call", "button"), f"[{self._type._type}]"),
+            Box("Request", (self._fields.table("request"),)),
+        ]
+        if self.response is not None:
+            found.append(Box("Response", (value_table(self.response, value_text),)))
+        return found
+
+    def settings(self) -> dict[str, Any]:
+        """The service."""
+        return {"service": self.service}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Choose the service."""
+        if settings.get("service"):
+            self.choose(str(settings["service"]))
+
+    def _operate(self, key: Sequence[str], value: Any) -> None:
+        if key[0] == "service":
+            self.choose(value)
+        elif key[0] == "call":
+            self.call()
+        else:
+            self.fill("/".join(key[1:]), value)

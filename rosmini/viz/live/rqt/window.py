@@ -1,0 +1,236 @@
+"""`rqt` itself: several plugins in one window, with its menus File, Plugins, Running and Perspectives.
+
+The menus are those of the real one (http://wiki.ros.org/rqt/UserGuide). A perspective is an arrangement that was
+saved; files of the real rqt can be imported and exported (:mod:`~rosmini.viz.live.rqt.perspective`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from rosmini.core.errors import RosminiError, nearest
+from rosmini.viz.rqt.plugins import PLUGINS
+from rosmini.viz.view import ViewError
+
+from .bag import BagTimeline
+from .browsers import ActionTypes, ImageView, MessageTypes, ServiceTypes, TfTree
+from .console import LogConsole
+from .graph import NodeGraph
+from .logger_level import LoggerLevel
+from .panel import Panel, bar
+from .parts import Box, Control, Words, within
+from .perspective import Perspective, Running
+from .plot import Plot
+from .publisher import MessagePublisher
+from .reconfigure import DynamicReconfigure
+from .service_caller import ServiceCaller
+from .topic import TopicMonitor
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from rosmini.core.graph import Graph
+
+    from .parts import Cell, Part
+
+PANELS: tuple[type[Panel], ...] = (
+    ActionTypes, DynamicReconfigure, NodeGraph, BagTimeline, LogConsole, LoggerLevel, ServiceCaller, ServiceTypes,
+    MessagePublisher, MessageTypes, TopicMonitor, ImageView, Plot, TfTree,
+)  # fmt: skip
+"""What can be opened in a window."""
+
+_BY_PACKAGE = {panel.tool: panel for panel in PANELS}
+
+
+class Rqt(Panel):
+    """A window in which plugins run beside one another.
+
+    >>> from rosmini import Graph
+    >>> window = Rqt(Graph(), "rqt_console", "Plot")
+    >>> [panel.heading for panel in window.running.values()]
+    ['Console', 'Plot']
+
+    Args:
+        graph: the graph.
+        plugins: what is opened first, as `open` takes it.
+        perspective: a file that the real rqt, or this one, has exported; opened before the plugins.
+        name: of the window's node.
+
+    Raises:
+        ViewError: there is no such plugin, or the file is no perspective.
+
+    """
+
+    tool: ClassVar[str] = "rqt_gui"
+    heading: ClassVar[str] = "rqt"
+    plugin: ClassVar[str] = "rqt_gui/rqt_gui"
+
+    def __init__(
+        self, graph: Graph, *plugins: str, perspective: str | Path | None = None, name: str | None = None
+    ) -> None:
+        super().__init__(graph, name=name)
+        self.running: dict[int, Panel] = {}
+        """What runs, by number, in the order in which it was opened."""
+        self.perspectives: dict[str, Perspective] = {}
+        """Arrangements that were saved in this window, by name."""
+        self.missing: list[str] = []
+        """What the perspective that was opened last has and this window has not, each with what serves instead."""
+        self._numbered = 0
+        self._docks = Perspective().docks
+        self._written = {"perspective": "my perspective", "file": "my.perspective"}
+        if perspective is not None:
+            self.import_file(perspective)
+        for plugin in plugins:
+            self.open(plugin)
+
+    # -- Plugins and Running ---------------------------------------------------------------------------------------
+
+    def open(self, plugin: str) -> Panel:
+        """Open a plugin: ``rqt_graph``, ``Node Graph`` or ``rqt_graph/RosGraph``. Raises ``ViewError``."""
+        self._require()
+        panel = _BY_PACKAGE.get(_package(plugin))
+        if panel is None:
+            raise ViewError(_absent(plugin))
+        self._numbered += 1
+        taken = any(isinstance(each, panel) for each in self.running.values())
+        self.running[self._numbered] = made = panel(
+            self.graph, name=f"{panel.tool}_{self._numbered}" if taken else panel.tool
+        )
+        return made
+
+    def end(self, number: int) -> None:
+        """Close what runs under a number. Raises ``ViewError``."""
+        if number not in self.running:
+            raise ViewError(f"nothing runs under the number {number}; there are {[*self.running]}")
+        self.running.pop(number).close()
+
+    def close(self) -> None:
+        """Close the window and all in it."""
+        for number in list(self.running):
+            self.end(number)
+        super().close()
+
+    # -- Perspectives ----------------------------------------------------------------------------------------------
+
+    def perspective(self) -> Perspective:
+        """Return what runs now, and how it is set."""
+        counted: dict[str, int] = {}
+        found = []
+        for panel in self.running.values():
+            counted[panel.plugin] = number = counted.get(panel.plugin, 0) + 1
+            found.append(Running(panel.plugin, number, panel.settings()))
+        return Perspective(tuple(found), self._docks)
+
+    def arrange(self, perspective: Perspective) -> None:
+        """Close what runs, and open what a perspective has; `missing` names what could not be opened or restored."""
+        self._require()
+        for number in list(self.running):
+            self.end(number)
+        self.missing = []
+        self._docks = perspective.docks
+        for each in perspective.running:
+            try:
+                self.open(each.plugin).restore(each.settings)
+            except (RosminiError, TypeError, ValueError, LookupError, AttributeError) as error:
+                self.missing.append(f"{each.plugin}: {error}")
+
+    def save_perspective(self, name: str) -> None:
+        """Keep the present arrangement under a name."""
+        self.perspectives[name] = self.perspective()
+        self._say(f"the perspective {name!r:.80} has {len(self.running)} plugins")
+
+    def open_perspective(self, name: str) -> None:
+        """Return to an arrangement. Raises ``ViewError`` for another name."""
+        if name not in self.perspectives:
+            hint = nearest(name, self.perspectives) or f"there are {', '.join(self.perspectives) or 'none'}"
+            raise ViewError(f"no perspective {name!r:.80}; {hint}")
+        self.arrange(self.perspectives[name])
+
+    def import_file(self, path: str | Path) -> None:
+        """Open the perspective in a file. Raises ``ViewError``."""
+        self.arrange(Perspective.read(path))
+
+    def export_file(self, path: str | Path) -> None:
+        """Write the present arrangement to a file that the real rqt can import. Raises ``ViewError``."""
+        self.perspective().write(path)
+        self._say(f"written to {path}")
+
+    # -- showing ---------------------------------------------------------------------------------------------------
+
+    def parts(self) -> Sequence[Part]:
+        """The menus, and below them a box for each plugin."""
+        groups: dict[str, list[str]] = {}
+        for group, name, *_ in PLUGINS:
+            groups.setdefault(group, [""]).append(name)
+        menus = [
+            Control(f"plugins/{group}", group, "choice", "", tuple(names)) for group, names in groups.items()
+        ]
+        running: list[Cell] = [
+            Control(f"run/{number}", panel.heading, "check", True) for number, panel in self.running.items()
+        ] or ["nothing"]
+        boxes = [
+            Box(
+                panel.heading, within(str(number), panel.shown()), Control(f"end/{number}", "Close", "button")
+            )
+            for number, panel in self.running.items()
+        ]
+        return [
+            bar("File:", Control("quit", "Quit", "button")),
+            bar("Plugins:", *menus),
+            bar("Running:", *running),
+            bar(
+                "Perspectives:",
+                Control("open", "Open", "choice", "", ("", *self.perspectives)),
+                Control("perspective", "Name", "text", self._written["perspective"]),
+                Control("save", "Save", "button"),
+                Control("file", "File", "text", self._written["file"]),
+                Control("import", "Import", "button"),
+                Control("export", "Export", "button"),
+            ),
+            *(Words(f"not here: {text}", is_bad=True) for text in self.missing),
+            *boxes,
+        ]
+
+    def set(self, key: str, value: object = True) -> None:
+        """Operate a control of the window, or, as ``1/KEY``, one of the plugin that runs under that number."""
+        number, slash, rest = key.partition("/")
+        if slash and number.isdecimal() and int(number) in self.running:
+            self._require()
+            self.running[int(number)].set(rest, value)
+        else:
+            super().set(key, value)
+
+    def _operate(self, key: Sequence[str], value: Any) -> None:
+        match key[0]:
+            case "quit":
+                self.close()
+            case "plugins" if value:
+                self.open(value)
+            case "end" | "run":
+                self.end(int(key[1]))
+            case "open" if value:
+                self.open_perspective(value)
+            case "perspective" | "file":
+                self._written[key[0]] = value
+            case "save":
+                self.save_perspective(self._written["perspective"])
+            case "import":
+                self.import_file(self._written["file"])
+            case "export":
+                self.export_file(self._written["file"])
+
+
+def _package(plugin: str) -> str:
+    """Return the package of a plugin that is named as in the menu, by its package, or as in a perspective."""
+    package = plugin.partition("/")[0]
+    return next((row[2] for row in PLUGINS if row[1].casefold() == plugin.casefold()), package)
+
+
+def _absent(plugin: str) -> str:
+    package = _package(plugin)
+    row = next((row for row in PLUGINS if row[2] == package), None)
+    if row is not None:
+        return f"{row[1]} ({package}) is no panel of this window; what serves: {row[3]}"
+    known = [name for row in PLUGINS for name in row[1:3]]
+    return f"rqt has no plugin {plugin!r:.80}; {nearest(plugin, known) or '`rosmini rqt plugins` lists them'}"

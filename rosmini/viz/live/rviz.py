@@ -1,0 +1,395 @@
+"""RViz's window on a running graph: the scene, its tools under a hand or keys, its displays with their statuses.
+
+It is a panel as those of rqt are, in which the real RViz can be, too (`rqt_rviz`). What a hand does in a page,
+:meth:`RVizWindow.set` does in a script.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from rosmini.viz.figures import WIDTH
+from rosmini.viz.rviz import Config, Level, Scene
+from rosmini.viz.rviz.displays.group import Group
+from rosmini.viz.rviz.flat import draw
+from rosmini.viz.rviz.panels import TimePanel, selection
+from rosmini.viz.rviz.picture import alt_text, look_at, words
+from rosmini.viz.rviz.primitives import Lines
+from rosmini.viz.rviz.projection import Perspective, Projection
+from rosmini.viz.rviz.selection import Picked, hit, picked
+from rosmini.viz.rviz.suggestions import Suggestions, suggested
+from rosmini.viz.rviz.tools import Select, Tools
+from rosmini.viz.rviz.views import (
+    PIXELS,
+    Orbit,
+    ThirdPersonFollower,
+    TopDownOrtho,
+    ViewController,
+    XYOrbit,
+    view_like,
+)
+from rosmini.viz.view import ViewError
+
+from .rqt.panel import Panel, bar
+from .rqt.parts import Control, Drawing, Row, Rows, Words
+from .rviz_solid import HOST, NUMBERS, SCRIPTS, SolidPage, is_possible, turn
+
+if TYPE_CHECKING:
+    from rosmini.core.graph import Graph, Node
+    from rosmini.viz.rviz import Display, Layer
+    from rosmini.viz.rviz.primitives import Floats, Primitive
+    from rosmini.viz.rviz.projection import Look, Projection
+
+    from .rqt.parts import Part
+    from .rviz_solid import Message
+
+SETTLES_NS = 2_000_000_000
+"""For so long the view follows what comes, unless a hand is on it."""
+ZOOM = 1.25
+STEP = 0.2
+"""Of the picture's height, by which an arrow key moves a hand that is nowhere else."""
+YELLOW = np.array([1.0, 0.9, 0.2, 1.0])
+ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
+WORDS = {"press": 2, "move": 2, "release": 2, "wheel": 3, "orbit": NUMBERS}
+"""What a hand does on a picture, and how many numbers say how."""
+NO_WEBGL = "This browser draws nothing in three dimensions (WebGL): this is the view without perspective."
+
+
+class RVizWindow(Panel):
+    """A scene that goes on.
+
+    Args:
+        graph: the graph.
+        config: a `.rviz` file, or its path; without one, each topic that can be shown has a display, also if it
+            appears later.
+        fixed_frame: overrides that of the file.
+        name: of the window's node, without which another window takes this one's place; `rviz` by default.
+        node: what listens and publishes, in place of a node of the window's own.
+        height: of the picture [CSS px].
+
+    Raises:
+        ConfigError: the file is no configuration of RViz.
+
+    """
+
+    tool: ClassVar[str] = "rviz"
+    heading: ClassVar[str] = "RViz"
+    plugin: ClassVar[str] = "rqt_rviz/RViz"
+    look_s: ClassVar[float] = 1 / 30
+
+    def __init__(
+        self, graph: Graph, config: Config | str | Path | None = None, *, fixed_frame: str | None = None,
+        name: str | None = None, node: Node | None = None, height: float = 0.62 * WIDTH,
+    ) -> None:  # fmt: skip
+        chosen = suggested(graph, fixed_frame) if config is None else config
+        found = chosen if isinstance(chosen, Config) else Config.read(chosen)
+        super().__init__(graph, name=name, node=node)
+        self.scene = Scene(graph, found, fixed_frame=fixed_frame, node=self.node)
+        self._suggestions = Suggestions(graph, self.scene, fixed_frame) if config is None else None
+        self._numbered: list[Display] = []
+        """The displays, each at the number that its control has: a click must not reach a display that is new there."""
+        self.tools = Tools(self.scene)
+        self.time = TimePanel(self.scene)
+        self.selected: list[Picked] = []
+        """What the tool Select took last."""
+        self._size = (WIDTH, height)
+        self._layers: list[Layer] = []
+        self._look: Look | None = None
+        self._solid = SolidPage()
+        self._is_live = False
+        """Whether what is shown goes to a page that is alive."""
+        self._has_webgl = is_possible()
+        self._held = self._is_dragged = False
+        self._hand = np.array(self._size) / 2
+        self._said = self.tools.current.hint
+        self._fits_until_ns = self.scene.context.now_ns + SETTLES_NS
+
+    def close(self) -> None:
+        """End it, as one closes a window. Harmless when repeated."""
+        self.scene.close()
+        super().close()
+
+    # -- what it shows -------------------------------------------------------------------------------------------
+
+    def parts(self) -> Sequence[Part]:
+        """Tools, the scene, what the tool says, view and frame, the displays, time, and what is selected."""
+        now_ns = self.scene.context.now_ns
+        if self._suggestions is not None and self._suggestions.look() and self._fits_until_ns:
+            self._fits_until_ns = now_ns + SETTLES_NS
+        if self._look is None or now_ns < self._fits_until_ns:
+            self.fit()
+        self._layers = self.scene.update()
+        if self._look is None or not self._held or isinstance(self._look, Projection) == self.is_solid:
+            self._look = self._seen_from()  # what a hand holds stays under it
+        level = max(status.level for status in self.scene.global_status)
+        found: list[Part] = [
+            bar(*(self._tool(tool.label) for tool in self.tools)),
+            self._picture(self._look),
+            Words(self._said),
+            bar(
+                Control("type", "View", "choice", self._type, tuple(TYPES)),
+                Control("frame", "Fixed Frame", "choice", self.scene.fixed_frame, self._frames()),
+                Control("closer", "Zoom in", "button"),
+                Control("farther", "Zoom out", "button"),
+                Control("fit", "Show all", "button"),
+                Control("reset", "Reset", "button"),
+            ),
+            Words(
+                "; ".join(
+                    f"Global Status: {level}: {each.name}: {each.text}" for each in self.scene.global_status
+                ),
+                is_bad=level is Level.ERROR,
+            ),
+            Rows(("Display", "on", "Status"), tuple(self._rows(self.scene.displays, 0)), "Displays"),
+            Words(self.time.words(wall=False).replace("\n", ", ")),
+        ]
+        return [*found, Words(selection(self.selected))] if self.selected else found
+
+    def _tool(self, label: str) -> Control:
+        return Control(f"tool/{label}", label, "button", label == self.tools.current.label)
+
+    def _frames(self) -> tuple[str, ...]:
+        return tuple(sorted({*self.scene.context.tree, self.scene.fixed_frame}))
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether a page shows it in three dimensions: with a view that turns, where the browser can."""
+        return self._is_live and self._has_webgl and isinstance(self.scene.view, Orbit)
+
+    @property
+    def _type(self) -> str:
+        view = self.scene.view
+        return "" if view is None else _title(view.plugin_name)
+
+    def _seen_from(self) -> Look:
+        view = self.scene.view
+        if self.is_solid and view is not None:
+            return Perspective.of(view.sight(self.scene.context), *self._size)
+        return look_at(self.scene, self._layers, *self._size)
+
+    @property
+    def scripts(self) -> tuple[str, ...]:
+        """Of its page."""
+        return (*super().scripts, *SCRIPTS) if is_possible() else super().scripts
+
+    def markup(self, *, live: bool) -> str:
+        """What it shows, as HTML; in a live page the viewer has a place of its own in it."""
+        self._is_live = live
+        return super().markup(live=live)
+
+    def news(self, *, whole: bool) -> Message | None:
+        """What a page that shows it in three dimensions has to be told beside the sheet."""
+        if not self.is_solid:
+            return None
+        return self._on_hub(
+            lambda: self._solid.news(
+                self.scene, self._layers, self.tools.current, self._in_hand(), self._size, whole=whole
+            )
+        )
+
+    def _in_hand(self) -> list[Primitive]:
+        """What the tool draws."""
+        tool, look = self.tools.current, self._look
+        found = list(tool.primitives())
+        if isinstance(tool, Select) and tool.corners is not None and self._held and look is not None:
+            found.append(_rectangle(*tool.corners, look))
+        return found
+
+    def _picture(self, look: Look) -> Drawing:
+        said = words(self.scene, self._layers)
+        tool = self.tools.current
+        pointer = Control("view", f"The scene; {tool.label}: arrow keys and Enter", "text")
+        if not isinstance(look, Projection):
+            return Drawing(HOST, said, pointer=pointer)
+        shown: list[Primitive] = [each for layer in self._layers for each in layer.primitives]
+        shown += self._in_hand()
+        alt = alt_text(self.scene, self._layers)
+        panes = [pane for layer in self._layers for pane in layer.panes]
+        background = self.scene.options["Background Color"]
+        svg = draw(shown, look, background, title="RViz", alt=alt, panes=panes)
+        return Drawing(svg, said, pointer=pointer)
+
+    def _rows(self, displays: Sequence[Display], depth: int) -> list[Row]:
+        rows = []
+        for display in displays:
+            key = f"display/{self._number(display)}"
+            said = "; ".join(map(str, display.statuses)) if display.enabled else ""
+            level = str(display.level) if display.enabled else "off"
+            switch = Control(key, display.name, "check", display.enabled)
+            rows.append(Row((display.name, switch, f"{level}: {said}" if said else level), depth))
+            if isinstance(display, Group):
+                rows += self._rows(display.displays, depth + 1)
+        return rows
+
+    def _number(self, wanted: Display) -> int:
+        for number, each in enumerate(self._numbered):
+            if each is wanted:
+                return number
+        self._numbered.append(wanted)
+        return len(self._numbered) - 1
+
+    # -- what a hand does ----------------------------------------------------------------------------------------
+
+    def _operate(self, key: Sequence[str], value: Any) -> None:
+        match key[0]:
+            case "tool":
+                self._said = self.tools.take(key[1]).hint
+            case "view":
+                self._touch(str(value))
+            case "frame":
+                self.scene.fixed_frame = value
+            case "closer" | "farther":
+                self.zoom(ZOOM if key[0] == "closer" else 1 / ZOOM)
+            case "type":
+                self._change_view(str(value))
+            case "fit":
+                self._fit_all()
+            case "reset":
+                self.time.reset()
+                self.selected = []
+            case _:
+                self._numbered[int(key[1])].enabled = value
+
+    def fit(self) -> None:
+        """Look from above, at all there is, as long as nothing of the file says otherwise."""
+        view = self.scene.view
+        if view is not None and not isinstance(view, TopDownOrtho):
+            return
+        self._fit_all(TopDownOrtho())
+
+    def _fit_all(self, made: ViewController | None = None) -> None:
+        """Look at all there is, with a view of the kind that there is, or with another."""
+        made = made or self.scene.view or TopDownOrtho()
+        self._layers = self.scene.update()
+        self.scene.view = None
+        look = look_at(self.scene, self._layers, *self._size, fit=True)
+        self.scene.view = made
+        if isinstance(made, Orbit):
+            wide = look.width / look.scale
+            made["Distance"] = made["Distance"] * wide / made.sight(self.scene.context).width
+        else:
+            made["Scale"] = look.scale * PIXELS / look.width
+        made.look_at(look.ground, self.scene.context)
+
+    def _change_view(self, title: str) -> None:
+        view, look = self.scene.view, self._look
+        if view is None or look is None or title == self._type:
+            return
+        self._fits_until_ns = 0
+        self._held = False
+        sight = view.sight(self.scene.context)
+        self.scene.view = view_like(TYPES[title], sight, view["Target Frame"], self.scene.context)
+
+    def zoom(self, factor: float) -> None:
+        """Look from closer, or with a factor under 1 from farther away."""
+        self._fits_until_ns = 0
+        view = self.scene.view
+        if view is not None:
+            view.zoom(factor)
+
+    def _touch(self, text: str) -> None:
+        """Do what a hand does on the picture; see `Drawing`. Raises `ViewError` for anything else."""
+        kind, *rest = text.split() or [""]
+        self._fits_until_ns = 0
+        if kind == "key" and len(rest) == 1:
+            self._press_key(rest[0])
+            return
+        try:
+            numbers = [float(each) for each in rest]
+        except ValueError:
+            numbers = []
+        if kind == "flat" and not rest:
+            self._has_webgl, self._said = False, NO_WEBGL
+            return
+        if len(numbers) != WORDS.get(kind, -1) + (kind == "orbit") or not np.isfinite(numbers).all():
+            raise ViewError(f"a hand does {', '.join(WORDS)} or key on a picture, not {text!r:.60}")
+        if kind == "orbit":
+            self._solid.turns = int(numbers[0])
+            turn(self.scene, numbers[1:])
+            return
+        self._hand = np.array(numbers[-2:])
+        if kind == "wheel":
+            self.zoom(ZOOM ** -np.sign(numbers[0]))
+        else:
+            self._use(kind)
+
+    def _use(self, kind: str) -> None:
+        """Let the tool in the hand press, move or be released where the hand is."""
+        look = self._look
+        if look is None:
+            return
+        tool = self.tools.current
+        tool.gaze = look.gaze(*self._hand)
+        at = self._point(look)
+        if at is None and kind == "release" and tool.needs_object:
+            self._said, self._held = tool.hint, False
+            return
+        place = np.array(look.metres(*self._hand)) if at is None else at
+        self._held = kind != "release"
+        tool.is_finished = False
+        if kind == "release" and self._is_dragged:  # the last move of a fast hand may not have been told
+            tool.move(place)
+        self._is_dragged = kind == "move"
+        self._said = {"press": tool.press, "move": tool.move, "release": tool.release}[kind](place)
+        if kind == "move":
+            self._look = self._seen_from()  # the tool may have moved the view
+        if kind == "release" and isinstance(tool, Select) and tool.corners is not None:
+            first, last = look.pixels(np.array(tool.corners))
+            self.selected = picked(self._layers, look, first, last)
+            self._said = f"{sum(each.number for each in self.selected)} selected"
+        if kind == "release":
+            self.tools.put_away()
+
+    def _point(self, look: Look) -> Floats | None:
+        """What of the scene is under the hand, for tools that take what is there; else the ground."""
+        if self.tools.current.needs_object:
+            return hit(self._layers, look, self._hand)
+        return np.array(look.metres(*self._hand))
+
+    def _press_key(self, key: str) -> None:
+        """Take a tool by its key, move the hand by arrows, press and release by Enter."""
+        if key in ARROWS:
+            self._hand = np.clip(
+                self._hand + STEP * 0.1 * self._size[1] * np.array(ARROWS[key]), 0, self._size
+            )
+            if self._held:
+                self._use("move")
+            else:
+                self._said = f"{self.tools.current.label}: {self._where()}"
+        elif key == "Enter":
+            self._use("release" if self._held else "press")
+        elif key in ("+", "-"):
+            self.zoom(ZOOM if key == "+" else 1 / ZOOM)
+        else:
+            keys = {tool.key: tool for tool in self.tools}
+            if key in keys:
+                self._said = self.tools.take(key).hint
+
+    def _where(self) -> str:
+        if self._look is None:
+            return ""
+        x, y, _ = self._look.metres(*self._hand)
+        return f"at ({x:.2f}, {y:.2f})"
+
+
+def _rectangle(first: Floats, last: Floats, look: Look) -> Lines:
+    """The outline of a rectangle of the picture, on the ground."""
+    (left, top), (right, bottom) = look.pixels(np.array([first, last]))
+    corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]
+    return Lines(np.array([look.metres(*corner) for corner in corners]), YELLOW)
+
+
+def _title(name: str) -> str:
+    """A kind of view, as RViz's panel Views calls it."""
+    package, _, kind = name.partition("/")
+    return f"{kind} ({package})"
+
+
+TYPES = {
+    _title(kind.plugin_name): kind.plugin_name for kind in (Orbit, ThirdPersonFollower, TopDownOrtho, XYOrbit)
+}
+"""The views to choose from."""

@@ -1,0 +1,192 @@
+"""The view of a running simulation: robots and boxes are dragged with a mouse, a finger or keys, as in Gazebo's window.
+
+>>> from rosmini import Graph
+>>> from rosmini.sim.simulator import Simulator
+>>> graph = Graph()
+>>> simulator = Simulator(graph.node("simulator"), world="room", model="burger")
+>>> view = SimulationView(simulator)
+>>> view.drag("burger", (1.0, -1.0))
+>>> view.turn("burger", 1.570796)
+>>> print(view.message)
+burger is at (1.00, -1.00, 90.0 deg)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+from rosmini.core.errors import RosminiError
+from rosmini.core.geometry.poses import Pose
+from rosmini.sim.simulation import Simulation
+from rosmini.viz.rounding import fixed
+from rosmini.viz.view import SVG_MIME, Picture, ViewError
+from rosmini.viz.world_pictures import pose_text
+
+from .live_view import LiveView
+from .watch import STEP_S, Watch
+
+T = TypeVar("T")
+
+
+class SimulationView(LiveView):
+    """A running world from above, in a notebook; `drag` and `turn` are what a browser's pointer and keys call too.
+
+    In a live notebook it follows the simulation, whoever drives the graph. In the book, and where no kernel runs, it
+    is a picture of how things stand.
+
+    Args:
+        simulation: a simulator, stageros or gzserver.
+        title: a caption under the view, and the first line of its text form.
+
+    Raises:
+        ViewError: `simulation` is not one of them.
+
+    """
+
+    def __init__(self, simulation: Simulation, *, title: str | None = None) -> None:
+        if not isinstance(simulation, Simulation):
+            raise ViewError(
+                f"a running simulation is viewed, not a {type(simulation).__name__}. Give the view "
+                "rosrun('rosmini_sim', 'simulator').instance(), or that of stageros or gzserver."
+            )
+        self.watch = Watch(simulation)
+        self.title = title
+        self.message = ""
+        """What the last drag, turn or button did, or why it was refused."""
+
+    # -- what is done --------------------------------------------------------------------------------------------
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of all that can be dragged."""
+        return self._on_hub(lambda: tuple(body.name for body in self.watch.bodies() if body.takeable))
+
+    def pose(self, name: str) -> Pose:
+        """Where a robot or a thing is now: x [m], y [m], heading [rad]. Raises `ViewError` for another name."""
+        return self._on_hub(lambda: self.watch.pose(self.watch.body(name)))
+
+    def drag(self, name: str, to: Sequence[float]) -> None:
+        """Take a robot or a box and put it down at x, y [m], with its present heading or with a third number [rad].
+
+        It is at rest then. If something stands there it stays where it was, and `WorldError` says what. Raises
+        `ViewError` for another name and for what is no place, and when the simulation has ended.
+        """
+        if len(to) not in (2, 3) or not all(math.isfinite(part) for part in to):
+            raise ViewError(f"{name!r} cannot be dragged to {tuple(to)!r}: give x and y [m], both finite")
+
+        def put() -> None:
+            self._require()
+            body = self.watch.body(name)
+            heading = to[2] if len(to) == 3 else self.watch.pose(body)[2]
+            self._try(
+                lambda: self.watch.simulation.drag(body.name, (float(to[0]), float(to[1]), float(heading)))
+            )
+            self.message = f"{body.name} is at {pose_text(self.watch.pose(body))}"
+
+        self._on_hub(put)
+
+    def turn(self, name: str, heading: float) -> None:
+        """Take a robot or a box and turn it to a heading [rad, counter-clockwise from x]. Raises as `drag` does."""
+        if not math.isfinite(heading):
+            raise ViewError(f"{name!r} cannot be turned to {heading!r}: give a finite heading [rad]")
+        x, y, _ = self.pose(name)
+        self.drag(name, (x, y, heading))
+
+    def pause(self) -> None:
+        """Let the world's time stand. Harmless when repeated."""
+        self._do(self.watch.simulation.pause, "time stands")
+
+    def unpause(self) -> None:
+        """Let the world's time go on. Harmless when repeated."""
+        self._do(self.watch.simulation.unpause, "time goes on")
+
+    def step(self, seconds: float = STEP_S) -> None:
+        """Let so much of the world's time pass, then pause. Raises `RosminiError` unless it is a positive number."""
+        self._do(lambda: self.watch.simulation.step(seconds), f"{seconds:g} s have passed")
+
+    def reset(self) -> None:
+        """Put everything back to where it began, as the simulation's own `reset` does."""
+        self._do(self.watch.simulation.reset, "all is back where it began")
+
+    @property
+    def paused(self) -> bool:
+        """Whether time stands."""
+        return self.watch.host.paused
+
+    def _do(self, action: Callable[[], object], said: str) -> None:
+        def act() -> None:
+            self._require()
+            self._try(action)
+            self.message = said
+
+        self._on_hub(act)
+
+    def _try(self, action: Callable[[], object]) -> None:
+        """Do it, and keep what is wrong with it as the message."""
+        try:
+            action()
+        except RosminiError as error:
+            self.message = str(error)
+            raise
+
+    def _require(self) -> None:
+        why = self.watch.gone
+        if why is not None:
+            raise ViewError(why)
+
+    def _on_hub(self, function: Callable[[], T]) -> T:
+        return self.watch.node.scheduler.on_hub(function)
+
+    # -- showing -------------------------------------------------------------------------------------------------
+
+    @property
+    def heading(self) -> str:
+        """What is viewed, in a few words."""
+        world = self.watch.engine.world
+        return self.title or f"Simulation of the world {world.name}"
+
+    @property
+    def text(self) -> str:
+        """The time, and where all is that can be dragged: robots first."""
+        return self._on_hub(self._describe)
+
+    def _describe(self) -> str:
+        watch = self.watch
+        time = f"{fixed(watch.host.now, 2)} s{', paused' if watch.host.paused else ''}"
+        lines = [f"{self.heading}: {time}"]
+        lines += [
+            f"{body.name} ({body.what}): {pose_text(watch.pose(body))}"
+            for body in watch.bodies()
+            if body.takeable
+        ]
+        why = watch.gone
+        if why is not None:
+            lines.append(why)
+        elif self.message:
+            lines.append(f"last: {self.message}")
+        return "\n".join(lines)
+
+    def still(self) -> Picture:
+        """A picture of how things stand."""
+        return self._on_hub(lambda: self.watch.picture(self.title))
+
+    @property
+    def alt(self) -> str:
+        """The view in a few sentences."""
+        return f"{self.still().alt} Robots and boxes can be dragged in a live notebook."
+
+    def _images(self) -> dict[str, bytes]:
+        picture = self.still()
+        return {SVG_MIME: (picture.svg or "").encode()}
+
+    @property
+    def html(self) -> str | None:
+        """The still picture: what moves needs the simulation, which runs in Python."""
+        return self.still().html
+
+    def _new_link(self) -> Any:
+        from .view_link import ViewLink
+
+        return ViewLink(self)

@@ -1,0 +1,196 @@
+"""From keys to velocities, as ROS's teleoperation programs do it. No node and no clock is in here.
+
+With the keys of `turtlebot3_teleop_key` a key moves a *target*; what is sent approaches the target, by half a step in
+each cycle of 0.1 s. Its stop sets both to zero at once. Each key begins a cycle of its own, as the read of the
+keyboard there ends with a key or after 0.1 s. With those of `teleop_twist_keyboard` a key says where to go, at a speed
+that other keys change. Which keys there are is in `rosmini.viz.live.key_maps`.
+
+The facts (slopes, cycle) are those of `turtlebot3_teleop/nodes/turtlebot3_teleop_key` in
+https://github.com/ROBOTIS-GIT/turtlebot3, branch noetic. Ours is the rounding to a millionth, without which six steps
+of 0.01 would give 0.060000000000000005; ours are ramps, too (`Limits.linear_acceleration`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from .key_maps import KeyMap, TeleopError, burger_limits, key_map
+
+PERIOD = 0.1
+"""How long a cycle is without a key [s]."""
+SLOPE = 0.5
+"""How far what is sent moves in a cycle, in steps."""
+GRAIN = 1e6
+"""Velocities are multiples of a part of this many."""
+
+REST = (0.0, 0.0)
+_LINEAR, _ANGULAR = burger_limits()
+
+__all__ = ["GRAIN", "PERIOD", "SLOPE", "KeyMap", "Limits", "Teleop", "TeleopError", "key_map", "table"]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """How fast a robot may be sent, and how fast that may change: at most as a TurtleBot3 Burger by default.
+
+    Raises `TeleopError` if one of them is not a positive number; accelerations may be infinite.
+    """
+
+    linear: float = _LINEAR
+    """[m/s]"""
+    angular: float = _ANGULAR
+    """[rad/s]"""
+    linear_acceleration: float = math.inf
+    """[m/s²]"""
+    angular_acceleration: float = math.inf
+    """[rad/s²]"""
+
+    def __post_init__(self) -> None:
+        for name, value in (("linear", self.linear), ("angular", self.angular)):
+            if not (math.isfinite(value) and value > 0):
+                raise TeleopError(
+                    f"the {name} limit of a pad must be a positive number, not {value!r}; Burger: 0.22 m/s, 2.84 rad/s"
+                )
+        for name, value in (("linear", self.linear_acceleration), ("angular", self.angular_acceleration)):
+            if not value > 0:
+                raise TeleopError(
+                    f"the {name} acceleration of a pad must be positive or math.inf, not {value!r}"
+                )
+
+
+class Teleop:
+    """The velocities that are wanted, and those that are sent: linear [m/s] and angular [rad/s]."""
+
+    def __init__(self, limits: Limits | None = None, keys: KeyMap | None = None) -> None:
+        self.limits = limits or Limits()
+        self.use(keys or key_map())
+
+    def use(self, keys: KeyMap) -> None:
+        """Have other keys, at their own speed at first, and be at rest."""
+        self.keys = keys
+        self.speed = (
+            _limited(keys.linear, self.limits.linear),
+            _limited(keys.angular, self.limits.angular),
+        )
+        """What a key without steps asks for."""
+        self.stop()
+
+    def stop(self) -> None:
+        """Want nothing, and send nothing but zeros."""
+        self.target = REST
+        """What the keys ask for."""
+        self.command = REST
+        """What was sent last."""
+        self.aside = REST
+        """What was sent last to the left and up [m/s], by `teleop_twist_keyboard` with Shift, t and b."""
+        self._direction = (0.0, 0.0, 0.0, 0.0)
+        self.is_steered = False
+        """Whether a gamepad said last what is wanted, not a key."""
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing is wanted and nothing is sent."""
+        return self.target == self.command == self.aside == REST
+
+    @property
+    def repeats(self) -> bool:
+        """Whether what is sent is sent again in the next cycle; else it is forgotten after `keys.holds`."""
+        return self.keys.holds is None or self.is_steered
+
+    def press(self, key: str) -> tuple[float, float]:
+        """Take a key, named as in the key map, and return what is to be sent. Raises `KeyError`."""
+        if key in self.keys.stops:
+            self.stop()
+        elif key in self.keys.factors:
+            for_linear, for_angular = self.keys.factors[key]
+            linear, angular = self.speed
+            self.speed = (
+                _limited(linear * for_linear, self.limits.linear),
+                _limited(angular * for_angular, self.limits.angular),
+            )
+            if not self.is_steered:
+                self._aim()
+        elif self.keys.adds:
+            ahead, _, _, left = self.keys.moves[key]
+            linear, angular = self.target
+            self.target = (
+                _limited(linear + ahead * self.keys.linear, self.limits.linear),
+                _limited(angular + left * self.keys.angular, self.limits.angular),
+            )
+            self.is_steered = False
+        else:
+            self._direction = self.keys.moves[key]
+            self.is_steered = False
+            self._aim()
+        return self.cycle()
+
+    def steer(self, linear: float, angular: float) -> tuple[float, float]:
+        """Want these velocities, and return what is to be sent. Raises `TeleopError` unless they are finite."""
+        if not (math.isfinite(linear) and math.isfinite(angular)):
+            raise TeleopError(f"a pad is steered with finite velocities, not {linear!r} and {angular!r}")
+        self.is_steered = True
+        self.aside, self._direction = REST, (0.0, 0.0, 0.0, 0.0)
+        self.target = _limited(linear, self.limits.linear), _limited(angular, self.limits.angular)
+        return self.cycle()
+
+    def cycle(self) -> tuple[float, float]:
+        """Come nearer to the target, and return what is to be sent."""
+        slopes = slopes_of(self.keys, self.limits)
+        self.command = (
+            _approach(self.command[0], self.target[0], slopes[0]),
+            _approach(self.command[1], self.target[1], slopes[1]),
+        )
+        return self.command
+
+    def _aim(self) -> None:
+        ahead, left, up, turn = self._direction
+        linear, angular = self.speed
+        self.target = _rounded(ahead * linear), _rounded(turn * angular)
+        self.aside = _rounded(left * linear), _rounded(up * linear)
+
+
+def slopes_of(keys: KeyMap, limits: Limits) -> tuple[float, float]:
+    """How much what is sent changes in a cycle at most: linear [m/s], angular [rad/s]."""
+    linear, angular = (SLOPE * keys.linear, SLOPE * keys.angular) if keys.adds else (math.inf, math.inf)
+    return min(linear, PERIOD * limits.linear_acceleration), min(
+        angular, PERIOD * limits.angular_acceleration
+    )
+
+
+def table(limits: Limits, keys: KeyMap | None = None) -> dict[str, Any]:
+    """All numbers of a pad, for the script that does the same in the browser; None is without a bound."""
+    keys = keys or key_map()
+    slopes = [slope if math.isfinite(slope) else None for slope in slopes_of(keys, limits)]
+    return {
+        "name": keys.name,
+        "linear": {"step": keys.linear, "max": limits.linear, "slope": slopes[0]},
+        "angular": {"step": keys.angular, "max": limits.angular, "slope": slopes[1]},
+        "period": PERIOD,
+        "grain": GRAIN,
+        "adds": keys.adds,
+        "holds": keys.holds,
+        "others_stop": keys.others_stop,
+        "moves": {key: [_number(part) for part in move] for key, move in keys.moves.items()},
+        "factors": {key: list(factors) for key, factors in keys.factors.items()},
+        "stops": list(keys.stops),
+        "buttons": list(keys.buttons),
+    }
+
+
+def _number(value: float) -> float | int:
+    return int(value) if value == int(value) else value
+
+
+def _limited(value: float, limit: float) -> float:
+    return _rounded(max(-limit, min(limit, value)))
+
+
+def _approach(value: float, target: float, slope: float) -> float:
+    return _rounded(min(target, value + slope) if target > value else max(target, value - slope))
+
+
+def _rounded(value: float) -> float:
+    # Not round(): a script in the browser has to come to the same bits.
+    return math.floor(value * GRAIN + 0.5) / GRAIN

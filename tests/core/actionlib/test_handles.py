@@ -1,0 +1,475 @@
+"""Clients and servers with goal handles: any number of goals at a time."""
+
+from __future__ import annotations
+
+import pytest
+
+from rosmini.core.actionlib import (
+    ActionClient,
+    ActionException,
+    ActionServer,
+    CommState,
+    IllegalTransition,
+    ServerGoalHandle,
+    Status,
+)
+from rosmini.core.graph import Graph
+from rosmini.core.time import Time
+from rosmini.msgs import message_class
+from rosmini.msgs.actionlib_msgs.msg import GoalID, GoalStatusArray
+from rosmini.msgs.actionlib_tutorials.msg import (
+    AveragingGoal,
+    FibonacciAction,
+    FibonacciActionGoal,
+    FibonacciFeedback,
+    FibonacciGoal,
+    FibonacciResult,
+)
+
+from .conftest import Desk, until
+
+
+@pytest.fixture
+def desk(graph):
+    return Desk(graph)
+
+
+@pytest.fixture
+def client(graph, desk):
+    made = ActionClient(graph.node("client"), "work", FibonacciAction)
+    assert made.wait_for_server(100)
+    return made
+
+
+def pair(graph):
+    desk = Desk(graph)
+    client = ActionClient(graph.node("client"), "work", FibonacciAction)
+    assert client.wait_for_server(10)
+    return desk, client
+
+
+def send(client, order=1):
+    """Send a goal and note the states that its client comes through."""
+    states = []
+    handle = client.send_goal(FibonacciGoal(order), lambda one: states.append(one.get_comm_state().name))
+    return handle, states
+
+
+ENDS = {
+    "succeeded": (["set_accepted", "set_succeeded"], "SUCCEEDED"),
+    "aborted": (["set_accepted", "set_aborted"], "ABORTED"),
+    "rejected": (["set_rejected"], "REJECTED"),
+    "recalled": (["set_canceled"], "RECALLED"),
+    "preempted": (["set_accepted", "set_canceled"], "PREEMPTED"),
+}
+
+
+@pytest.mark.parametrize("end", ENDS)
+def test_each_way_to_end(graph, desk, client, end):
+    handle, states = send(client)
+    until(graph, lambda: desk.goals)
+    (goal,) = desk.goals
+    assert goal.get_goal().order == 1
+    assert goal == handle or goal.id == handle.id
+    steps, status = ENDS[end]
+    for step in steps:
+        if step == "set_accepted":
+            goal.set_accepted("here we go")
+            until(graph, lambda: handle.get_comm_state() is CommState.ACTIVE)
+            assert handle.get_goal_status_text() == "here we go"
+        else:
+            getattr(goal, step)(FibonacciResult([1, 2]), "because")
+    until(graph, lambda: handle.get_comm_state() is CommState.DONE)
+    assert handle.get_terminal_state().name == status
+    assert handle.get_goal_status_text() == "because"
+    assert list(handle.get_result().sequence) == [1, 2]
+    assert states[-2:] == ["WAITING_FOR_RESULT", "DONE"]
+    assert ("ACTIVE" in states) == ("set_accepted" in steps)
+
+
+@pytest.mark.parametrize("accepted", [False, True])
+@pytest.mark.parametrize("answer", ["set_canceled", "set_succeeded", "set_aborted", "set_rejected"])
+def test_each_answer_to_a_cancellation(sim, accepted, answer):
+    desk, client = pair(sim)
+    handle, states = send(client)
+    until(sim, lambda: desk.goals)
+    (goal,) = desk.goals
+    if accepted:
+        goal.set_accepted()
+        until(sim, lambda: handle.get_comm_state() is CommState.ACTIVE)
+    handle.cancel()
+    assert handle.get_comm_state() is CommState.WAITING_FOR_CANCEL_ACK
+    until(sim, lambda: desk.cancelled)
+    assert desk.cancelled == [handle.id]
+    assert goal.state is (Status.PREEMPTING if accepted else Status.RECALLING)
+    until(sim, lambda: handle.get_comm_state() is not CommState.WAITING_FOR_CANCEL_ACK)
+    assert handle.get_comm_state() is (CommState.PREEMPTING if accepted else CommState.RECALLING)
+    handle.cancel()  # once more changes nothing
+    legal = answer == "set_canceled" or (answer != "set_rejected" if accepted else answer == "set_rejected")
+    if not legal:
+        with pytest.raises(IllegalTransition, match=f"goal {handle.id} of /work: {answer}"):
+            getattr(goal, answer)()
+        return
+    getattr(goal, answer)()
+    until(sim, lambda: handle.get_comm_state() is CommState.DONE)
+    ended = {"set_canceled": "PREEMPTED" if accepted else "RECALLED"}.get(answer, answer[4:].upper())
+    assert handle.get_terminal_state().name == ended
+    assert states.count("DONE") == 1
+    handle.cancel()
+    assert handle.get_comm_state() is CommState.DONE
+
+
+def test_accepting_what_is_being_recalled_preempts_it(sim):
+    desk, client = pair(sim)
+    handle, _ = send(client)
+    handle.cancel()
+    until(sim, lambda: desk.cancelled)
+    desk.goals[0].set_accepted()
+    until(sim, lambda: handle.get_comm_state() is CommState.PREEMPTING)
+    desk.goals[0].set_succeeded()  # it may still be reached
+    until(sim, lambda: handle.get_comm_state() is CommState.DONE)
+    assert handle.get_terminal_state() is Status.SUCCEEDED
+
+
+def test_several_goals_at_a_time(graph, desk, client):
+    handles = [send(client, order)[0] for order in (1, 2, 3)]
+    assert len({handle.id for handle in handles}) == 3
+    until(graph, lambda: len(desk.goals) == 3)
+    assert [goal.get_goal().order for goal in desk.goals] == [1, 2, 3]
+    heard = []
+    fourth = client.send_goal(
+        FibonacciGoal(4), None, lambda one, feedback: heard.append((one, list(feedback.sequence)))
+    )
+    until(graph, lambda: len(desk.goals) == 4)
+    for goal in desk.goals:
+        goal.set_accepted()
+    for number in range(20):
+        desk.goals[0].publish_feedback(FibonacciFeedback([99]))
+        desk.goals[3].publish_feedback(FibonacciFeedback([number]))
+    for goal in (desk.goals[2], desk.goals[0], desk.goals[1], desk.goals[3]):
+        goal.set_succeeded(FibonacciResult([goal.get_goal().order]))
+    until(graph, lambda: all(one.get_comm_state() is CommState.DONE for one in [*handles, fourth]))
+    assert [list(one.get_result().sequence) for one in handles] == [[1], [2], [3]]
+    assert heard == [(fourth, [number]) for number in range(20)]
+
+
+def test_cancel_by_id_by_stamp_and_all(sim):
+    desk, client = pair(sim)
+    other = ActionClient(sim.node("other"), "work", FibonacciAction)
+    assert other.wait_for_server()
+    first, _ = send(client)
+    sim.run(1)
+    second, _ = send(other)
+    border = sim.now()
+    sim.run(1)
+    third, _ = send(client)
+    sim.run(1)
+    fourth, _ = send(other)
+    sim.run(0.1)
+    assert [goal.id for goal in desk.goals] == [first.id, second.id, third.id, fourth.id]
+    fourth.cancel()
+    sim.run(0.1)
+    assert desk.cancelled == [fourth.id]
+    client.cancel_goals_at_and_before_time(border)
+    sim.run(0.1)
+    assert desk.cancelled == [fourth.id, first.id, second.id]
+    assert second.get_comm_state() is CommState.RECALLING  # its own client did not ask
+    client.cancel_all_goals()
+    sim.run(0.1)
+    assert desk.cancelled == [fourth.id, first.id, second.id, third.id]
+
+
+def test_a_goal_that_arrives_after_its_cancellation(sim):
+    """By stamp and by id: topics may overtake one another."""
+    desk, client = pair(sim)
+    publisher = sim.node("late").publisher("/work/goal", FibonacciActionGoal)
+    cancel = sim.node("early").publisher("/work/cancel", GoalID)
+    results = []
+    sim.node("ear").subscriber(
+        "/work/result", message_class("actionlib_tutorials/FibonacciActionResult"), results.append
+    )
+    publisher.wait_for_subscribers()
+    cancel.wait_for_subscribers()
+    client.cancel_goals_at_and_before_time(Time(2000))
+    cancel.publish(GoalID(id="mine"))
+    sim.run(0.1)
+    publisher.publish(FibonacciActionGoal(goal_id=GoalID(Time(2000), "stale")))
+    publisher.publish(FibonacciActionGoal(goal_id=GoalID(Time(2001), "mine")))
+    publisher.publish(FibonacciActionGoal(goal_id=GoalID(Time(2001), "fresh")))
+    sim.run(0.1)
+    assert [goal.id for goal in desk.goals] == ["fresh"]
+    assert [(one.status.goal_id.id, one.status.status) for one in results] == [("stale", 8), ("mine", 8)]
+
+
+def test_a_cancellation_of_an_unknown_goal_cancels_no_other(sim):
+    """It has no stamp, so no goal is older than it, whenever it came."""
+    desk, client = pair(sim)
+    cancel = sim.node("early").publisher("/work/cancel", GoalID)
+    cancel.wait_for_subscribers()
+    cancel.publish(GoalID(id="unknown"))
+    sim.run(0.1)
+    late = sim.node("late").publisher("/work/goal", FibonacciActionGoal)
+    late.wait_for_subscribers()
+    late.publish(FibonacciActionGoal(goal_id=GoalID(Time(500), "sent long ago")))
+    handle, _ = send(client)
+    sim.run(0.1)
+    assert [goal.id for goal in desk.goals] == ["sent long ago", handle.id]
+    assert [(one.status.goal_id.id, one.status.goal_id.stamp, one.goal) for one in desk.server.status_list][
+        :1
+    ] == [("unknown", Time(), None)]
+    assert desk.server.last_cancel == Time()
+
+
+def test_a_handle_without_a_goal_says_so(sim):
+    desk = Desk(sim)
+    empty = ServerGoalHandle(None, desk.server)
+    assert (empty.get_goal(), empty.id, empty == empty, empty.set_cancel_requested()) == (
+        None,
+        "",
+        False,
+        False,
+    )
+    for step in (empty.set_accepted, empty.get_goal_id, lambda: empty.publish_feedback(FibonacciFeedback())):
+        with pytest.raises(ActionException, match=r"goal handle .*has no goal"):
+            step()
+    with pytest.raises(ActionException, match="has no server"):
+        ServerGoalHandle().get_default_result()
+
+
+def test_a_goal_sent_by_hand_is_named_and_one_sent_twice_is_taken_once(sim):
+    desk, _ = pair(sim)
+    publisher = sim.node("hand").publisher("/work/goal", FibonacciActionGoal)
+    publisher.wait_for_subscribers()
+    publisher.publish(FibonacciActionGoal())
+    publisher.publish(FibonacciActionGoal())
+    publisher.publish(FibonacciActionGoal(goal_id=GoalID(id="twice")))
+    publisher.publish(FibonacciActionGoal(goal_id=GoalID(id="twice")))
+    sim.run(0.1)
+    assert [goal.id for goal in desk.goals] == ["/server-1-1000.0", "/server-2-1000.0", "twice"]
+    assert all(goal.get_goal_id().stamp == Time(1000) for goal in desk.goals)
+
+
+# -- the list of goals -------------------------------------------------------------------------------------------------
+
+
+def test_status_at_five_hertz_and_on_each_change(sim):
+    desk, client = pair(sim)
+    lists = []
+    sim.node("ear").subscriber("/work/status", GoalStatusArray, lists.append)
+    sim.run(1.05)
+    assert [round(one.header.stamp.to_sec() - 1000, 6) for one in lists] == [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
+    send(client)
+    sim.run(0.01)
+    desk.goals[0].set_accepted()
+    sim.run(0.01)
+    assert [one.status for one in lists[-1].status_list] == [Status.ACTIVE]
+
+
+def statuses_published(graph, goals):
+    """How many statuses a server publishes for so many goals at one instant, each over before the next comes."""
+    server, published, ended = graph.node("server"), [], []
+
+    def work(handle):
+        handle.set_accepted()
+        handle.set_succeeded(FibonacciResult())
+
+    action_server = ActionServer(server, "work", FibonacciAction, work)
+    publish = action_server.status_pub.publish
+    action_server.status_pub.publish = lambda message: (
+        published.append(len(message.status_list)),
+        publish(message),
+    )
+    client = ActionClient(graph.node("client"), "work", FibonacciAction)
+    assert client.wait_for_server(10)
+
+    def send_all():
+        for _ in range(goals):
+            handle = client.send_goal(FibonacciGoal(1))
+            while handle.get_comm_state() is not CommState.DONE:
+                client.node.sleep(0)
+            ended.append(handle.get_goal_status())
+
+    lane = client.node.run(send_all)
+    graph.run(5.0, until=lambda: lane.idle)
+    assert ended == [Status.SUCCEEDED] * goals
+    graph.run(5.5)
+    assert published[-1] == 0
+    return sum(published)
+
+
+def test_what_many_goals_cost_grows_with_their_number_only():
+    few, many = (statuses_published(Graph(), goals) for goals in (250, 2_000))
+    assert few < 100 * 250
+    assert many < 10 * few
+
+
+def test_a_goal_leaves_the_list_a_while_after_its_end(sim):
+    desk = Desk(sim, auto_start=False)
+    desk.node.set_param("/work/status_list_timeout", 2)
+    desk.node.set_param("/actionlib_status_frequency", 10)
+    desk.server.start()
+    desk.server.start()
+    client = ActionClient(sim.node("client"), "work", FibonacciAction)
+    assert client.wait_for_server()
+    (kept, _), (over, _) = send(client), send(client)
+    sim.run(0.01)
+    desk.goals[1].set_rejected()
+    sim.run(1.9)
+    assert [goal.id for goal in desk.server.goals] == [kept.id, over.id]
+    sim.run(0.3)
+    assert [goal.id for goal in desk.server.goals] == [kept.id]
+    assert over.get_comm_state() is CommState.DONE
+    assert over.get_terminal_state() is Status.REJECTED
+    assert kept.get_comm_state() is CommState.PENDING
+
+
+def test_the_old_parameter_is_heeded_with_a_warning(sim, log):
+    desk = Desk(sim, auto_start=False)
+    desk.node.set_param("/work/status_frequency", 0)
+    desk.server.start()
+    lists = []
+    sim.node("ear").subscriber("/work/status", GoalStatusArray, lists.append)
+    sim.run(3)
+    assert len(lists) == 1  # latched
+    assert "/work/status_frequency is out of use: set actionlib_status_frequency" in log()
+
+
+# -- who is there ------------------------------------------------------------------------------------------------------
+
+
+def test_waiting_for_a_server_that_comes_later(graph):
+    client = ActionClient(graph.node("client"), "work", FibonacciAction)
+    assert not client.wait_for_server(0.5)
+    node = graph.node("waker")
+    made = []
+    node.timer(1.0, lambda _: made.append(Desk(graph)), oneshot=True)
+    assert client.wait_for_server(900)
+    handle, _ = send(client)
+    until(graph, lambda: made[0].goals)
+    assert made[0].goals[0].id == handle.id
+
+
+def test_a_server_that_goes_and_one_that_comes(sim, log):
+    desk, client = pair(sim)
+    handle, states = send(client)
+    sim.run(0.1)
+    desk.goals[0].set_accepted()
+    sim.run(0.1)
+    desk.node.shutdown()
+    sim.run(1)
+    assert "the action server /server of /work has gone, with 1 goal open" in log()
+    assert handle.get_comm_state() is CommState.ACTIVE  # as in ROS nothing says more
+    assert not client.wait_for_server(0.5)
+    Desk(sim)
+    sim.run(1)
+    assert states[-1] == "DONE"
+    assert handle.get_terminal_state() is Status.LOST
+    assert handle.get_result() is None
+    assert f"/work no longer knows goal {handle.id}: it is LOST" in log()
+    assert client.wait_for_server(0.5)
+
+
+def test_a_client_that_goes_stops_nothing(sim, log):
+    desk, client = pair(sim)
+    send(client)
+    sim.run(0.1)
+    client.node.shutdown()
+    (goal,) = desk.goals
+    goal.set_accepted()
+    goal.publish_feedback(FibonacciFeedback([1]))
+    goal.set_succeeded()
+    sim.run(0.1)
+    assert goal.state is Status.SUCCEEDED
+    assert log() == ""
+
+
+def test_a_goal_before_any_server_says_that_nobody_heard_it(sim, log):
+    client = ActionClient(sim.node("client"), "work", FibonacciAction)
+    handle, _ = send(client)
+    Desk(sim)
+    sim.run(1)
+    assert "published on /work/goal while nobody was connected" in log()
+    assert handle.get_comm_state() is CommState.WAITING_FOR_GOAL_ACK
+    assert handle.get_terminal_state() is Status.LOST
+    assert "has not ended: its client is WAITING_FOR_GOAL_ACK" in log()
+
+
+def test_forgotten_goals_and_stopped_ends(sim):
+    desk, client = pair(sim)
+    handle, states = send(client)
+    handle.reset()
+    sim.run(0.1)
+    desk.goals[0].set_rejected()
+    sim.run(0.1)
+    assert states == []
+    assert handle.get_comm_state() is CommState.LOST
+    client.stop()
+    desk.server.stop()
+    desk.server.stop()
+    sim.run(0.1)
+    assert [entry for entry in sim.master.getSystemState("/t")[2][0] if entry[0].startswith("/work")] == []
+
+
+# -- mistakes ----------------------------------------------------------------------------------------------------------
+
+
+def test_what_is_no_action(sim):
+    node = sim.node("n")
+    with pytest.raises(
+        ActionException, match=r"FibonacciGoal is not an action type.*: give FibonacciAction$"
+    ):
+        ActionClient(node, "work", FibonacciGoal)
+    with pytest.raises(ActionException, match=r"int is not an action type"):
+        ActionServer(node, "work", int, print)
+    client = ActionClient(node, "work", FibonacciAction)
+    with pytest.raises(
+        ActionException,
+        match="/work takes goals of type actionlib_tutorials/FibonacciGoal, not actionlib_tutorials/AveragingGoal",
+    ):
+        client.send_goal(AveragingGoal())
+
+
+def test_illegal_steps_are_logged_in_rospys_style(lenient, log):
+    desk, client = pair(lenient)
+    send(client)
+    lenient.run(0.1)
+    desk.goals[0].set_succeeded()
+    assert desk.goals[0].state is Status.PENDING
+    assert "set_succeeded() is for a goal that is ACTIVE or PREEMPTING; this one is PENDING" in log()
+
+
+def test_two_servers_on_one_topic_are_noticed(lenient, log):
+    desk, client = pair(lenient)
+    handle, _ = send(client)
+    lenient.run(0.1)
+    desk.goals[0].set_accepted()
+    lenient.run(0.1)
+    liar = lenient.node("liar").publisher("/work/status", GoalStatusArray)
+    liar.wait_for_subscribers()
+    status = message_class("actionlib_msgs/GoalStatus")
+    liar.publish(status_list=[status(goal_id=GoalID(id=handle.id), status=Status.RECALLING)])
+    lenient.run(0.1)
+    assert "RECALLING, and the client was ACTIVE already" in log()
+    assert handle.get_comm_state() is CommState.ACTIVE
+
+
+def test_callbacks_that_fail(lenient, log):
+    def fail(*_):
+        raise ValueError("oh")
+
+    node = lenient.node("server")
+    server = ActionServer(node, "work", FibonacciAction, fail, fail)
+    client = ActionClient(lenient.node("client"), "work", FibonacciAction)
+    assert client.wait_for_server()
+    handle = client.send_goal(FibonacciGoal(1), fail, fail)
+    lenient.run(0.1)
+    assert "called for a goal of /work, raised ValueError: oh" in log()
+    handle.cancel()
+    lenient.run(0.1)
+    server.goals[0].publish_feedback(FibonacciFeedback())
+    server.goals[0].set_canceled()
+    lenient.run(0.1)
+    text = log()
+    for what in ("a cancellation of /work", "feedback of /work", "transitions of /work"):
+        assert f"called for {what}, raised ValueError: oh" in text
+    assert handle.get_terminal_state() is Status.RECALLED

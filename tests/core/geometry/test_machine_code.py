@@ -1,0 +1,52 @@
+"""When loops are compiled, and what a terminal shows meanwhile."""
+
+import io
+import sys
+
+import pytest
+
+from rosmini.core.geometry.machine_code import COMPILING, LOADING, Deferral, progress
+
+
+class Screen(io.StringIO):
+    """A terminal, or a file."""
+
+    def __init__(self, terminal):
+        super().__init__()
+        self.isatty = lambda: terminal
+
+
+@pytest.fixture
+def start(monkeypatch):
+    """A process that has done nothing yet."""
+    monkeypatch.setattr(Deferral, "total", 0)
+    monkeypatch.setattr(Deferral, "at_once", False)
+    monkeypatch.setitem(sys.modules, "numba", None)
+    monkeypatch.delitem(sys.modules, "numba")
+
+
+def test_a_loop_is_compiled_after_enough_work_of_its_own_and_of_all(start):
+    one, other = Deferral(), Deferral()
+    assert not one.due(LOADING)
+    assert not other.due(COMPILING)
+    assert one.due(1)
+    assert other.due(1)
+
+
+def test_loops_share_the_cost_of_loading_numba(start, monkeypatch):
+    monkeypatch.setitem(sys.modules, "numba", None)
+    assert Deferral().due(COMPILING + 1)
+
+
+def test_a_loop_is_compiled_on_first_use_if_nothing_may_wait_later(start, monkeypatch):
+    monkeypatch.setattr(Deferral, "at_once", True)
+    assert Deferral().due(0)
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_only_a_terminal_shows_progress(terminal, monkeypatch):
+    screen = Screen(terminal)
+    monkeypatch.setattr(sys, "__stderr__", screen)
+    with progress("compiling wave"):
+        assert ("compiling wave" in screen.getvalue()) == terminal
+    assert screen.getvalue().rpartition("\r")[2] == ""

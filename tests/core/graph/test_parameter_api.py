@@ -1,0 +1,359 @@
+"""Parameters as a node sees them."""
+
+from __future__ import annotations
+
+import enum
+from datetime import datetime
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from rosmini.core.errors import ParameterError, ParameterNotSet
+from rosmini.core.names import Remappings
+
+from .conftest import settle, until
+
+if TYPE_CHECKING:
+    from rosmini.core.graph import Graph
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        True,
+        5,
+        -1.5,
+        "text",
+        b"bytes",
+        datetime(2020, 1, 2, 3, 4, 5),
+        [1, 2.5, "x", [True]],
+        {"a": 1, "b": {"c": [1]}},
+        {},
+        [],
+    ],
+)
+def test_what_is_set_is_got_as_a_copy(simulated: Graph, value: Any) -> None:
+    node = simulated.node("node")
+    node.set_param("p", value)
+    got = node.get_param("p")
+    assert got == value
+    assert type(got) is type(value)
+    if isinstance(got, list):
+        got.append("changed")
+        assert node.get_param("p") == value
+
+
+def test_a_dictionary_is_a_tree(simulated: Graph) -> None:
+    node = simulated.node("node")
+    node.set_param("/robot", {"wheel": {"radius": 0.033}, "name": "burger"})
+    assert node.get_param("/robot/wheel/radius") == 0.033
+    assert node.get_param("/robot/wheel") == {"radius": 0.033}
+    node.set_param("/robot/wheel/width", 0.018)
+    assert node.get_param("/robot") == {"wheel": {"radius": 0.033, "width": 0.018}, "name": "burger"}
+    assert node.has_param("/robot/wheel")
+    assert [name for name in node.param_names() if name.startswith("/robot")] == [
+        "/robot/name",
+        "/robot/wheel/radius",
+        "/robot/wheel/width",
+    ]
+    node.delete_param("/robot/wheel")
+    assert not node.has_param("/robot/wheel/radius")
+
+
+def test_names_are_resolved_in_the_nodes_namespace(simulated: Graph) -> None:
+    node = simulated.node("node", namespace="/robot1", remappings={"speed": "velocity"})
+    node.set_param("rate", 1)
+    node.set_param("~rate", 2)
+    node.set_param("/rate", 3)
+    node.set_param("speed", 4)
+    assert {name: node.get_param(name) for name in ("/robot1/rate", "/robot1/node/rate", "/rate")} == {
+        "/robot1/rate": 1,
+        "/robot1/node/rate": 2,
+        "/rate": 3,
+    }
+    assert node.get_param("/robot1/velocity") == 4
+
+
+def test_search_goes_upwards(simulated: Graph) -> None:
+    node = simulated.node("node", namespace="/a/b")
+    node.set_param("/rate", 1)
+    assert node.search_param("rate") == "/rate"
+    node.set_param("/a/rate", 2)
+    assert node.search_param("rate") == "/a/rate"
+    node.set_param("~rate", 3)
+    assert node.search_param("rate") == "/a/b/node/rate"
+    assert node.search_param("nothing") is None
+
+
+def test_private_parameters_come_from_the_command_line(simulated: Graph) -> None:
+    remappings = Remappings.from_argv(["_rate:=10", "_frame:=base_link", "_gains:=[1, 2.5]", "__name:=other"])
+    node = simulated.node("node", remappings=remappings)
+    assert node.name == "/other"
+    assert node.get_param("~rate") == 10
+    assert simulated.node("x").get_param("/other/frame") == "base_link"
+    assert node.get_param("~gains") == [1, 2.5]
+
+
+# -- not set -----------------------------------------------------------------------------------------------------
+
+
+def test_a_default_is_taken_only_when_nothing_is_set(simulated: Graph) -> None:
+    node = simulated.node("node")
+    assert node.get_param("p", 5) == 5
+    assert node.get_param("p", None) is None
+    node.set_param("p", False)
+    assert node.get_param("p", 5) is False
+
+
+def test_a_parameter_that_is_not_set_names_the_nearest(simulated: Graph) -> None:
+    node = simulated.node("node")
+    node.set_param("/max_speed", 1.0)
+    with pytest.raises(ParameterNotSet, match=r"parameter /max_sped is not set .*did you mean /max_speed\?"):
+        node.get_param("max_sped")
+    with pytest.raises(KeyError):
+        node.get_param("max_sped")
+
+
+def test_a_parameter_that_is_not_set_names_the_namespaces_that_have_it(simulated: Graph) -> None:
+    node = simulated.node("node", namespace="/robot1")
+    node.set_param("/robot2/max_speed", 1.0)
+    with pytest.raises(ParameterNotSet) as caught:
+        node.get_param("~max_speed")
+    assert str(caught.value) == (
+        "parameter /robot1/node/max_speed is not set ('~max_speed' in node /robot1/node means /robot1/node/max_speed); "
+        "it exists as /robot2/max_speed. Use that name, or give a default."
+    )
+
+
+def test_deleting_what_is_not_set(simulated: Graph) -> None:
+    with pytest.raises(ParameterNotSet, match="/nothing is not set"):
+        simulated.node("node").delete_param("nothing")
+
+
+# -- types -------------------------------------------------------------------------------------------------------
+
+
+def test_an_expected_type_is_checked(simulated: Graph) -> None:
+    node = simulated.node("node")
+    node.set_param("rate", 10)
+    node.set_param("name", "burger")
+    node.set_param("on", True)
+    node.set_param("nan", float("nan"))
+    assert node.get_param("rate", expect=int) == 10
+    as_float = node.get_param("rate", expect=float)
+    assert (as_float, type(as_float)) == (10.0, float)
+    assert node.get_param("name", expect=(int, str)) == "burger"
+    with pytest.raises(ParameterError, match="parameter /name is the str 'burger', and a float is needed"):
+        node.get_param("name", expect=float)
+    with pytest.raises(ParameterError, match="parameter /on is the bool True, and an int is needed"):
+        node.get_param("on", expect=int)
+    with pytest.raises(ParameterError, match="not a number"):
+        node.get_param("nan", expect=float)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (None, "parameter /p: a NoneType cannot be stored"),
+        ({"a": [1, {"b": object}]}, r"parameter /p/a\[1\]/b: a type cannot be stored"),
+        ({"a": {1: 2}}, "parameter /p/a: the key 1 is a int"),
+        ([2**31], r"parameter /p\[0\]: 2147483648 does not fit into the 32 bits"),
+        (1j, "complex"),
+    ],
+)
+def test_a_value_that_ros_cannot_hold_is_named_with_its_place(
+    simulated: Graph, value: Any, text: str
+) -> None:
+    node = simulated.node("node")
+    with pytest.raises(ParameterError, match=text) as caught:
+        node.set_param("p", value)
+    expected = OverflowError if "does not fit" in text else TypeError
+    assert isinstance(caught.value, expected)  # what xmlrpc raises in rospy
+    assert not node.has_param("p")
+
+
+def test_numpy_values_are_taken_as_what_they_are(simulated: Graph) -> None:
+    node = simulated.node("node")
+    node.set_param(
+        "p", {"speed": np.float64(0.5), "poses": np.arange(3), "n": np.int32(4), "on": np.bool_(True)}
+    )
+    stored = node.get_param("p")
+    assert type(stored["speed"]) is float
+    assert stored == {"speed": 0.5, "poses": [0, 1, 2], "n": 4, "on": True}
+
+
+def test_members_of_an_enumeration_are_stored_as_their_values(simulated: Graph) -> None:
+    class Level(enum.IntEnum):
+        HIGH = 3
+
+    class Mode(str, enum.Enum):  # noqa: UP042 - the kind whose str() is not its value
+        FAST = "fast"
+
+    node = simulated.node("node")
+    node.set_param("p", [Level.HIGH, Mode.FAST])
+    stored = node.get_param("p")
+    assert stored == [3, "fast"]
+    assert [type(item) for item in stored] == [int, str]
+
+
+# -- changes -----------------------------------------------------------------------------------------------------
+
+
+def test_a_node_hears_of_changes(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    assert node.on_param("rate", heard.append) == {}
+    other.set_param("rate", 10)
+    until(graph, lambda: len(heard) == 1)
+    other.set_param("rate", 20)
+    until(graph, lambda: len(heard) == 2)
+    other.delete_param("rate")
+    until(graph, lambda: len(heard) == 3)
+    assert heard == [10, 20, {}]
+
+
+def test_a_node_hears_of_changes_within_a_tree(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    other.set_param("/robot", {"speed": 1})
+    assert node.on_param("/robot", heard.append) == {"speed": 1}
+    other.set_param("/robot/speed", 2)
+    until(graph, lambda: len(heard) == 1)
+    other.set_param("/robot/wheel/radius", 3)
+    until(graph, lambda: len(heard) == 2)
+    assert heard == [{"speed": 2}, {"speed": 2, "wheel": {"radius": 3}}]
+
+
+def test_a_node_hears_when_a_whole_tree_is_set(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    node.on_param("/robot/speed", heard.append)
+    other.set_param("/robot", {"speed": 2})
+    until(graph, lambda: heard)
+    other.set_param("/robotics", {"speed": 3})
+    settle(graph)
+    assert heard == [2]
+
+
+def test_a_node_hears_when_what_it_knows_goes_with_its_namespace(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    other.set_param("/robot", {"speed": 1, "wheel": {"radius": 2}})
+    assert node.on_param("/robot/wheel", lambda value: heard.append(("wheel", value))) == {"radius": 2}
+    node.on_param("/robot", lambda value: heard.append(("robot", value)))
+    other.delete_param("/robot/speed")
+    until(graph, lambda: len(heard) == 1)
+    other.delete_param("/robot")
+    until(graph, lambda: len(heard) == 3)
+    assert heard[0] == ("robot", {"wheel": {"radius": 2}})
+    assert sorted(heard[1:]) == [("robot", {}), ("wheel", {})]
+
+
+def test_a_node_does_not_hear_of_what_it_sets_itself(graph: Graph) -> None:
+    heard: list[Any] = []
+    node = graph.node("node")
+    node.on_param("rate", heard.append)
+    node.set_param("rate", 1)
+    settle(graph)
+    assert heard == []
+    other = graph.node("other")
+    other.set_param("rate", 2)
+    settle(graph)
+    node.set_param("rate", 3)
+    other.set_param("rate", 2)
+    settle(graph)
+    other.set_param("rate", 2)  # no change
+    settle(graph)
+    assert heard == [2, 2]
+    other.set_param("rate", 2.0)
+    settle(graph)
+    assert [type(value) for value in heard] == [int, int, float]
+
+
+def test_what_is_out_of_date_is_not_told(simulated: Graph) -> None:
+    heard: list[Any] = []
+    node, other = simulated.node("node"), simulated.node("other")
+    node.on_param("rate", heard.append)
+    other.set_param("rate", 1)
+    node.set_param("rate", 2)
+    simulated.run(0.1)
+    assert heard == []
+    other.set_param("rate", 3)
+    other.set_param("rate", 4)
+    simulated.run(0.1)
+    assert heard == [4]
+    other.set_param("rate", 5)
+    node.delete_param("rate")
+    simulated.run(0.1)
+    assert heard == [4]
+
+
+def test_a_change_is_told_once_to_each_callback(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    for name in ("/", "/a", "/a/b", "/a/b/c"):
+        node.on_param(name, lambda value, name=name: heard.append((name, value)))
+    other.set_param("/a/b/c", 1)
+    settle(graph)
+    assert sorted(name for name, _ in heard) == ["/", "/a", "/a/b", "/a/b/c"]
+    assert dict(heard)["/a"] == {"b": {"c": 1}}
+    heard.clear()
+    other.set_param("/a", {"b": {"c": 2, "d": 3}})
+    settle(graph)
+    assert sorted(name for name, _ in heard) == ["/", "/a", "/a/b", "/a/b/c"]
+    assert (dict(heard)["/a/b"], dict(heard)["/a/b/c"]) == ({"c": 2, "d": 3}, 2)
+
+
+def test_what_a_callback_is_told_is_its_own(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    node.on_param("/a", lambda value: value.clear())
+    node.on_param("/a", heard.append)
+    other.set_param("/a", {"b": 1})
+    settle(graph)
+    assert heard == [{"b": 1}]
+    assert other.get_param("/a") == {"b": 1}
+
+
+def test_subscriptions_to_parameters_end(graph: Graph) -> None:
+    one: list[Any] = []
+    two: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    node.on_param("rate", one.append)
+    node.on_param("/rate/", two.append)  # the same one
+    other.set_param("rate", 1)
+    until(graph, lambda: two)
+    node.off_param("rate", one.append)
+    other.set_param("rate", 2)
+    until(graph, lambda: len(two) == 2)
+    node.off_param("rate")
+    other.set_param("rate", 3)
+    settle(graph)
+    assert (one, two) == ([1], [1, 2])
+    with pytest.raises(
+        ParameterError, match="node /node has no such callback for changes of parameter /rate"
+    ):
+        node.off_param("rate")
+    node.on_param("rate", one.append)
+    with pytest.raises(ParameterError, match=r"parameter /rat; did you mean /rate\?"):
+        node.off_param("rat")
+    with pytest.raises(ParameterError, match="no such callback"):
+        node.off_param("rate", two.append)
+
+
+def test_a_node_that_ends_leaves_no_subscription_behind(graph: Graph) -> None:
+    node, other = graph.node("node"), graph.node("other")
+    node.on_param("rate", lambda _: None)
+    node.on_param("/robot", lambda _: None)
+    node.shutdown("enough")
+    assert graph.master.lookupNode("/test", "/node")[0] == -1
+    other.set_param("rate", 1)
+    settle(graph)
+
+
+def test_a_parameters_name_may_have_characters_that_a_topics_may_not(graph: Graph) -> None:
+    node = graph.node("node")
+    node.set_param("~my-gain", 2.5)
+    assert node.get_param("/node/my-gain") == 2.5
+    assert graph.node("other").get_param("node/my-gain") == 2.5

@@ -1,0 +1,161 @@
+"""Plugins under ROS names, proved with the interface of a planner."""
+
+from __future__ import annotations
+
+import sys
+from importlib.metadata import EntryPoint
+
+import pytest
+
+from rosmini.core import plugins
+from rosmini.core.plugins import Plugin, PluginError
+
+from ..conftest import tool
+from ..processes import run
+
+
+class Planner(Plugin):
+    """Stands for nav_core's."""
+
+    def __init__(self, name, tolerance=0.0):
+        self.name, self.tolerance = name, tolerance
+
+    def plan(self, start, goal): ...
+
+
+class Straight(Planner, plugin="carrot_planner/CarrotPlanner"):
+    def plan(self, start, goal):
+        return [start, goal]
+
+
+class Grid(Planner):
+    """A base of two planners, and none itself."""
+
+
+class Dijkstra(Grid, plugin="navfn::NavfnROS"):
+    pass
+
+
+class AStar(Grid, plugin="global_planner/GlobalPlanner"):
+    pass
+
+
+class Layer(Plugin):
+    """Another interface."""
+
+
+class Inflation(Layer, plugin="costmap_2d::InflationLayer"):
+    pass
+
+
+@pytest.mark.parametrize("name", ["carrot_planner/CarrotPlanner", "carrot_planner::CarrotPlanner"])
+def test_both_spellings_find_it(name):
+    planner = Planner.create(name, "GlobalPlanner", tolerance=0.1)
+    assert type(planner) is Straight
+    assert (planner.name, planner.tolerance) == ("GlobalPlanner", 0.1)
+    assert planner.plan((0, 0), (1, 1)) == [(0, 0), (1, 1)]
+    assert Straight.plugin_name == "carrot_planner/CarrotPlanner"
+    assert Planner.plugin_name == Grid.plugin_name == ""
+
+
+def test_each_interface_has_its_own():
+    assert Planner.names() == [
+        "carrot_planner/CarrotPlanner",
+        "global_planner/GlobalPlanner",
+        "navfn/NavfnROS",
+    ]
+    assert Grid.names() == ["global_planner/GlobalPlanner", "navfn/NavfnROS"]
+    assert Layer.names() == ["costmap_2d/InflationLayer"]
+    with pytest.raises(PluginError, match="there is no Layer 'navfn/NavfnROS'"):
+        Layer.create("navfn/NavfnROS")
+    with pytest.raises(PluginError, match="there is no Grid 'carrot_planner/CarrotPlanner'"):
+        Grid.create("carrot_planner/CarrotPlanner")
+
+
+def test_an_unknown_name_is_answered_with_the_nearest_and_all():
+    with pytest.raises(
+        PluginError,
+        match=r"no Planner 'navfn::NavfnRos'; did you mean navfn/NavfnROS\? there are carrot_planner/.*, navfn/Navfn",
+    ):
+        Planner.create("navfn::NavfnRos")
+
+    class Empty(Plugin):
+        pass
+
+    with pytest.raises(PluginError, match="there is none at all"):
+        Empty.create("a/B")
+
+
+def test_two_of_one_name():
+    with pytest.raises(PluginError, match=r"two plugins are called navfn/NavfnROS: .*Dijkstra and .*Other"):
+
+        class Other(Planner, plugin="navfn/NavfnROS"):
+            pass
+
+    assert Planner.named("navfn/NavfnROS") is Dijkstra
+
+
+def test_a_cell_that_is_run_again_defines_its_class_again():
+    def cell():
+        class Mine(Planner, plugin="mine/Planner"):
+            pass
+
+        return Mine
+
+    cell()
+    second = cell()
+    assert Planner.named("mine/Planner") is second
+    del Planner._plugins["mine/Planner"]
+
+
+@pytest.mark.parametrize("name", ["Planner", "/Planner", "pkg/", "pkg::"])
+def test_a_name_is_package_and_class(name):
+    with pytest.raises(PluginError, match="a name is package/Class"):
+
+        class Wrong(Planner, plugin=name):
+            pass
+
+
+def test_other_distributions_bring_theirs(monkeypatch, tmp_path):
+    (tmp_path / "their_planner.py").write_text(
+        "from tests.test_plugins import Planner\n"
+        "class Theirs(Planner, plugin='their_pkg/TheirPlanner'):\n"
+        "    pass\n",
+        encoding="utf-8",
+    )
+    (tmp_path / "broken_planner.py").write_text("import no_such_module\n", encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setitem(sys.modules, "tests.test_plugins", sys.modules[__name__])
+    monkeypatch.setitem(sys.modules, "their_planner", None)  # so that it is gone afterwards
+    monkeypatch.delitem(sys.modules, "their_planner")
+    found = [
+        EntryPoint("their_pkg/TheirPlanner", "their_planner:Theirs", plugins.GROUP),
+        EntryPoint("broken/Planner", "broken_planner:X", plugins.GROUP),
+    ]
+    monkeypatch.setattr(plugins, "entry_points", lambda group: found if group == "rosmini.plugins" else [])
+    assert type(Planner.create("their_pkg::TheirPlanner", "x")).__name__ == "Theirs"
+    assert "their_pkg/TheirPlanner" in Planner.names()  # although another cannot be loaded
+    with pytest.raises(
+        PluginError, match=r"broken/Planner \(broken_planner:X\) cannot be loaded: .*no_such_module"
+    ):
+        Planner.create("broken/Planner")
+    del Planner._plugins["their_pkg/TheirPlanner"]
+
+
+def test_the_type_of_what_is_created_is_the_interface(tmp_path):
+    script = tmp_path / "typed.py"
+    script.write_text(
+        "from rosmini.core.plugins import Plugin\n"
+        "class Planner(Plugin):\n"
+        "    def plan(self) -> int: return 0\n"
+        "planner = Planner.create('a/B')\n"
+        "reveal_type(planner)\n"
+        "reveal_type(Planner.named('a/B'))\n",
+        encoding="utf-8",
+    )
+    tool("mypy")
+    done = run([sys.executable, "-m", "mypy", "--strict", str(script)])
+    revealed = [
+        line.rpartition('"')[0].rpartition('"')[2] for line in done.stdout.splitlines() if "note" in line
+    ]
+    assert revealed == ["typed.Planner", "type[typed.Planner]"], done.stdout

@@ -1,0 +1,88 @@
+"""Imports of modules of ROS that rosmini does not have."""
+
+from __future__ import annotations
+
+import importlib
+import io
+import re
+import sys
+
+import pytest
+
+import rosmini
+from rosmini.ros.rospy import absent
+from rosmini.ros.rospy.absent import AbsentModule, absent_module
+from rosmini.ros.rospy.importer import _HOMES
+from rosmini.ros.scripts import run_source
+
+IMPORTS = {
+    "import cv_bridge": "no module 'cv_bridge', which turns images",
+    "from cv_bridge import CvBridge": r"numpy\.frombuffer\(msg\.data, numpy\.uint8\)\.reshape\(msg\.height, "
+    r"msg\.width, -1\)",
+    "from cv_bridge.boost import x": "no module 'cv_bridge'",
+    "import smach_ros": "no module 'smach_ros'",
+    "import rqt_plot": "a part of rqt",
+    "import rosgraph.xmlrpc": "no module 'rosgraph.xmlrpc'",
+    "from rosgraph import xmlrpc": "no module 'rosgraph.xmlrpc'",
+    "from rosgraph.impl.graph import Graph": "getSystemState",
+    "from dynamic_reconfigure.parameter_generator_catkin import *": "which catkin_make turns into modules",
+    "import PyKDL as kdl": "tf.transformations",
+    "import roslaunch.pmon": "roslaunch.scriptapi",
+    "from rospy.impl import tcpros": "public functions",
+    "import genmsg.msgs": "_md5sum",
+    "from rospy_message_converter import message_converter": "yaml.safe_load",
+}
+
+
+@pytest.fixture(autouse=True)
+def _not_installed(monkeypatch):
+    """As if no real one were there."""
+    monkeypatch.setattr(sys, "path", [entry for entry in sys.path if "dist-packages" not in entry])
+
+
+@pytest.mark.parametrize("line", IMPORTS)
+def test_scripts_are_told_what_to_do_instead(line):
+    err = io.StringIO()
+    assert run_source(line, stderr=err).status == 1
+    assert "AbsentModule: rosmini has no module" in err.getvalue()
+    assert re.search(IMPORTS[line], err.getvalue()), err.getvalue()
+
+
+@pytest.mark.parametrize("line", [line for line in IMPORTS if line != "from rosgraph import xmlrpc"])
+def test_so_are_programs(line):
+    """Except where Python asks for a name in a module that is there: then it hides what the finder says."""
+    rosmini.install()
+    try:
+        with pytest.raises(ModuleNotFoundError, match=IMPORTS[line]):
+            exec(line, {})
+    finally:
+        rosmini.uninstall()
+
+
+def test_who_asks_first_gets_the_error_that_python_would_give():
+    source = "try:\n    import cv_bridge\nexcept ImportError:\n    print('without')"
+    out = io.StringIO()
+    assert run_source(source, stdout=out, prefix=False).status == 0
+    assert out.getvalue() == "without\n"
+
+
+def test_an_installed_one_wins(tmp_path, monkeypatch):
+    (tmp_path / "cv_bridge.py").write_text("HERE = True", encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    out = io.StringIO()
+    assert run_source("import cv_bridge; print(cv_bridge.HERE)", stdout=out, prefix=False).status == 0
+    assert out.getvalue() == "True\n"
+    rosmini.install()
+    try:
+        assert importlib.import_module("cv_bridge").HERE
+    finally:
+        rosmini.uninstall()
+        sys.modules.pop("cv_bridge")
+
+
+def test_what_is_there_is_not_said_to_be_absent():
+    assert not set(absent._ABSENT) & set(_HOMES)
+    assert absent_module("numpy") is None
+    assert absent_module("rosgraph") is None
+    assert isinstance(absent_module("roswtf.graph"), AbsentModule)
+    assert absent_module("roswtf.graph").name == "roswtf.graph"

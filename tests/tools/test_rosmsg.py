@@ -1,0 +1,150 @@
+"""`rosmsg` and `rossrv` print what the real ones do, and return data."""
+
+from __future__ import annotations
+
+import io
+import shlex
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import rosmini.tools.main as cli
+from rosmini.core.errors import UsageError
+from rosmini.core.time import Time
+from rosmini.msgs.geometry_msgs.msg import PoseStamped
+from rosmini.ros.bag import Bag
+from rosmini.tools import rosmsg, rossrv
+from rosmini.tools.verbs import VerbError
+
+from .transcripts import read
+
+REAL = read("rosmsg_show") | read("rosmsg_md5") | read("rosmsg_misc") | read("rossrv")
+TOOLS = {"rosmsg": rosmsg.TOOL, "rossrv": rossrv.TOOL}
+EXACT = [
+    line for line, (said, status) in REAL.items()
+    if line.split()[1:2] in (["show"], ["md5"], ["package"]) and status == 0 and "Cannot locate" not in said
+]  # fmt: skip
+
+
+def run(line: str) -> Any:
+    tool, *words = shlex.split(line)
+    return TOOLS[tool].run(*words)
+
+
+def test_there_is_enough_to_compare() -> None:
+    assert len(EXACT) > 100
+
+
+@pytest.mark.parametrize("line", EXACT)
+def test_it_prints_what_the_real_one_does(line: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status = cli.main(line.split())
+    printed = capsys.readouterr().out
+    assert status == 0
+    if line == "rosmsg show Pose":  # turtlesim was not installed there
+        printed = printed.partition("[turtlesim/Pose]")[0]
+    assert printed == REAL[line][0]
+
+
+@pytest.mark.parametrize("line", ["rosmsg", "rosmsg -h", "rosmsg bogus", "rossrv"])
+def test_the_overview(line: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status = cli.main(line.split())
+    overview = REAL["rosmsg"][0].replace("rosmsg", line.split(maxsplit=1)[0])
+    if line.startswith("rossrv"):
+        overview = overview.replace("message", "service").replace("Message", "Service")
+    assert capsys.readouterr().out == overview
+    assert status == (0 if len(line.split()) == 1 else 64)
+
+
+@pytest.mark.parametrize("line", ["rosmsg list", "rossrv list", "rosmsg packages"])
+def test_what_the_real_ones_list_is_listed(line: str) -> None:
+    """But for the types that only actionlib's own tests use, and those of packages that rosmini does not bring."""
+    missing = set(REAL[line][0].splitlines()) - set(str(run(line)).splitlines())
+    assert {name for name in missing if not name.startswith(("actionlib/", "topic_tools/"))} == set()
+
+
+def test_the_results_are_data(tmp_path: Path) -> None:
+    assert list(run("rosmsg show Pose").definitions) == ["geometry_msgs/Pose", "turtlesim/Pose"]
+    assert run("rosmsg show std_msgs/String.msg").definitions == {"std_msgs/String": "string data\n"}
+    assert run("rossrv md5 SetBool").sums == {"std_srvs/SetBool": "09fb03525b03e7ea1fd3992bafd87e16"}
+    assert str(run("rossrv md5 SetBool")) == "[std_srvs/SetBool]: 09fb03525b03e7ea1fd3992bafd87e16"
+    assert "std_srvs/Empty" in run("rossrv package std_srvs").names
+    assert "std_srvs" in run("rossrv packages").names
+    assert "\n" not in str(run("rosmsg packages -s"))
+    assert run("rosmsg show -r std_msgs/Empty").definitions["std_msgs/Empty"].startswith("#")
+    assert run("rossrv show -r std_srvs/SetBool").definitions["std_srvs/SetBool"].count("---\n") == 1
+
+
+def test_the_definition_in_a_bag(tmp_path: Path) -> None:
+    path = tmp_path / "t.bag"
+    with Bag(path, "w") as bag:
+        bag.write("/pose", PoseStamped(), Time(1))
+    assert str(run(f"rosmsg show -b {path} geometry_msgs/PoseStamped")) == str(
+        run("rosmsg show geometry_msgs/PoseStamped")
+    )
+    raw = str(run(f"rosmsg info -r --bag {path} geometry_msgs/PoseStamped"))
+    assert "MSG: std_msgs/Header" in raw
+    with pytest.raises(VerbError, match="did you mean geometry_msgs/PoseStamped"):
+        run(f"rosmsg show -b {path} geometry_msgs/PoseStampd")
+    with pytest.raises(VerbError, match="does not exist"):
+        run(f"rosmsg show -b {tmp_path}/none.bag std_msgs/String")
+    (tmp_path / "no.bag").write_text("nothing", encoding="utf-8")
+    with pytest.raises(VerbError, match="ERROR: "):
+        run(f"rosmsg show -b {tmp_path}/no.bag std_msgs/String")
+
+
+WRONG = [
+    ("rosmsg show std_msgs::String", "C.. style|C\\+\\+-style"), ("rosmsg show std_msgs.String", "package_name/Type"),
+    ("rosmsg show a/B c/D", "only specify one message type"), ("rossrv show", "please specify a service type"),
+    ("rosmsg md5", "please specify"), ("rosmsg shwo a/B", "did you mean show"),
+    ("rosmsg show --raww x", "no such option"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("line", "said"), WRONG)
+def test_a_line_that_makes_no_sense(line: str, said: str) -> None:
+    with pytest.raises(UsageError, match=said):
+        run(line)
+
+
+REFUSED = [
+    ("rosmsg show nope/Nope", r"Unable to load msg \[nope/Nope\]: "),
+    ("rosmsg show std_msgs/Strin", "did you mean String"),
+    ("rossrv show std_srvs/SetBol", r"Unknown srv type \[std_srvs/SetBol\]: .*did you mean SetBool"),
+    ("rosmsg show Twits", "Could not find msg 'Twits'\ndid you mean Twist"),
+    ("rosmsg show Zzzzzzzz", "`rosmsg list` lists the message types"),
+    ("rosmsg package nope", "Invalid package: nope\n"), ("rosmsg show /", "Unable to load msg"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("line", "said"), REFUSED)
+def test_what_is_not_there(line: str, said: str) -> None:
+    with pytest.raises(VerbError, match=said):
+        run(line)
+
+
+def test_an_md5_sum_of_nothing() -> None:
+    assert run("rosmsg md5 nope/Nope").complaints[0] == "Cannot locate [nope/Nope]"
+    assert run("rosmsg md5 Twits").complaints == (
+        "No messages matching the name [Twits]",
+        "did you mean Twist?",
+    )
+
+
+def test_each_verb_has_help_with_an_example(capsys: pytest.CaptureFixture[str]) -> None:
+    for name, tool in TOOLS.items():
+        for verb in tool.verbs:
+            assert cli.main([name, verb, "-h"]) == 0
+            said = capsys.readouterr().out
+            assert said.startswith(f"Usage: {name} {verb}")
+            assert f"Example:\n  rosmini {name} {verb}" in said
+
+
+def test_the_name_may_come_on_standard_input(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("sys.stdin", io.StringIO("\nstd_msgs/String\n"))
+    assert cli.main(["rosmsg", "show"]) == 0
+    assert capsys.readouterr().out == "string data\n\n"
+    assert cli.main(["rosmsg", "md5"]) == 2  # the real one waits for ever
+    assert "please specify" in capsys.readouterr().err

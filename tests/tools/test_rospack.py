@@ -1,0 +1,194 @@
+"""`rosmini rospack`, `rosstack`, `rosversion`, `roscd` and `rosls` without a real ROS beside them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from rosmini.tools.main import main
+from rosmini.tools.rospack import TOOL as ROSPACK
+from rosmini.tools.rosstack import TOOL as ROSSTACK
+from rosmini.tools.verbs import VerbError
+
+from ..core.packages.workspaces import a_workspace
+
+
+@pytest.fixture
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(a_workspace(tmp_path / "ws")))
+    monkeypatch.delenv("ROS_WORKSPACE", raising=False)
+    monkeypatch.delenv("CMAKE_PREFIX_PATH", raising=False)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path / "ws"
+
+
+def test_in_python_the_verbs_return_lines(workspace: Path) -> None:
+    assert ROSPACK.run("find", "renamed").lines == (str(workspace / "other_folder"),)
+    assert ROSPACK.run("depends", "mixed").lines == ("beta", "gamma", "alpha")
+    assert ROSPACK.run("depends-on1", "gamma").lines == ("alpha", "mixed")
+    assert set(ROSPACK.run("depends-on", "gamma").lines) == {"alpha", "elbow", "mixed", "old", "renamed"}
+    assert ROSSTACK.run("contents", "arms").lines == ("elbow",)
+    assert ROSSTACK.run("contents", "gathering").lines == ("alpha", "beta")
+    assert ROSPACK.run("list-duplicates").lines == ()
+
+
+def test_the_packages_that_rosmini_brings_are_there_too(workspace: Path) -> None:
+    assert "std_msgs" in ROSPACK.run("list-names").lines
+    assert "std_msgs" in ROSPACK.run("depends1", "geometry_msgs").lines
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["find", "alpa"], "package 'alpa' not found\ndid you mean alpha"),
+        (["depends", "mixd"], "no such package mixd\ndid you mean mixed"),
+        (["cflags-only-I", "alpha"], "which rosmini does not run"),
+        (["rosdep", "alpha"], "rosmini needs none"),
+        (["profile", "--length=x"], "--length is a number of folders"),
+    ],
+)
+def test_an_error_says_what_to_do(workspace: Path, words: list[str], says: str) -> None:
+    with pytest.raises(VerbError) as caught:
+        ROSPACK.run(*words)
+    assert str(caught.value).startswith("[rospack] Error: ")
+    assert says in str(caught.value)
+
+
+def test_a_stack_that_needs_what_is_not_there_is_refused(workspace: Path) -> None:
+    with pytest.raises(VerbError, match=r"stack 'arms' depends on non-existent package 'legs'.*stack\.xml"):
+        ROSSTACK.run("depends", "arms")
+
+
+def test_a_broken_manifest_is_told_and_the_rest_is_listed(workspace: Path) -> None:
+    (workspace / "gamma" / "package.xml").write_text("<package><name>", encoding="utf-8")
+    result = ROSPACK.run("list-names")
+    assert "alpha" in result.lines
+    assert "gamma" not in result.lines
+    assert [str(workspace / "gamma" / "package.xml") in each for each in result.complaints] == [True]
+
+
+def test_needs_in_a_circle_come_to_an_end(workspace: Path) -> None:
+    path = workspace / "gamma" / "package.xml"
+    text = path.read_text(encoding="utf-8").replace("</package>", "<depend>mixed</depend></package>")
+    path.write_text(text, encoding="utf-8")
+    assert set(ROSPACK.run("depends", "mixed").lines) == {"alpha", "beta", "gamma"}
+    assert ROSPACK.run("depends-why", "--target=mixed", "gamma").lines[1:] == ("* gamma -> mixed ",)
+    assert ROSPACK.run("depends-indent", "gamma").lines[0] == "mixed"
+
+
+def test_a_tree_that_grows_without_end_is_cut(workspace: Path) -> None:
+    manifest = (workspace / "gamma" / "package.xml").read_text(encoding="utf-8")
+    for i in range(40):  # 2 ** 20 ways lead from the first to the last
+        layer = i // 2
+        needs = (
+            "".join(f"<depend>p{2 * (layer + 1) + side}</depend>" for side in (0, 1)) if layer < 19 else ""
+        )
+        folder = workspace / f"p{i}"
+        folder.mkdir()
+        text = manifest.replace("gamma", f"p{i}").replace("</package>", f"{needs}</package>")
+        (folder / "package.xml").write_text(text, encoding="utf-8")
+    assert len(ROSPACK.run("depends-indent", "p0").lines) == 10_000
+    assert len(ROSPACK.run("depends", "p0").lines) == 38
+
+
+def test_profile_says_where_the_time_goes(workspace: Path) -> None:
+    (workspace / "zombie").mkdir()
+    every_folder = "--length=100000"  # the slowest come first, and which these are differs from run to run
+    lines = ROSPACK.run("profile", every_folder).lines
+    assert any(line.endswith(f"* {workspace / 'zombie'}") for line in lines)
+    assert any(line.endswith(f"  {workspace / 'alpha'}") for line in lines)
+    assert str(workspace / "zombie") in ROSPACK.run("profile", every_folder, "--zombie-only").lines
+    times = [float(line.split()[0]) for line in ROSPACK.run("profile", "--length=3").lines[6:]]
+    assert len(times) == 3
+    assert times == sorted(times, reverse=True)
+
+
+def test_the_command_prints_and_returns_the_status(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["rospack", "find", "alpha"]) == 0
+    assert capsys.readouterr().out == f"{workspace / 'alpha'}\n"
+    assert main(["rospack", "fnd", "alpha"]) == 1
+    assert capsys.readouterr().err == "[rospack] Error: command fnd not implemented\ndid you mean find?\n"
+    with pytest.raises(SystemExit):
+        main(["rospack", "help"])
+    assert "plugins" in capsys.readouterr().out
+    assert main(["rospack", "find", "-h"]) == 0
+    assert "for example: rosmini rospack find std_msgs" in capsys.readouterr().out
+
+
+def test_rosversion(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delenv("ROS_DISTRO", raising=False)
+    for words, printed in (
+        (["alpha"], "1.2.3\n"), (["-s", "alpha"], "1.2.3"), (["arms"], "<unversioned>\n"), (["-d"], "noetic\n")
+    ):  # fmt: skip
+        assert main(["rosversion", *words]) == 0
+        assert capsys.readouterr().out == printed
+    assert main(["rosversion", "alpa"]) == 1
+    assert "did you mean alpha" in capsys.readouterr().err
+    assert main(["rosversion", "--all"]) == 0
+    assert "alpha: 1.2.3" in capsys.readouterr().out.splitlines()
+
+
+def test_roscd_and_rosls(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for words, printed in (
+        (["roscd", "alpha"], f"{workspace / 'alpha'}\n"),
+        (["roscd", "alpha/sub"], f"{workspace / 'alpha' / 'sub'}\n"),
+        (["roscd", "arms"], f"{workspace / 'arms'}\n"),
+        (["rosls", "alpha"], "package.xml\nsub\n"),
+        (["rosls", "alpha/package.xml"], f"{workspace / 'alpha' / 'package.xml'}\n"),
+        (["rosls"], "ws\n"),
+    ):
+        assert main(words) == 0
+        assert capsys.readouterr().out == printed
+    for words, says in (
+        (["roscd", "alpa"], "No such package/stack 'alpa'; did you mean alpha"),
+        (["roscd", "alpha/su"], "No such file or directory; did you mean sub"),
+        (["roscd", "alpha/package.xml"], "is a file, not a folder"),
+        (["roscd"], "Neither ROS_WORKSPACE is set"),
+        (["rosls", "alpha/su"], "did you mean sub"),
+    ):
+        assert main(words) == 1
+        assert says in capsys.readouterr().err
+    devel = workspace / "devel"
+    devel.mkdir()
+    (devel / ".catkin").write_text("", encoding="utf-8")
+    monkeypatch.setenv("CMAKE_PREFIX_PATH", os.pathsep.join(("/nowhere", str(devel))))
+    assert main(["roscd"]) == 0
+    assert capsys.readouterr().out == f"{devel}\n"
+    monkeypatch.setenv("ROS_LOG_DIR", str(workspace))
+    assert main(["roscd", "log"]) == 0
+    assert capsys.readouterr().out == f"{workspace}\n"
+
+
+def test_a_package_that_needs_what_every_robot_has(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What `catkin_create_pkg example_pkg std_msgs rospy roscpp` writes is found without a real ROS."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    assert main(["catkin_create_pkg", "example_pkg", "std_msgs", "rospy", "roscpp"]) == 0
+    assert ROSPACK.run("depends1", "example_pkg").lines == ("roscpp", "rospy", "std_msgs")
+    assert {"rosgraph", "genpy", "message_runtime"} <= set(ROSPACK.run("depends", "example_pkg").lines)
+    assert "example_pkg" in ROSPACK.run("depends-on1", "rospy").lines
+    assert "example_pkg" in ROSPACK.run("depends-on", "genpy").lines
+    for name in (
+        "rospy",
+        "roscpp",
+        "catkin",
+        "message_generation",
+        "message_runtime",
+        "actionlib",
+        "tf",
+        "tf2_ros",
+    ):
+        assert ROSPACK.run("find", name).lines[0].endswith(name)
+    capsys.readouterr()
+    assert main(["rospack", "find", "rostime"]) == 1
+    assert "a library for nodes in C++" in capsys.readouterr().err

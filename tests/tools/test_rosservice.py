@@ -1,0 +1,237 @@
+"""`rosservice` prints what the real one does, and returns data."""
+
+from __future__ import annotations
+
+import io
+import re
+import shlex
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+import rosmini.tools.main as cli
+from rosmini import Graph
+from rosmini.core.errors import UsageError
+from rosmini.msgs.nav_msgs.srv import GetPlan
+from rosmini.msgs.std_srvs.srv import Empty, SetBool, Trigger
+from rosmini.tools.rosservice import TOOL
+from rosmini.tools.verbs import Call, Result, VerbError
+
+from ..processes import free_port
+from .transcripts import masked, read, talkers
+
+REAL = read("rosservice")
+
+
+def deliberate(_request: Any) -> Any:
+    raise ValueError("deliberate failure")
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    with Graph() as made:
+        talkers(made)
+        node = made.nodes["/srv_server"]
+        node.service("/set_bool", SetBool, lambda request: (request.data, f"got {request.data}"))
+        node.service("/trigger", Trigger, lambda _: (True, "triggered"))
+        node.service("/srv_server/empty", Empty, lambda _: ())
+        node.service("/fails", Trigger, deliberate)
+        node.service("/returns_none", Trigger, lambda _: None)
+        yield made
+
+
+def printed(graph: Graph, line: str) -> tuple[str, int]:
+    """What a terminal would show of both streams, and the exit status."""
+    said: list[str] = []
+    try:
+        result = TOOL.run(*shlex.split(line)[1:], graph=graph, say=said.append)
+    except VerbError as error:
+        return f"{error}\n", error.status
+    text = str(result)
+    said += [text] if text or result.always_printed else []
+    return "".join(f"{part}\n" for part in [*said, *result.complaints]), result.status
+
+
+def real(line: str) -> tuple[str, int]:
+    """What the real one printed, without what differs from run to run, and without Python's sign for bytes."""
+    text, status = REAL[line]
+    return plain(re.sub(r"b'(.*)'$", r"\1", text, flags=re.MULTILINE)), status
+
+
+def plain(text: str) -> str:
+    return masked(re.sub(r"rosrpc://\S+", "RPC", text))
+
+
+def run(graph: Graph, *words: object) -> Any:
+    return TOOL.run(*words, graph=graph, say=lambda _: None)
+
+
+EXACT = [
+    "rosservice list", "rosservice list -n", "rosservice list /nope", "rosservice list /talker",
+    "rosservice type /set_bool", "rosservice uri /set_bool", "rosservice node /set_bool",
+    "rosservice args /set_bool", "rosservice info /set_bool", "rosservice find std_srvs/SetBool",
+    "rosservice find nope/Nope", "rosservice call /set_bool true", "rosservice call /set_bool 'data: false'",
+    "rosservice call /trigger", "rosservice call /srv_server/empty", "rosservice call /fails",
+    "rosservice call /returns_none", "rosservice call --wait /trigger",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("line", EXACT)
+def test_it_prints_what_the_real_one_does(graph: Graph, line: str) -> None:
+    text, status = printed(graph, line)
+    assert (plain(text), status) == real(line)
+
+
+@pytest.mark.parametrize("line", ["rosservice type /nope", "rosservice info /nope", "rosservice call /nope"])
+def test_what_there_is_to_do_comes_after_what_the_real_one_prints(graph: Graph, line: str) -> None:
+    text, status = printed(graph, line)
+    assert (text, status) == (
+        real(line)[0] + "`rosservice list` lists the services that there are.\n", real(line)[1],
+    )  # fmt: skip
+    assert printed(graph, line.replace("nope", "set_bol"))[0].endswith("did you mean /set_bool?\n")
+
+
+def test_too_many_arguments(graph: Graph) -> None:
+    text, status = printed(graph, "rosservice call /set_bool 1 2 3")
+    wanted = REAL["rosservice call /set_bool 1 2 3"]
+    assert status == wanted[1]
+    told = "ERROR: Incompatible arguments to call service:\nToo many arguments"
+    assert text.startswith(told) and wanted[0].startswith(told)
+    assert text.partition("Provided")[2] == wanted[0].partition("Provided")[2]
+
+
+@pytest.mark.parametrize("line", ["rosservice", "rosservice -h"])
+def test_the_overview(line: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(line.split()) == REAL[line][1]
+    assert capsys.readouterr().out == REAL[line][0]
+
+
+def test_each_verb_has_help_with_an_example(capsys: pytest.CaptureFixture[str]) -> None:
+    for verb in TOOL.verbs:
+        assert cli.main(["rosservice", verb, "-h"]) == 0
+        said = capsys.readouterr().out
+        assert said.startswith(f"Usage: rosservice {verb}")
+        assert f"Example:\n  rosmini rosservice {verb}" in said
+
+
+def test_without_a_master(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{free_port()}")
+    text, status = read("errors_no_master")["rosservice list"]
+    for line in ("rosservice list", "rosservice type /x", "rosservice call /x", "rosservice find a/B"):
+        assert cli.main(line.split()) == status
+        assert capsys.readouterr().err.startswith(text)
+
+
+# -- data ------------------------------------------------------------------------------------------------------------
+
+
+def test_the_results_are_data(graph: Graph) -> None:
+    assert run(graph, "call", "/set_bool", "true").response == SetBool._response_class(True, "got True")
+    assert run(graph, "call", "/set_bool", True).request.data is True
+    assert set(run(graph, "find", "std_srvs/Trigger").names) == {"/fails", "/returns_none", "/trigger"}
+    assert run(graph, "list", "/talker").names == ("/talker/get_loggers", "/talker/set_logger_level")
+    about = run(graph, "info", "/trigger")
+    assert (about.node, about.type, about.args) == ("/srv_server", "std_srvs/Trigger", "")
+    assert run(graph, "find", "std_srvs/Triger").complaints == ("did you mean std_srvs/Trigger?",)
+    verbose = run(graph, "call", "-v", "set_bool", "true")
+    assert str(verbose) == 'data: True\n---\nsuccess: True\nmessage: "got True"'
+
+
+def test_questions_take_no_time_of_the_graph_and_leave_nothing(graph: Graph) -> None:
+    nodes, now = set(graph.nodes), graph.scheduler.now_ns()
+    for line in ("list -n", "type /trigger", "info /trigger", "find std_srvs/Empty", "args /set_bool"):
+        run(graph, *line.split())
+    assert (set(graph.nodes), graph.scheduler.now_ns()) == (nodes, now)
+    run(graph, "call", "/trigger")
+    assert set(graph.nodes) == nodes
+
+
+def test_a_header_is_stamped_where_that_is_asked_for(graph: Graph) -> None:
+    heard: list[Any] = []
+    graph.node("planner").service(
+        "/plan", GetPlan, lambda request: heard.append(request) or GetPlan._response_class()
+    )
+    graph.run(1.0)
+    run(graph, "call", "/plan", "start: {header: auto, pose: {position: {x: 1.5}}}")
+    assert heard[0].start.pose.position.x == 1.5
+    assert heard[0].start.header.stamp.to_nsec() == graph.scheduler.now_ns()
+
+
+WRONG = [
+    ("list /a /b", "you may only specify one input namespace"), ("call", "service must be specified"),
+    ("type", "service must be specified"), ("uri /a /b", "you may only specify one input service"),
+    ("find", "please specify a message type"), ("find a/B c/D", "you may only specify one message type"),
+    ("info", "you must specify a service name"), ("info /a /b", "you may only specify one service"),
+    ("call /set_bool '{'", "Argument error"), ("call /set_bool", "Please specify service arguments\n.*takes: data"),
+    ("cal /set_bool", "did you mean call?"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("line", "said"), WRONG)
+def test_a_line_that_makes_no_sense(graph: Graph, line: str, said: str) -> None:
+    with pytest.raises(UsageError, match=said):
+        run(graph, *shlex.split(line))
+
+
+REFUSED = [
+    ("call /set_bool '{dat: true}'", "No field name .dat"), ("call /set_bool hello", "field data is not a bool"),
+    ("args /nope", r"Service \[/nope\] is not available"), ("uri /nope", "Unknown service: /nope"),
+    ("node /nope", "Unknown service: /nope"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("line", "said"), REFUSED)
+def test_what_cannot_be_done(graph: Graph, line: str, said: str) -> None:
+    with pytest.raises(VerbError, match=said):
+        run(graph, *shlex.split(line))
+
+
+def test_a_request_with_a_wrong_value_shows_the_definition(graph: Graph) -> None:
+    with pytest.raises(VerbError, match="srv file:\nbool data\n---\nbool success\nstring message\n"):
+        run(graph, "call", "/set_bool", "[hello]")
+
+
+def test_a_type_that_is_not_known_here(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(SetBool, "_type", "far_away/SetBool")
+    with pytest.raises(
+        VerbError, match=r"Unable to load type \[far_away/SetBool\].*\n.*\n.*ROS_PACKAGE_PATH"
+    ):
+        run(graph, "call", "/set_bool", "true")
+
+
+def test_a_server_that_does_not_answer(graph: Graph) -> None:
+    graph.ask_as("/gone").ask("registerService", "/lost", "rosrpc://127.0.0.1:9", "http://127.0.0.1:9/")
+    with pytest.raises(
+        VerbError, match=r"Unable to communicate with service \[/lost\].*(\n.*)*rosnode cleanup"
+    ) as caught:
+        run(graph, "type", "/lost")
+    assert caught.value.status == 2
+    assert run(graph, "find", "std_srvs/Empty").names == ("/srv_server/empty",)
+
+
+def test_waiting_for_a_service_that_comes_later(graph: Graph) -> None:
+    node = graph.node("late")
+    node.timer(2.0, lambda _: node.service("later", Trigger, lambda _: (True, "here")), oneshot=True)
+    assert run(graph, "call", "--wait", "/later").response.message == "here"
+
+
+def test_requests_on_standard_input(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    stdin = io.StringIO("data: true\n---\ndata: {\n---\n[false]\n---\ndata: true\n")
+    monkeypatch.setattr("sys.stdin", SimpleNamespace(isatty=lambda: False))
+    warned: list[str] = []
+    call = Call(graph, said.append, warned.append, stdin.readline)
+
+    def act(*words: str) -> Result:
+        verb = TOOL.verbs["call"]
+        return verb.act(verb.parser().parse(words), call)
+
+    last = act("/set_bool")
+    assert said == ['success: True\nmessage: "got True"']
+    assert (
+        str(last) == 'success: False\nmessage: "got False"'
+    )  # what has no --- behind it is not sent, as in ROS
+    assert len(warned) == 1 and warned[0].startswith("Invalid YAML")
+    assert str(act("/set_bool")) == ""

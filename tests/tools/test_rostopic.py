@@ -1,0 +1,195 @@
+"""`rostopic` prints what the real one does, and returns data."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import rosmini.tools.main as cli
+from rosmini import Graph
+from rosmini.core.errors import UsageError
+from rosmini.core.time import Time
+from rosmini.msgs.std_msgs.msg import String
+from rosmini.ros.bag import Bag
+from rosmini.tools.rostopic import TOOL
+from rosmini.tools.verbs import VerbError
+
+from ..processes import free_port
+from ..processes import run as process
+from .transcripts import masked, read, talkers
+
+REAL = read("rostopic")
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    with Graph() as made:
+        talkers(made)
+        yield made
+
+
+def printed(graph: Graph, line: str) -> tuple[str, int]:
+    """What a terminal would show of both streams, and the exit status."""
+    said: list[str] = []
+    try:
+        result = TOOL.run(*shlex.split(line)[1:], graph=graph, say=said.append)
+    except VerbError as error:
+        return f"{error}\n", error.status
+    text = str(result)
+    said += [text] if text or result.always_printed else []
+    return "".join(f"{part}\n" for part in [*said, *result.complaints]), result.status
+
+
+def run(graph: Graph, *words: object) -> Any:
+    return TOOL.run(*words, graph=graph, say=lambda _: None)
+
+
+EXACT = [
+    "rostopic list", "rostopic list -p", "rostopic list -s", "rostopic list /nope", "rostopic list -v /chatter",
+    "rostopic list --host", "rostopic info /chatter", "rostopic type /chatter", "rostopic type /chatter/data",
+    "rostopic find std_msgs/String", "rostopic find nope/Nope",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("line", EXACT)
+def test_it_prints_what_the_real_one_does(graph: Graph, line: str) -> None:
+    text, status = printed(graph, line)
+    said = masked(text).replace("Host [rosmini]", "Host [HOST]")
+    assert (said, status) == (masked(REAL[line][0]), REAL[line][1])
+
+
+def test_all_topics_with_their_types(graph: Graph) -> None:
+    """The real Master lists topics in the order of a dictionary."""
+    text, _ = printed(graph, "rostopic list -v")
+    assert sorted(text.splitlines()) == sorted(REAL["rostopic list -v"][0].splitlines())
+
+
+@pytest.mark.parametrize("line", ["rostopic info /nope", "rostopic type /nope"])
+def test_what_there_is_to_do_comes_after_what_the_real_one_prints(graph: Graph, line: str) -> None:
+    text, status = printed(graph, line)
+    assert status == REAL[line][1]
+    assert text == REAL[line][0] + "`rostopic list` lists the topics that there are.\n"
+    assert printed(graph, line.replace("nope", "chater"))[0].endswith("did you mean /chatter?\n")
+
+
+@pytest.mark.parametrize("line", ["rostopic", "rostopic bogus", "rostopic -h"])
+def test_the_overview(line: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status = cli.main(line.split())
+    assert (capsys.readouterr().out, status) == REAL[line]
+
+
+def test_each_verb_has_the_options_of_the_real_one_and_an_example(capsys: pytest.CaptureFixture[str]) -> None:
+    for verb in TOOL.verbs:
+        assert cli.main(["rostopic", verb, "-h"]) == 0
+        said = capsys.readouterr().out
+        assert f"Example:\n  rosmini rostopic {verb}" in said
+        real = REAL.get(f"rostopic {verb} -h", ("", 0))[0]
+        assert said.startswith(real.partition("\n")[0])
+        options = [words.split("=")[0] for words in real.replace(",", " ").split() if words.startswith("-")]
+        assert [option for option in options if option not in said and option not in ("-h", "--help")] == []
+
+
+def test_without_a_master(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{free_port()}")
+    text, status = read("errors_no_master")["rostopic list"]
+    assert cli.main(["rostopic", "list"]) == status
+    assert capsys.readouterr().err.startswith(text)
+
+
+# -- data ------------------------------------------------------------------------------------------------------------
+
+
+def test_the_results_are_data(graph: Graph) -> None:
+    graph.node("other", namespace="/robot1").publisher("chatter", String)
+    assert run(graph, "list", "/robot1").names == ("/robot1/chatter",)
+    info = run(graph, "info", "chatter")
+    assert (info.type, list(info.publishers), list(info.subscribers)) == (
+        "std_msgs/String", ["/talker"], ["/listener"],
+    )  # fmt: skip
+    assert run(graph, "info", "/pose").subscribers == {}
+    assert "Subscribers: None" in str(run(graph, "info", "/pose"))
+    assert run(graph, "type", "/odom/pose/pose/position/x").field_type == "float64"
+    assert run(graph, "type", "/odom/header/stamp/secs").field_type == "int32"
+    assert run(graph, "find", "std_msgs/String").names == ("/chatter", "/robot1/chatter")
+    assert run(graph, "find", "std_msgs/Strin").complaints == ("did you mean std_msgs/String?",)
+
+
+def test_a_field_that_messages_do_not_have(graph: Graph) -> None:
+    with pytest.raises(
+        VerbError, match="messages on /scan are sensor_msgs/LaserScan and have no rangs; did you mean"
+    ):
+        run(graph, "type", "/scan/rangs")
+
+
+def test_topics_of_a_bag(tmp_path: Path) -> None:
+    path = tmp_path / "t.bag"
+    with Bag(path, "w") as bag:
+        for number, topic in enumerate(("/b", "/a", "/a/deep", "/b")):
+            bag.write(topic, String("x"), Time(100 + number))
+    with Graph() as graph:
+        assert run(graph, "list", "-b", path).names == ("/b", "/a", "/a/deep")
+        inside = run(graph, "list", "-b", path, "/a")
+        assert (inside.count, inside.span) == (2, (101.0, 102.0))
+        assert str(inside).startswith("2 message(s) from ")
+        with pytest.raises(VerbError, match=r"nothing of /c is in .*, but of /a, /a/deep, /b"):
+            run(graph, "list", "-b", path, "/c")
+        with pytest.raises(VerbError, match="does not exist"):
+            run(graph, "list", "-b", tmp_path / "none.bag")
+
+
+WRONG = [
+    ("list a b", "only specify one input topic"), ("list -p -s", "only specify one of -p, -s"),
+    ("list -b x -s", "-s option is not valid with bags"), ("list -b x --host", "--host option"),
+    ("info", "must specify a topic name"), ("info a b", "only specify one topic name"),
+    ("type", "topic must be specified"), ("type a b", "only specify one"), ("find", "specify a message type"),
+    ("find a b", "one message type"), ("echo", "topic must be specified"), ("echo a b", "only specify one"),
+    ("echo -a", "only valid when echoing from bag"), ("echo --offset -b x y", "not valid with bag"),
+    ("echo -n x /a", "COUNT must be an integer"), ("echo -w x /a", "NUM_WIDTH must be"),
+    ("echo -w 1 /a", "at least 2"), ("echo -w 1000000000 /a", "at most 100"), ("hz", "topic must be specified"),
+    ("hz -w x /a", "window size must be an integer"), ("bw", "topic must be specified"), ("bw a b", "only specify one"),
+    ("delay", "topic must be specified"), ("pub", "/topic must be specified"), ("pub /a", "topic type must be"),
+    ("pub -r 1 -1 /a b", "cannot select both"), ("pub -r x /a b", "rate must be a number"),
+    ("pub -r 0 /a b", "greater than zero"), ("pub -r nan /a b", "greater than zero"),
+    ("pub -f x /a b c", "conflict with -f"), ("pub /a std_msgs/String '{'", "Argument error"),
+    ("pub /a std_msgs/String", "Please specify message values"),
+    ("echo --duration x /a", "invalid floating-point"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("line", "says"), WRONG)
+def test_words_that_make_no_sense(graph: Graph, line: str, says: str) -> None:
+    with pytest.raises(UsageError, match=says):
+        run(graph, *shlex.split(line))
+
+
+def test_a_tool_that_only_asks_starts_without_a_graph() -> None:
+    code = (
+        "import sys, rosmini.tools.main as m\n"
+        "m.main(['rostopic', 'list'])\n"
+        "print([name for name in ('numpy', 'rosmini.core.graph', 'rosmini.msgs', 'asyncio') if name in sys.modules])\n"
+    )
+    env = os.environ | {"ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}"}
+    assert process([sys.executable, "-c", code], env=env).stdout == "[]\n"
+
+
+def test_info_counts_the_messages_that_queues_have_dropped(graph: Graph) -> None:
+    node = graph.node("slow")
+    node.subscriber("burst", String, lambda _: node.sleep(1.0), queue_size=1)
+    publisher = graph.node("quick").publisher("burst", String)
+    publisher.wait_for_subscribers()
+    for number in range(10):
+        publisher.publish(str(number))
+    graph.run(5.0)
+    found = run(graph, "info", "-v", "/burst")
+    assert [(flow.subscriber, flow.side, flow.dropped) for flow in found.about.flows] == [
+        ("/slow", "publisher", 0),
+        ("/slow", "subscriber", 8),
+    ]
+    assert "/quick -> /slow (/burst): 8 dropped" in str(found)
+    assert "ropped" not in str(run(graph, "info", "/burst"))

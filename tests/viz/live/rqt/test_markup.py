@@ -1,0 +1,64 @@
+"""Panels as HTML: real controls with names, everything escaped, disabled without a kernel."""
+
+from __future__ import annotations
+
+from html.parser import HTMLParser
+
+from rosmini.viz.live.rqt.markup import markup, page
+from rosmini.viz.live.rqt.parts import Bar, Box, Control, Drawing, Row, Rows, Words
+
+EVIL = '<b>"x"</b>&'
+ALL = (
+    Bar(
+        (
+            Control("c", "Choice", "choice", "b", ("a", "b")),
+            Control("s", "Slider", "slider", 2.0, minimum=0.0, maximum=4.0),
+            Control("w", "Whole", "number", 2.0, whole=True),
+            Control("k", "Check", "check", True),
+            Control("t", EVIL, "text", EVIL, problem=EVIL),
+            Control("go", "Go", "button"),
+        )
+    ),
+    Box(EVIL, (Rows((EVIL,), (Row((EVIL,), mark="marked"),), EVIL), Words(EVIL, is_bad=True))),
+    Drawing("<svg></svg>", "a picture", "pick"),
+)
+
+
+class Elements(HTMLParser):
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.all: list[tuple[str, dict]] = []
+        self.feed(html)
+
+    def handle_starttag(self, tag, attrs):
+        self.all.append((tag, dict(attrs)))
+
+    def of(self, *tags):
+        return [attributes for tag, attributes in self.all if tag in tags]
+
+
+def test_every_control_has_its_key_and_a_name():
+    found = Elements(markup(ALL)).of("input", "select", "button")
+    assert [one["data-key"] for one in found] == ["c", "s", "w", "k", "t", "go"]
+    assert all("aria-label" in one for one in found[:-1])
+    assert found[4]["aria-invalid"] == "true"
+
+
+def test_values_are_where_a_browser_looks_for_them():
+    elements = Elements(markup(ALL))
+    assert [one["value"] for one in elements.of("option") if "selected" in one] == ["b"]
+    slider, whole, check, text = elements.of("input")
+    assert (slider["type"], slider["min"], slider["max"], slider["value"]) == ("range", "0", "4", "2")
+    assert (whole["step"], "checked" in check, text["value"]) == ("1", True, EVIL)
+
+
+def test_nothing_that_comes_from_a_graph_becomes_markup():
+    assert Elements(markup(ALL)).of("b") == []
+
+
+def test_a_page_without_a_kernel_is_disabled_and_says_so():
+    still, live = (Elements(page("Title", ALL, live=live)) for live in (False, True))
+    assert "disabled" in still.of("fieldset")[0]
+    assert "disabled" not in live.of("fieldset")[0]
+    assert "In a live notebook" in page("Title", ALL, live=False)
+    assert still.of("section")[0]["aria-label"] == "Title"

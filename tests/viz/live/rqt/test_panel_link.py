@@ -1,0 +1,192 @@
+"""What goes between a panel and its page, with the page played by the test and the wall's clock set by it."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from types import SimpleNamespace
+
+import pytest
+
+from rosmini.core.errors import RosminiError
+from rosmini.viz.live.rqt import MessagePublisher
+from rosmini.viz.live.rqt.panel_link import REST, PanelLink
+from rosmini.viz.view import ViewError
+
+
+class Page:
+    """A page of a panel: says what it is told to, and keeps what it is sent."""
+
+    def __init__(self, panel) -> None:
+        self.panel, self.graph = panel, panel.graph
+        self.wall = 100.0
+        self.sent: list[dict] = []
+        self.lives = 0
+        panel.graph.live = self.live
+        self.link = PanelLink(panel, clock=lambda: self.wall)
+        self.answers = True
+        self.link.widget.send = lambda content, buffers=None: self.get(content)
+
+    def get(self, content: dict) -> None:
+        self.sent.append(content)
+        if self.answers and content["type"] == "sheet":
+            self.say("seen")
+
+    def live(self) -> None:
+        self.lives += 1
+        self.graph._live = SimpleNamespace(running=True, stop=lambda: None)
+
+    def say(self, kind: str, **more) -> None:
+        self.link.receive(self.link.widget, {"type": kind, **more}, [])
+
+    def run(self, seconds: float, *, beats: bool = True) -> None:
+        for i in range(round(seconds * 20)):
+            if beats and i % 10 == 0:
+                self.say("beat")
+            self.wall += 0.05
+            self.graph.run(0.05)
+
+    def kinds(self) -> list[str]:
+        return [content["type"] for content in self.sent]
+
+
+@pytest.fixture
+def page(graph):
+    return Page(MessagePublisher(graph))
+
+
+def test_what_the_page_does_is_done_and_shown(page):
+    page.say("set", key="add")
+    page.run(0.1)
+    assert list(page.panel.publications) == [1]
+    assert page.lives == 1
+    assert "publish /cmd_vel" in page.sent[0]["html"]
+
+
+def test_what_is_refused_is_shown_too(page):
+    page.say("set", key="rate", value="-1")
+    page.run(0.1)
+    assert "is a number from 0 to 1000" in page.sent[-1]["html"]
+
+
+def test_a_sheet_is_sent_when_something_changed_and_else_a_sign_of_life(page):
+    page.live()
+    page.say("hello")
+    page.run(0.5)
+    assert page.kinds() == ["sheet"]
+    page.run(3.0)
+    assert set(page.kinds()[1:]) == {"alive"}
+    page.panel.add("/x", "std_msgs/Float64")
+    page.run(2 * page.panel.look_s)
+    assert page.kinds()[-1] == "sheet"
+
+
+def test_a_panel_that_is_dear_to_draw_leaves_the_graph_most_of_its_time(page):
+    """Drawing takes 0.4 s of the wall's: it is drawn a few times in ten seconds, not fifty."""
+    page.live()
+    drawn = []
+
+    def markup(*, live):
+        page.wall += 0.4
+        drawn.append(page.graph.now().to_sec())
+        return f"<p>{len(drawn)}</p>"
+
+    page.panel.markup = markup
+    page.say("hello")
+    page.run(10)
+    assert 5 <= len(drawn) <= 10 / (REST * 0.4) + 2
+
+
+def test_a_panel_says_how_often_it_is_looked_at(page):
+    page.live()
+    page.panel.look_s = 0.05
+    page.panel.markup = lambda *, live: f"<p>{page.graph.now()}</p>"
+    page.say("hello")
+    page.run(2)
+    assert page.kinds().count("sheet") >= 30
+
+
+def test_a_slow_page_is_sent_no_sheet_before_it_has_answered_the_last(page):
+    page.live()
+    page.panel.markup = lambda *, live: f"<p>{page.graph.now()}</p>"
+    page.answers = False
+    page.say("hello")
+    page.run(2)
+    page.say("set", key="add")
+    page.run(0.5)
+    assert page.kinds() == ["sheet"]
+    page.say("seen")
+    page.run(2 * page.panel.look_s)
+    assert page.kinds() == ["sheet", "sheet"]
+    page.run(4)
+    assert 2 < len(page.kinds()) <= 4, "an answer that was lost does not stop the panel"
+
+
+def test_nobody_looks_and_nothing_is_sent(page):
+    page.live()
+    page.say("hello")
+    page.run(10, beats=False)
+    before = len(page.sent)
+    page.panel.add("/x", "std_msgs/Float64")
+    page.run(2, beats=False)
+    assert len(page.sent) == before
+    page.run(1)
+    assert len(page.sent) > before
+
+
+def test_a_graph_that_stands_still_stays_so_until_something_is_done(page):
+    page.say("hello")
+    page.say("beat")
+    assert page.kinds() == ["still", "still"]
+    assert page.lives == 0
+    page.say("start")
+    assert page.lives == 1
+
+
+def test_where_the_graph_cannot_go_on_by_itself_the_page_is_told(page):
+    def live():
+        raise RosminiError("no event loop")
+
+    page.graph.live = live
+    page.say("start")
+    assert page.sent == [{"type": "refused", "text": "no event loop"}]
+
+
+def test_messages_may_come_from_any_thread(page):
+    page.live()
+    thread = threading.Thread(target=page.say, args=("set",), kwargs={"key": "add"})
+    thread.start()
+    thread.join()
+    page.run(0.1)
+    assert list(page.panel.publications) == [1]
+
+
+def test_the_end_is_told(page):
+    page.live()
+    page.say("hello")
+    page.run(0.1)
+    page.panel.close()
+    page.say("beat")
+    assert page.sent[-1] == {"type": "gone", "text": "the node /rqt_publisher was shut down"}
+
+
+def test_a_notebook_gets_a_widget_and_a_page_gets_html(page, monkeypatch):
+    monkeypatch.setattr("rosmini.viz.live.live_view.kernel_shell", object)
+    monkeypatch.delenv("ROSMINI_DISPLAY", raising=False)
+    data, _ = page.panel._repr_mimebundle_()
+    assert "application/vnd.jupyter.widget-view+json" in data
+    assert data["text/plain"] == page.panel.text
+    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
+    data, _ = page.panel._repr_mimebundle_()
+    assert set(data) == {"text/plain", "text/html"}
+    assert "disabled" in data["text/html"]
+
+
+def test_without_anywidget_it_is_said_what_to_install(graph, monkeypatch):
+    for name in ("rosmini.viz.live.page_link", "rosmini.viz.live.rqt.panel_link"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    panel = MessagePublisher(graph)
+    with pytest.raises(ViewError, match="needs anywidget"):
+        _ = panel.link
+    panel.add("/x", "std_msgs/Float64")
