@@ -20,8 +20,8 @@ from .runs import RunKey
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from rosmini.core.verbs import Result
     from rosmini.ros.launch import Launch
-    from rosmini.tools.verbs import Result
 
     from .session import Session
 

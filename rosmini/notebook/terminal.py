@@ -29,13 +29,13 @@ from typing import TYPE_CHECKING, Any, TextIO, cast
 from rosmini.core import files
 from rosmini.core.errors import RosminiError, UsageError, nearest
 from rosmini.core.graph import default_graph
+from rosmini.core.verbs import VerbError
 from rosmini.ros.catkin.setup_files import folders_in
 from rosmini.ros.net.addresses import MASTER_URI, host_and_port, is_loopback
 from rosmini.tools.aliases import names as ros_names
 from rosmini.tools.magics import tool
 from rosmini.tools.main import COMMANDS, NO_COMMANDS, main
 from rosmini.tools.roscd import located, workspace
-from rosmini.tools.verbs import VerbError
 
 from . import shell_lines, shell_words
 from .folder import TemporaryFolder

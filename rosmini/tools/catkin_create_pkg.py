@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .arguments import below_here
-from .verbs import ArgumentParser, Call, Result, Tool, VerbError
+from rosmini.core.verbs import ArgumentParser, Call, Result, Tool, VerbError, below_here
 
 if TYPE_CHECKING:
     import argparse
 
 TOOL = Tool("catkin_create_pkg", "make a new package", needs_graph=False, only_verb="create")
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .arguments import below_here
-from .verbs import ArgumentParser, Call, Result, Tool, VerbError
+from rosmini.core.verbs import ArgumentParser, Call, Result, Tool, VerbError, below_here
 
 if TYPE_CHECKING:
     import argparse
@@ -14,7 +13,6 @@ if TYPE_CHECKING:
 TOOL = Tool(
     "catkin_init_workspace", "make a folder the source space of a workspace", needs_graph=False, only_verb="init"
 )  # fmt: skip
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 def _parser() -> ArgumentParser:

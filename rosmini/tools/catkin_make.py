@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .arguments import below_here
-from .verbs import ArgumentParser, Call, Result, Tool, VerbError
+from rosmini.core.verbs import ArgumentParser, Call, Result, Tool, VerbError, below_here
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
     from rosmini.ros.catkin.build import Report
 
 TOOL = Tool("catkin_make", "build a catkin workspace", needs_graph=False, only_verb="make")
-add_parser, main = TOOL.add_parser, TOOL.main
 
 DESCRIPTION = """\
 Build a catkin workspace: messages, services, actions, scripts, and what a shell sources. C++ is not compiled; that is

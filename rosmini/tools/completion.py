@@ -6,22 +6,20 @@ Master answers there are no names.
 
 from __future__ import annotations
 
-import importlib
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.core.errors import RosminiError
+from rosmini.core.verbs import Tool
 
 from .main import COMMANDS
-from .verbs import Tool
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from rosmini.ros.introspection.peers import Peers
-
-    from .verbs import Verb
+    from rosmini.core.peers import Peers
+    from rosmini.core.verbs import Verb
 
 _OPTIONS = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
 
@@ -55,10 +53,7 @@ def _tool(name: str) -> Tool | None:
     entry = COMMANDS.get(name)
     if entry is None or entry.folder is not None:
         return None
-    found = vars(importlib.import_module(entry.module)).get("TOOL")
-    if not isinstance(found, Tool):
-        return None
-    return found.alone(entry.only) if entry.only else found
+    return entry.tool()
 
 
 def _beginning(start: str, words: Iterable[str]) -> list[str]:

@@ -7,10 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rosmini.ros.introspection.options import Parser
-
-from .arguments import global_name
-from .verbs import Call, Lines, Tool
+from rosmini.core.verbs import Call, Lines, Parser, Tool, global_name
 
 if TYPE_CHECKING:
     from optparse import Values
@@ -22,7 +19,6 @@ TOOL = Tool(
     "make something go wrong: lose, delay or double messages, kill a node, cut a service, jump a clock",
     only_verb="make",
 )
-add_parser, main = TOOL.add_parser, TOOL.main
 
 DISTURBANCES = ("lose", "double", "delay", "jitter")
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from contextlib import AbstractContextManager
 
-    from .verbs import Result, Tool
+    from rosmini.core.verbs import Result, Tool
 
 OPERATORS = "|<>;&"
 """What a shell would take as its own."""
@@ -97,8 +97,9 @@ def _complete(_shell: Any, event: Any) -> list[str]:
 
 def tool(name: str) -> Tool:
     """Return the tool that a magic runs."""
-    loaded: Any = COMMANDS[name].load()
-    found: Tool = getattr(loaded, "TOOL", loaded)
+    found = COMMANDS[name].tool()
+    if found is None:
+        raise UsageError(f"{name} is no magic")
     return found
 
 

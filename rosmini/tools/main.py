@@ -14,16 +14,22 @@ import os
 import sys
 import textwrap
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
+from dataclasses import dataclass
+from importlib.metadata import EntryPoint, entry_points
+from operator import attrgetter
+from typing import TYPE_CHECKING, Protocol, cast
 
 from rosmini import __version__
-from rosmini.core.errors import RosminiError, nearest
-from rosmini.core.names import ROS_RELEASE
+from rosmini.core.errors import RosminiError, UsageError, nearest
+from rosmini.core.names import ROS_RELEASE, is_remapping
+from rosmini.core.verbs import Tool
 
 from .checkout import find_checkout
+from .terminal import Terminal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+    from types import ModuleType
 
 
 class Command(Protocol):
@@ -51,7 +57,8 @@ Learn ROS by driving a robot.
 """What `rosmini` prints without arguments."""
 
 
-class Entry(NamedTuple):
+@dataclass(frozen=True)
+class Entry:
     """Where a subcommand lives, and the line that `rosmini --help` shows without importing it."""
 
     module: str
@@ -60,8 +67,6 @@ class Entry(NamedTuple):
     """The folder of a checkout from which the module is imported; None: it is in the installed package."""
     is_magic: bool = False
     """Whether notebooks have it as a line magic, too: its module has a ``TOOL``."""
-    only: str = ""
-    """The verb of that tool that the subcommand stands for, if it is one verb only."""
     group: str = ROS
     """The heading under which `rosmini --help` lists it."""
 
@@ -69,31 +74,62 @@ class Entry(NamedTuple):
         """Import the subcommand. Raises `NoCheckout` if it needs a checkout and there is none."""
         if self.folder is not None and (home := str(find_checkout() / self.folder)) not in sys.path:
             sys.path.insert(0, home)
-        module = importlib.import_module(self.module)
-        return cast("Command", vars(module)["TOOL"].alone(self.only) if self.only else module)
+        return _command(importlib.import_module(self.module))
+
+    def tool(self) -> Tool | None:
+        """Return the tool that the subcommand is, if it is one. Raises as `load`."""
+        self.load()
+        found = vars(sys.modules[self.module]).get("TOOL")
+        return found if isinstance(found, Tool) else None
 
 
-RQT = {
-    "graph": "the computation graph",
-    "plot": "numbers in messages over time",
-    "topic": "topics with types, bandwidths, rates and values",
-    "msg": "the fields of a message type",
-    "srv": "the fields of a service type",
-    "action": "the fields of an action type",
-    "console": "what nodes log",
-    "bag": "what is in a bag, over time",
-    "tf_tree": "the tree of frames",
-    "image_view": "the next image on a topic",
-    "gui": "several plugins in one window",
-    "robot_steering": "drive a robot, with keys",
-    "publisher": "publish on topics, from a form",
-    "service_caller": "call services, from a form",
-    "logger_level": "how much each node logs, from a form",
-    "reconfigure": "parameters of nodes that run, from a form",
-}
-"""The tools of rqt, each a verb of `rosmini rqt`."""
+@dataclass(frozen=True)
+class Plugged:
+    """A subcommand of another room or distribution: a `Tool`, which is imported when something of it is asked for."""
 
-COMMANDS: dict[str, Entry] = {
+    entry_point: EntryPoint
+
+    def tool(self) -> Tool:
+        """Import the tool. Raises what its module raises."""
+        found: Tool = self.entry_point.load()
+        only = self.entry_point.name.removeprefix(f"{found.name}_")
+        return found.alone(only) if only in found.verbs and only != self.entry_point.name else found
+
+    def load(self) -> Command:
+        """Import the subcommand."""
+        return Terminal(self.tool())
+
+    @property
+    def summary(self) -> str:
+        """The line that `rosmini --help` shows."""
+        tool = self.tool()
+        is_one = tool.name == self.entry_point.name and tool.only_verb and "_" in tool.name
+        return (
+            f"{tool.name.partition('_')[0]}: {tool.verbs[tool.only_verb].summary}" if is_one else tool.summary
+        )
+
+    @property
+    def is_magic(self) -> bool:
+        """Whether notebooks have it as a line magic, too."""
+        return self.tool().is_magic
+
+    @property
+    def group(self) -> str:
+        """The heading under which `rosmini --help` lists it."""
+        return self.tool().group or ROS
+
+    @property
+    def folder(self) -> None:
+        """It is in an installed package."""
+
+
+def _command(module: ModuleType) -> Command:
+    """Return the subcommand of a module: its tool, or the module itself."""
+    tool = vars(module).get("TOOL")
+    return cast("Command", module) if tool is None or "main" in vars(module) else Terminal(tool)
+
+
+COMMANDS: dict[str, Entry | Plugged] = {
     "roscore": Entry("rosmini.tools.roscore", "start the Master, the Parameter Server and /rosout"),
     "rosrun": Entry("rosmini.tools.rosrun", "run a node in a process of its own"),
     "roslaunch": Entry(
@@ -133,19 +169,6 @@ COMMANDS: dict[str, Entry] = {
     "rosparam": Entry(
         "rosmini.tools.rosparam", "get, set, load, dump, delete and list parameters", is_magic=True
     ),
-    "rqt": Entry("rosmini.tools.rqt", "the tools of rqt as pictures", is_magic=True),
-    **{
-        f"rqt_{verb}": Entry("rosmini.tools.rqt", f"rqt: {summary}", is_magic=True, only=verb)
-        for verb, summary in RQT.items()
-    },
-    "logo": Entry(
-        "rosmini.tools.logo", "run a Logo program that drives turtles and robots", is_magic=True, group=OWN
-    ),
-    "rviz": Entry(
-        "rosmini.tools.rviz",
-        "show a robot, its sensors and its plans in the browser, and send it goals",
-        is_magic=True,
-    ),
     "rosbag": Entry("rosmini.tools.rosbag", "record, play and inspect bags", is_magic=True),
     "rospack": Entry(
         "rosmini.tools.rospack",
@@ -183,10 +206,6 @@ COMMANDS: dict[str, Entry] = {
     "mcap": Entry(
         "rosmini.tools.mcap", "convert between bags and MCAP files, which Foxglove opens", group=OWN
     ),
-    "gz": Entry("rosmini.tools.gz", "Gazebo's own tool: topics, models, time, SDF files", group=OWN),
-    "world": Entry(
-        "rosmini.tools.world", "list worlds, and check files of worlds, maps and robots", group=OWN
-    ),
     "book": Entry("book.tools.book", "build this book and open it", ".", group=BOOK),
     "lab": Entry("book.tools.lab", "open the chapters in JupyterLab", ".", group=BOOK),
     "bench": Entry(
@@ -196,6 +215,10 @@ COMMANDS: dict[str, Entry] = {
         group=BOOK,
     ),
 }
+COMMANDS.update(
+    (found.name, Plugged(found))
+    for found in sorted(entry_points(group="rosmini.verbs"), key=attrgetter("name"))
+)
 
 
 NO_COMMANDS = {
@@ -220,6 +243,17 @@ def chosen(argv: Sequence[str]) -> str | None:
     if rest and f"ros{rest[0]}" in COMMANDS:  # `rostop node list`
         guess = f"did you mean `{' '.join(['ros' + rest[0], *rest[1:]])}`?"
     raise RosminiError(f"there is no command {word!r}; {guess or '`rosmini --help` lists all commands'}")
+
+
+def in_script(name: str, words: Sequence[str]) -> int:
+    """Do what the words say to a tool on the graph that runs the caller, print it, and return the exit status.
+
+    ``rostopic.rostopicmain`` and its like find this by the entry point `rosmini.tools`.
+    """
+    tool = COMMANDS[name].tool()
+    if tool is None:
+        raise UsageError(f"{name} is no tool that a script can run")
+    return Terminal(tool).reported(lambda: tool.run(*(word for word in words if not is_remapping(word))))
 
 
 def build_parser(loaded: dict[str, Command], *, others: bool = True) -> argparse.ArgumentParser:

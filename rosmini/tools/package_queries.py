@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING
 from rosmini.core.errors import DefinitionError, RosminiError, UnknownPackage, UsageError, nearest
 from rosmini.core.packages import PackageIndex, crawl
 from rosmini.core.packages.dependencies import Dependencies
+from rosmini.core.verbs import ArgumentParser, Call, Lines, Result, Tool, VerbError
 
-from .verbs import ArgumentParser, Call, Lines, Result, Tool, VerbError
+from .terminal import Terminal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -244,7 +245,7 @@ class Queries:
             return 1
         words.remove(verb)
         try:
-            return self.tool.main(argparse.Namespace(words=[verb, *words]))
+            return Terminal(self.tool).main(argparse.Namespace(words=[verb, *words]))
         except UsageError as error:
             print(error, file=sys.stderr)
             return 1

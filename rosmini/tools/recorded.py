@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .verbs import VerbError
+from rosmini.core.verbs import VerbError
 
 if TYPE_CHECKING:
     from rosmini.core.graph.recording import Recording
-    from rosmini.ros.introspection.options import Parser
-
-    from .verbs import Call
+    from rosmini.core.verbs import Call, Parser
 
 
 def add_duration(parser: Parser) -> None:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.names import Remappings
+from rosmini.core.verbs import Call, Result, Tool, VerbError
 from rosmini.ros.bag import (
     Bag,
     Compression,
@@ -35,8 +36,6 @@ from rosmini.ros.bag.info import info_text, info_yaml
 from rosmini.ros.bag.options import Parser, play_options, play_parser, record_options, record_parser
 from rosmini.ros.bag.tools import Copied, Reindexed, TypeChange
 
-from .verbs import Call, Result, Tool, VerbError
-
 if TYPE_CHECKING:
     from optparse import Values
 
@@ -50,7 +49,6 @@ TOOL = Tool(
     reads_files=True,
     why_elsewhere="a bag that GnuPG has encrypted is read by a real ROS with its keys",
 )
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 def _complaint(path: str | Path, error: Exception) -> str:

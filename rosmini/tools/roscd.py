@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 from rosmini.core import files
 from rosmini.core.errors import RosminiError, UnknownPackage, nearest
 from rosmini.core.packages import DEVEL_MARKER, PackageIndex
-
-from .verbs import ArgumentParser, Call, Result, Tool
+from rosmini.core.verbs import ArgumentParser, Call, Result, Tool
 
 if TYPE_CHECKING:
     import argparse
@@ -25,7 +24,6 @@ LOG = "log"
 
 
 TOOL = Tool("roscd", "go to the folder of a package", needs_graph=False, only_verb="go")
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 @dataclass(frozen=True, kw_only=True)

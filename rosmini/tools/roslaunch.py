@@ -12,13 +12,11 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import UsageError
 from rosmini.core.names import is_remapping
 from rosmini.core.packages import PackageIndex
-from rosmini.ros.introspection.options import Parser
+from rosmini.core.verbs import Call, Lines, Parser, Result, Tool, dashed_remapping
 
-from .arguments import dashed_remapping
 from .collector import seldom
 from .run import nodes_in, tell
 from .signals import end_as_ctrl_c
-from .verbs import Call, Lines, Result, Tool
 
 if TYPE_CHECKING:
     import argparse

@@ -6,15 +6,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.core import files
+from rosmini.core.verbs import ArgumentParser, Call, Lines, Tool
 
 from .roscd import located
-from .verbs import ArgumentParser, Call, Lines, Tool
 
 if TYPE_CHECKING:
     import argparse
 
 TOOL = Tool("rosls", "list what is in the folder of a package", needs_graph=False, only_verb="list")
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 def _parser() -> ArgumentParser:

@@ -11,11 +11,10 @@ from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from rosmini.core.errors import DefinitionError, IllegalName, UnknownPackage, UnknownType, nearest
-from rosmini.ros.introspection.options import Parser
+from rosmini.core.verbs import NOT_A_VERB, Call, Lines, Overview, Parser, Result, Tool, VerbError
 from rosmini.ros.introspection.types import MESSAGE, Kind, tree
 
 from .rostopic_list import check_bag
-from .verbs import NOT_A_VERB, Call, Lines, Overview, Result, Tool, VerbError
 
 if TYPE_CHECKING:
     from optparse import Values
@@ -232,4 +231,3 @@ def tool_of(kind: Kind, summary: str) -> Tool:
 
 
 TOOL = tool_of(MESSAGE, "message types: which there are, and their definitions")
-add_parser, main = TOOL.add_parser, TOOL.main

@@ -10,12 +10,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.core.errors import TransportException, nearest
+from rosmini.core.peers import host_of
+from rosmini.core.verbs import Call, Lines, Parser, Result, Tool, VerbError, global_name
 from rosmini.ros.introspection import nodes
-from rosmini.ros.introspection.options import Parser
-from rosmini.ros.introspection.peers import host_of
-
-from .arguments import global_name
-from .verbs import Call, Lines, Result, Tool, VerbError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -27,7 +24,6 @@ TOOL = Tool(
     "rosnode", "nodes: which there are, what they do, whether they answer; end them", example="ping",
     purpose="printing information about ROS Nodes",
 )  # fmt: skip
-add_parser, main = TOOL.add_parser, TOOL.main
 
 PINGS = 3
 """How many pings are sent in Python if nobody says how many."""

@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from rosmini.core.verbs import Call, Lines, Tool
+
 from .package_queries import Queries
-from .verbs import Call, Lines, Tool
+from .terminal import Terminal
 
 if TYPE_CHECKING:
     from rosmini.core.packages.dependencies import Dependencies
@@ -16,7 +18,7 @@ TOOL = Tool(
 )
 QUERIES = Queries(TOOL, stacks=False)
 QUERIES.register()
-add_parser, main = TOOL.add_parser, QUERIES.main
+add_parser, main = Terminal(TOOL).add_parser, QUERIES.main
 
 COMPILING = "cflags-only-I cflags-only-other libs-only-L libs-only-l libs-only-other"
 SYSTEM = "rosdep rosdeps rosdep0 rosdeps0"

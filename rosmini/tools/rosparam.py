@@ -12,10 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.core.errors import ParameterError, ParameterNotSet, nearest
-from rosmini.ros.introspection.options import Parser
-
-from .arguments import global_name
-from .verbs import Call, Overview, Result, Tool, VerbError
+from rosmini.core.verbs import Call, Overview, Parser, Result, Tool, VerbError, global_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -30,7 +27,6 @@ TOOL = Tool(
     purpose="getting, setting, and deleting parameters from the ROS Parameter Server",
     overview=Overview(closing="", status=0, unknown_status=0),
 )
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 class _Parser(Parser):

@@ -10,7 +10,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .arguments import dashed_remapping
+from rosmini.core.verbs import dashed_remapping
+
 from .collector import seldom
 from .signals import end_as_ctrl_c
 

@@ -7,18 +7,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rosmini.ros.introspection.options import Parser
+from rosmini.core.verbs import Call, Parser, Shown, Tool, global_name
 
-from .arguments import global_name
 from .recorded import add_duration, recorded
-from .rqt import Shown
-from .verbs import Call, Tool
 
 if TYPE_CHECKING:
     from optparse import Values
 
 TOOL = Tool("rossequence", "who called whom, and sent what to whom, as it happened", only_verb="draw")
-add_parser, main = TOOL.add_parser, TOOL.main
 
 MOST = 40
 """How many calls are drawn if nobody says how many."""

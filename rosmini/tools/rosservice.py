@@ -19,13 +19,10 @@ from rosmini.core.errors import (
     ServiceException,
     TransportException,
 )
+from rosmini.core.verbs import Call, Lines, Overview, Parser, Result, Tool, VerbError, global_name, tool_node
 from rosmini.ros.introspection import services
-from rosmini.ros.introspection.options import Parser
 
-from .arguments import global_name
-from .listening import tool_node
 from .values import WrongYaml, fields_of, fill, listed, parse, typed
-from .verbs import Call, Lines, Overview, Result, Tool, VerbError
 
 if TYPE_CHECKING:
     from optparse import Values
@@ -36,7 +33,6 @@ TOOL = Tool(
     "rosservice", "services: which there are, of which types, who offers them; call one", example="call",
     purpose="calling and listing ROS Services", overview=Overview(has_heading=False), failure_status=2,
 )  # fmt: skip
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 def _parser(usage: str, description: str, example: str) -> Parser:

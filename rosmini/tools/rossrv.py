@@ -7,4 +7,3 @@ from rosmini.ros.introspection.types import SERVICE
 from .rosmsg import tool_of
 
 TOOL = tool_of(SERVICE, "service types: which there are, and their definitions")
-add_parser, main = TOOL.add_parser, TOOL.main

@@ -6,16 +6,17 @@ import argparse
 from pathlib import Path
 
 from rosmini.core.packages import PackageIndex
+from rosmini.core.verbs import Call, Lines, Tool
 
 from .package_queries import Queries
-from .verbs import Call, Lines, Tool
+from .terminal import Terminal
 
 TOOL = Tool(
     "rosstack", "stacks and metapackages: where they are, what is in them", usage_status=1, needs_graph=False
 )
 QUERIES = Queries(TOOL, stacks=True)
 QUERIES.register()
-add_parser, main = TOOL.add_parser, QUERIES.main
+add_parser, main = Terminal(TOOL).add_parser, QUERIES.main
 
 
 def _container(index: PackageIndex, package: str) -> str:

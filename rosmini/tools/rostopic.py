@@ -7,8 +7,9 @@ Ctrl-C. In Python they act on a graph of this process, for some of its time, and
 
 from __future__ import annotations
 
+from rosmini.core.verbs import Tool
+
 from . import rostopic_echo, rostopic_list, rostopic_pub, rostopic_rates
-from .verbs import Tool
 
 TOOL = Tool(
     "rostopic",
@@ -16,7 +17,6 @@ TOOL = Tool(
     example="echo",
     purpose="printing information about ROS Topics",
 )
-add_parser, main = TOOL.add_parser, TOOL.main
 
 TOOL.verb("display bandwidth used by topic", name="bw", parser=rostopic_rates.bw_parser, takes="topic")(
     rostopic_rates.bw

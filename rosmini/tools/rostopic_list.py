@@ -6,13 +6,10 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from rosmini.core.verbs import Call, Parser, Result, VerbError, global_name
 from rosmini.ros.introspection import topics
 from rosmini.ros.introspection.nodes import namespace_of
-from rosmini.ros.introspection.options import Parser
 from rosmini.ros.introspection.topics import Topic, Topics
-
-from .arguments import global_name
-from .verbs import Call, Result, VerbError
 
 if TYPE_CHECKING:
     from optparse import Values

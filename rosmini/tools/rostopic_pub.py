@@ -15,12 +15,20 @@ from rosmini.core.errors import (
     UnknownPackage,
     UnknownType,
 )
+from rosmini.core.verbs import (
+    SECOND,
+    Call,
+    Result,
+    Span,
+    VerbError,
+    add_duration,
+    duration_ns,
+    global_name,
+    tool_node,
+)
 
-from .arguments import add_duration, duration_ns, global_name
-from .listening import SECOND, Span, tool_node
 from .rostopic_list import parser_of
 from .values import WrongYaml, documents_of, fields_of, fill, listed, parse, typed
-from .verbs import Call, Result, VerbError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +36,7 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Node, Publisher
     from rosmini.core.time import Time
-    from rosmini.ros.introspection.options import Parser
+    from rosmini.core.verbs import Parser
 
 ONCE_S = 3.0
 """How long a message that is published once stays there for late subscribers [s]."""

@@ -5,17 +5,27 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from .arguments import add_duration, duration_ns, global_name
-from .listening import SECOND, Span, await_topic, class_for, predicate, tool_node
+from rosmini.core.verbs import (
+    SECOND,
+    Call,
+    Result,
+    Span,
+    VerbError,
+    add_duration,
+    duration_ns,
+    global_name,
+    tool_node,
+)
+
+from .listening import await_topic, class_for, predicate
 from .rostopic_list import parser_of
-from .verbs import Call, Result, VerbError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from optparse import Values
 
     from rosmini.core.graph import Node
-    from rosmini.ros.introspection.options import Parser
+    from rosmini.core.verbs import Parser
     from rosmini.ros.introspection.rates import Arrivals, Statistics, Weight
 
 BANDWIDTH_WINDOW = 100

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from rosmini.core.errors import UnknownPackage, nearest
 from rosmini.core.packages import PackageIndex
-
-from .verbs import ArgumentParser, Call, Lines, Tool
+from rosmini.core.verbs import ArgumentParser, Call, Lines, Tool
 
 if TYPE_CHECKING:
     import argparse
@@ -17,7 +16,6 @@ DISTRIBUTION = "noetic"
 """The ROS that rosmini is, where ROS_DISTRO names no other."""
 
 TOOL = Tool("rosversion", "the version of a package", needs_graph=False, only_verb="version")
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 def _parser() -> ArgumentParser:

@@ -8,12 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.ros.introspection.options import Parser
+from rosmini.core.verbs import Call, Parser, Result, Tool, global_name
 from rosmini.ros.introspection.why import DEPTH, explain
 
-from .arguments import global_name
 from .recorded import add_duration, recorded
-from .verbs import Call, Result, Tool
 
 if TYPE_CHECKING:
     from optparse import Values
@@ -22,7 +20,6 @@ if TYPE_CHECKING:
     from rosmini.ros.introspection.why import Why
 
 TOOL = Tool("roswhy", "why the last message on a topic came: the chain of its causes", only_verb="explain")
-add_parser, main = TOOL.add_parser, TOOL.main
 
 
 @dataclass(frozen=True, kw_only=True)

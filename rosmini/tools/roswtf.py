@@ -12,14 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import MasterUnreachable, ROSInitException
 from rosmini.core.packages import PackageIndex, package_around
-from rosmini.ros.introspection.options import Parser
+from rosmini.core.verbs import Call, Parser, Result, Span, Tool, tool_node
 from rosmini.ros.introspection.wtf import graph_rules, heard_rules, static_rules
 from rosmini.ros.introspection.wtf.findings import Finding, summary
 from rosmini.ros.introspection.wtf.heard_rules import Heard, Transform
 from rosmini.ros.introspection.wtf.survey import survey
-
-from .listening import Span, tool_node
-from .verbs import Call, Result, Tool
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,7 +28,6 @@ TOOL = Tool(
     "roswtf", "what is probably wrong with the graph, and what to do about it",
     purpose="finding what is wrong", only_verb="look", takes_arguments=True,
 )  # fmt: skip
-add_parser, main = TOOL.add_parser, TOOL.main
 
 LISTEN_S = 1.0
 """How long transforms and errors are listened for, if nobody says how long [s]."""

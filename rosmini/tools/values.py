@@ -10,8 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from rosmini.core.time import Time
-
-    from .verbs import Call
+    from rosmini.core.verbs import Call
 
 
 class WrongYaml(RosminiError):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rosmini.core.geometry.poses import Pose, transform_points
-from rosmini.navigation.map_server import GridMap
+from rosmini.core.maps import GridMap
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.viz.figures import WIDTH, house_style, legend, legend_width
 from rosmini.viz.map_colours import colours_of, painted

@@ -15,12 +15,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.core.geometry.products import matrix_product, scalar_product
+from rosmini.core.maps import GridMap
+from rosmini.core.maps.map_io import MODES, Fields, MapFile, Mode, occupancy_of
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.costmap_2d.costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
 from rosmini.navigation.costmap_2d.inflation import cell_distance, cost_at, inflated
 from rosmini.navigation.hector_mapping import OccupancyGrid, match
-from rosmini.navigation.map_server import GridMap
-from rosmini.navigation.map_server.map_io import MODES, Fields, MapFile, Mode, occupancy_of
 from rosmini.navigation.navfn import Search
 from rosmini.viz import map_pictures
 from rosmini.viz.costmap_pictures import cells_of, published, shares

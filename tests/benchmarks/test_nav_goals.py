@@ -11,7 +11,7 @@ import pytest
 from rosmini_bench.nav_goals import APART, CLEARANCE, DISC, Terrain, errands, turning, unmapped, wilson
 
 from rosmini.core.errors import RosminiError
-from rosmini.navigation.map_server import GridMap
+from rosmini.core.maps import GridMap
 from rosmini.sim.motion import Door
 from rosmini.sim.world import Box, Obstacle, World
 from rosmini.sim.worlds import to_map

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from rosmini import Graph
+from rosmini.core.verbs import Call, VerbError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.tools.recorded import recorded
-from rosmini.tools.verbs import Call, VerbError
 
 
 def test_it_is_everything_from_the_first_event_on() -> None:

@@ -12,10 +12,10 @@ import pytest
 import rosmini.tools.main as cli
 from rosmini.core.errors import UsageError
 from rosmini.core.time import Time
+from rosmini.core.verbs import VerbError
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.ros.bag import Bag
 from rosmini.tools import rosmsg, rossrv
-from rosmini.tools.verbs import VerbError
 
 from .transcripts import read
 

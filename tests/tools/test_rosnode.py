@@ -13,9 +13,9 @@ import pytest
 import rosmini.tools.main as cli
 from rosmini import Graph
 from rosmini.core.errors import UsageError
+from rosmini.core.verbs import Call, Result, VerbError
 from rosmini.msgs import message_class
 from rosmini.tools.rosnode import TOOL
-from rosmini.tools.verbs import Call, Result, VerbError
 
 from ..processes import free_port
 from .transcripts import masked, read, talkers

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from rosmini.core.verbs import VerbError
 from rosmini.tools.main import main
 from rosmini.tools.rospack import TOOL as ROSPACK
 from rosmini.tools.rosstack import TOOL as ROSSTACK
-from rosmini.tools.verbs import VerbError
 
 from ..core.packages.workspaces import a_workspace
 

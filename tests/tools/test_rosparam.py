@@ -13,8 +13,8 @@ import pytest
 import rosmini.tools.main as cli
 from rosmini import Graph
 from rosmini.core.errors import UsageError
+from rosmini.core.verbs import Call, VerbError
 from rosmini.tools.rosparam import TOOL
-from rosmini.tools.verbs import Call, VerbError
 
 from ..processes import free_port
 from .transcripts import in_order, read

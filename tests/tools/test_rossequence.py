@@ -9,9 +9,9 @@ import pytest
 
 from rosmini import Graph
 from rosmini.core.errors import UsageError
+from rosmini.core.verbs import VerbError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.tools.rossequence import TOOL
-from rosmini.tools.verbs import VerbError
 
 
 @pytest.fixture

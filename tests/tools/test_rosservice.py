@@ -14,10 +14,10 @@ import pytest
 import rosmini.tools.main as cli
 from rosmini import Graph
 from rosmini.core.errors import UsageError
+from rosmini.core.verbs import Call, Result, VerbError
 from rosmini.msgs.nav_msgs.srv import GetPlan
 from rosmini.msgs.std_srvs.srv import Empty, SetBool, Trigger
 from rosmini.tools.rosservice import TOOL
-from rosmini.tools.verbs import Call, Result, VerbError
 
 from ..processes import free_port
 from .transcripts import masked, read, talkers

@@ -15,10 +15,10 @@ import rosmini.tools.main as cli
 from rosmini import Graph
 from rosmini.core.errors import UsageError
 from rosmini.core.time import Time
+from rosmini.core.verbs import VerbError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros.bag import Bag
 from rosmini.tools.rostopic import TOOL
-from rosmini.tools.verbs import VerbError
 
 from ..processes import free_port
 from ..processes import run as process

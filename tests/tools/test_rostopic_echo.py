@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from rosmini import Graph
 from rosmini.core.time import Time
+from rosmini.core.verbs import Call, VerbError
 from rosmini.msgs.geometry_msgs.msg import PoseStamped, Twist
 from rosmini.msgs.nav_msgs.msg import Odometry
 from rosmini.msgs.nav_msgs.msg import Path as PathMessage
@@ -23,7 +24,6 @@ from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros.bag import Bag
 from rosmini.ros.introspection.fields import FieldError, field_type, reader
 from rosmini.tools.rostopic import TOOL
-from rosmini.tools.verbs import Call, VerbError
 
 from .transcripts import read
 

@@ -13,9 +13,9 @@ import pytest
 
 import rosmini.tools.main as cli
 from rosmini import Graph
+from rosmini.core.verbs import Call, VerbError
 from rosmini.msgs import message_class
 from rosmini.tools.rostopic import TOOL
-from rosmini.tools.verbs import Call, VerbError
 
 from .transcripts import read
 

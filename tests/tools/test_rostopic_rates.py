@@ -11,10 +11,10 @@ import pytest
 
 from rosmini import Graph
 from rosmini.core.time import Duration
+from rosmini.core.verbs import VerbError
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.tools.rostopic import TOOL
-from rosmini.tools.verbs import VerbError
 
 from .transcripts import read
 

@@ -10,9 +10,9 @@ import pytest
 import rosmini.tools.main as cli
 from rosmini import Graph
 from rosmini.core.errors import UsageError
+from rosmini.core.verbs import VerbError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.tools.roswhy import TOOL
-from rosmini.tools.verbs import VerbError
 
 
 @pytest.fixture

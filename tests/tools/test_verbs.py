@@ -11,21 +11,20 @@ import rosmini.tools.main as cli
 from rosmini import Graph
 from rosmini.core.errors import UsageError
 from rosmini.core.time import Time
+from rosmini.core.verbs import Tool, VerbError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.ros.bag import Bag, ROSBagException
+from rosmini.sim.verbs.world import TOOL as WORLD
 from rosmini.tools.rosbag import TOOL as ROSBAG
-from rosmini.tools.verbs import Tool, VerbError
-from rosmini.tools.world import TOOL as WORLD
 
 from ..processes import free_port
 
 NEW_TOOL = '''
 """`rosmini rosgreet`: a tool of one verb."""
 from dataclasses import dataclass
-from rosmini.tools.verbs import ArgumentParser, Result, Tool, VerbError
+from rosmini.core.verbs import ArgumentParser, Result, Tool, VerbError
 
 TOOL = Tool("rosgreet", "greet nodes", usage_status=64, example="rosmini_sim/simulator")
-add_parser, main = TOOL.add_parser, TOOL.main
 
 @dataclass(frozen=True, kw_only=True)
 class Greetings(Result):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rosmini.navigation.map_server import GridMap
+from rosmini.core.maps import GridMap
 from rosmini.viz.view import ViewError
 
 CELLS = np.array([[0, 100, -1, 0], [0, 0, 0, 0]], dtype=np.int8)

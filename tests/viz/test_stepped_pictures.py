@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from rosmini.core.maps import MapDataError, load_map, map_file
+from rosmini.core.maps.grid_map import GridMap
 from rosmini.navigation.amcl import show_steps as show_filter
 from rosmini.navigation.costmap_2d import Costmap2D
 from rosmini.navigation.dwa_local_planner.dwa_planner import DWAPlanner, DWAPlannerParameters
 from rosmini.navigation.global_planner import GlobalAStar
 from rosmini.navigation.hector_mapping import OccupancyGrid, match
-from rosmini.navigation.map_server import MapDataError, load_map, map_file
-from rosmini.navigation.map_server.grid_map import GridMap
 from rosmini.navigation.navfn import NavfnSearch
 from rosmini.navigation.navfn import show_steps as show_searches
 from rosmini.viz.stepped_pictures import (

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry import polygons
-from rosmini.navigation.map_server import GridMap
+from rosmini.core.maps import GridMap
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, Pose, edges
 
 RESOLUTION = 0.05

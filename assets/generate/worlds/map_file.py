@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rosmini.navigation.map_server import GridMap
-from rosmini.navigation.map_server.map_saving import pixels_of
+from rosmini.core.maps import GridMap
+from rosmini.core.maps.map_saving import pixels_of
 
 
 def write_map(grid: GridMap, yaml_path: Path) -> list[Path]:

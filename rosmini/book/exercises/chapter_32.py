@@ -9,9 +9,9 @@ import numpy as np
 
 from rosmini.book.checks import Script, exercise, expect, expect_type
 from rosmini.book.trials import TurtleTrial
+from rosmini.core.maps import GridMap
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.navigation.map_server import GridMap
 from rosmini.navigation.map_server.node import MapServer
 from rosmini.ros.scripts import rosrun
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from rosmini.book.checks import Script, exercise, expect, expect_number, expect_type
 from rosmini.book.trials import TurtleTrial
+from rosmini.core.maps import load_map
 from rosmini.core.packages import assets_dir
 from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.nav_msgs.srv import GetPlan
@@ -21,7 +22,6 @@ from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.navigation.costmap_2d.inflation import cell_distance, cost_table, inflate
 from rosmini.navigation.costmap_2d.layer import Window
 from rosmini.navigation.global_planner import GlobalDijkstra
-from rosmini.navigation.map_server import load_map
 
 Cell = tuple[int, int]
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import Pose
-from rosmini.navigation.map_server.grid_map import GridMap
+from rosmini.core.maps.grid_map import GridMap
 
 from .field import BeamMixture, LikelihoodField
 from .filter import Cluster, ParticleFilter

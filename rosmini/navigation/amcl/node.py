@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import RosminiError, ServiceException
 from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.maps.grid_map import GridMap
 from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
 from rosmini.core.tf.messages import set_pose
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class, service_class
-from rosmini.navigation.map_server.grid_map import GridMap
 from rosmini.navigation.nav_core.poses import planar_pose, planar_transform
 
 from .diagnostics import deviations

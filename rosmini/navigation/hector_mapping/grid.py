@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.errors import RosminiError
-from rosmini.navigation.map_server.grid_map import FREE, OCCUPIED, UNKNOWN, GridMap
+from rosmini.core.maps.grid_map import FREE, OCCUPIED, UNKNOWN, GridMap
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]

@@ -16,12 +16,11 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import RosminiError, UsageError
 from rosmini.core.files import path_of
 from rosmini.core.graph.clock import TopicClock
+from rosmini.core.maps.grid_map import GridMap, MapError, MapMetadataError, MapMissing
+from rosmini.core.maps.map_io import MapFile, image_file, map_file
 from rosmini.core.packages import PackageIndex, address_of
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class, service_class
-
-from .grid_map import GridMap, MapError, MapMetadataError, MapMissing
-from .map_io import MapFile, image_file, map_file
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import UsageError
+from rosmini.core.maps.grid_map import GridMap, MapError
+from rosmini.core.maps.map_saving import FREE_TO, OCCUPIED_FROM, save_map
 from rosmini.msgs import message_class
-
-from .grid_map import GridMap, MapError
-from .map_saving import FREE_TO, OCCUPIED_FROM, save_map
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from rosmini.core.geometry.poses import Pose, compose, inverse
-from rosmini.navigation.map_server import GridMap
-from rosmini.navigation.map_server.grid_map import UNKNOWN, MapError
+from rosmini.core.maps import GridMap
+from rosmini.core.maps.grid_map import UNKNOWN, MapError
 
 MOST_CELLS = 100_000_000
 """A merged map that is larger was laid out with wrong poses."""

@@ -14,10 +14,10 @@ import numpy as np
 
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.poses import Pose
+from rosmini.core.maps import GridMap, MapError
 from rosmini.core.names import join
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
-from rosmini.navigation.map_server import GridMap, MapError
 
 from .merging import merge
 

@@ -26,10 +26,10 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from rosmini.core.errors import RosminiError
+from rosmini.core.graph.show import find_extension
 from rosmini.core.markup import Element, parse_file
 from rosmini.core.packages import Package, PackageIndex
 from rosmini.core.plugins import Plugin, PluginError
-from rosmini.ros.rospy import importer
 
 T = TypeVar("T", bound=Plugin)
 
@@ -194,13 +194,9 @@ def _importing_from(root: Path, top: str) -> Iterator[None]:
         file = getattr(module, "__file__", None)
         if name.partition(".")[0] == top or (file and Path(file).is_relative_to(root)):
             del sys.modules[name]
-    is_mine = not importer.installed()
-    if is_mine:
-        importer.install()
     sys.path.insert(0, str(root))
     try:
-        yield
+        with find_extension("rosmini.imports", "rospy")():
+            yield
     finally:
         sys.path.remove(str(root))
-        if is_mine:
-            importer.uninstall()

@@ -6,7 +6,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rosmini.core.errors import UsageError
-from rosmini.ros.introspection.options import Parser as ToolParser
+from rosmini.core.verbs import Parser as ToolParser
 
 from .errors import ROSBagException
 from .player import PlayOptions

@@ -22,7 +22,7 @@ from rosmini.core.errors import MasterUnreachable, ROSException, RosminiError, T
 if TYPE_CHECKING:
     from typing import Self
 
-    from .peers import Triple
+    from rosmini.core.peers import Triple
 
 MASTER_S = 10.0
 """How long an answer of the Master may take [s]."""
@@ -93,7 +93,7 @@ _FAILURES = (OSError, http.client.HTTPException, xmlrpc.client.Error, ExpatError
 
 
 class DirectWire:
-    """The Master at an address, and its nodes; see :class:`~rosmini.ros.introspection.peers.Peers`."""
+    """The Master at an address, and its nodes; see :class:`~rosmini.core.peers.Peers`."""
 
     def __init__(self, master_uri: str, *, master_s: float = MASTER_S, node_s: float = NODE_S) -> None:
         self.master_uri = master_uri
@@ -159,7 +159,7 @@ class DirectWire:
 
 
 class DirectMaster:
-    """The Master, asked in the name of ``caller_id``; see :class:`~rosmini.ros.introspection.peers.Asker`."""
+    """The Master, asked in the name of ``caller_id``; see :class:`~rosmini.core.peers.Asker`."""
 
     def __init__(self, wire: DirectWire, caller_id: str) -> None:
         self._wire = wire
@@ -187,7 +187,7 @@ class DirectMaster:
 
 
 class WallClock:
-    """The clock on the wall; see :class:`~rosmini.ros.introspection.peers.Clock`."""
+    """The clock on the wall; see :class:`~rosmini.core.peers.Clock`."""
 
     def now_ns(self) -> int:
         """Return the time in nanoseconds; only differences mean something."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from .peers import Peers
+    from rosmini.core.peers import Peers
 
 
 class Flow(NamedTuple):

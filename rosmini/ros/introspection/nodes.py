@@ -12,13 +12,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSException, TransportException
-
-from .peers import host_of
+from rosmini.core.peers import host_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from .peers import Asker, Peers
+    from rosmini.core.peers import Asker, Peers
 
 ID = "/rosnode"
 """In whose name the Master and the nodes are asked."""

@@ -13,7 +13,7 @@ from rosmini.core.errors import TransportException, nearest
 from .nodes import namespace_of
 
 if TYPE_CHECKING:
-    from .peers import Peers
+    from rosmini.core.peers import Peers
 
 ID = "/rosservice"
 """In whose name the Master and the servers are asked."""

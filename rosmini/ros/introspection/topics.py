@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from rosmini.core.errors import TransportException
+from rosmini.core.peers import host_of
 
 from .drops import Flow, flows
 from .nodes import namespace_of
-from .peers import host_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from .peers import Peers
+    from rosmini.core.peers import Peers
 
 ID = "/rostopic"
 """In whose name the Master is asked."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from rosmini.core.errors import RosminiError, UsageError
 from rosmini.core.files import read
-from rosmini.sim.urdf.xacro import expand
+from rosmini.core.graph.show import find_extension
 
 if TYPE_CHECKING:
     from rosmini.core.packages import PackageIndex
@@ -57,7 +57,9 @@ def _xacro(words: Sequence[str], packages: PackageIndex) -> str:
     files = [word for word in words if ":=" not in word and not word.startswith("-")]
     if len(files) != 1:
         raise UsageError(f"xacro takes one file, not {' '.join(files) or 'none'}")
-    return expand(files[0], mappings, packages=packages)
+    expand = find_extension("rosmini.launch_commands", "xacro")
+    expanded: str = expand(files[0], mappings, packages=packages)
+    return expanded
 
 
 def _cat(words: Sequence[str], packages: PackageIndex) -> str:  # noqa: ARG001 - alike

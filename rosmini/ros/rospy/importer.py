@@ -7,6 +7,7 @@ else.
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
@@ -17,7 +18,7 @@ from rosmini import msgs
 from .absent import absent_module
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
     from types import ModuleType
 
 _HERE = __package__ or "rosmini.ros.rospy"
@@ -183,3 +184,19 @@ def uninstall() -> None:
 def installed() -> bool:
     """True between :func:`install` and :func:`uninstall`."""
     return any(isinstance(finder, _AliasFinder) for finder in sys.meta_path)
+
+
+@contextmanager
+def importable() -> Iterator[None]:
+    """Let ROS's modules be imported by their names inside, if they cannot be already.
+
+    Plugins of the Navigation Stack find this by the entry point `rosmini.imports`.
+    """
+    is_mine = not installed()
+    if is_mine:
+        install()
+    try:
+        yield
+    finally:
+        if is_mine:
+            uninstall()

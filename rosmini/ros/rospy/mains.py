@@ -19,6 +19,6 @@ def run_tool(name: str, argv: Sequence[str] | None) -> None:
     Raises ``SystemExit`` with the exit status if that is not 0.
     """
     words = list(sys.argv if argv is None else argv)[1:]
-    status = find_extension(GROUP, name).in_script(words)
+    status = find_extension(GROUP, "in_script")(name, words)
     if status:
         raise SystemExit(status)

@@ -10,7 +10,7 @@ import numpy as np
 
 from rosmini.core.geometry.contours import trace
 from rosmini.core.geometry.poses import inverse, transform_points
-from rosmini.navigation.map_server import GridMap, load_map
+from rosmini.core.maps import GridMap, load_map
 from rosmini.sim.world import Pose, World
 
 if TYPE_CHECKING:

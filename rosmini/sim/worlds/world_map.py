@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry import polygons
 from rosmini.core.geometry.slices import within
-from rosmini.navigation.map_server import GridMap
+from rosmini.core.maps import GridMap
 from rosmini.sim.shapes import ROUND, Simple, outline_at
 from rosmini.sim.world import Pose, World, WorldError
 

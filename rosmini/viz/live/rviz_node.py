@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, cast
 
 from rosmini.core.graph.show import has_own_process
 from rosmini.core.packages import address_of
-from rosmini.ros.introspection.options import Parser
+from rosmini.core.verbs import Parser
 from rosmini.viz.rviz import Config
 
 from .rviz import RVizWindow

@@ -267,7 +267,7 @@ def update_cost(count: int, beams: int, kind: str = "likelihood_field", times: i
 
 def map_memory(side: int) -> float:
     """Megabytes that a localizer holds with a map of so many cells a side."""
-    from rosmini.navigation.map_server.grid_map import GridMap
+    from rosmini.core.maps.grid_map import GridMap
 
     cells = np.zeros((side, side), dtype=np.int8)
     cells[::100] = 100

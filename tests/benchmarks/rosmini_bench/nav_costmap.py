@@ -19,13 +19,13 @@ from typing import Any
 import numpy as np
 
 from rosmini import Graph
+from rosmini.core.maps import load_map
 from rosmini.core.tf import Buffer, StaticTransformBroadcaster, TransformListener
 from rosmini.navigation.costmap_2d.costmap import LETHAL_OBSTACLE, Costs
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.costmap_2d.inflation import cell_distance, cost_table, inflate
 from rosmini.navigation.costmap_2d.layer import Bounds, Window
 from rosmini.navigation.costmap_2d.observations import Observation
-from rosmini.navigation.map_server import load_map
 
 from . import Measure
 from .sim_growth import exponent

@@ -19,7 +19,7 @@ from scipy.sparse import csgraph
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import Pose
-from rosmini.navigation.map_server import GridMap
+from rosmini.core.maps import GridMap
 from rosmini.sim.motion import Door
 from rosmini.sim.world import Obstacle, World
 from rosmini.sim.worlds import to_map

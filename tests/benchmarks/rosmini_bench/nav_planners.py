@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.core.maps import load_map
 from rosmini.navigation.global_planner import GlobalAStar, GlobalDijkstra
-from rosmini.navigation.map_server import load_map
 from rosmini.navigation.navfn import NavfnSearch, Search
 from rosmini.navigation.navfn.search import navfn_table
 

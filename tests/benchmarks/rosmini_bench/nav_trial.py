@@ -22,9 +22,9 @@ import numpy as np
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.graph import Graph
+from rosmini.core.maps import GridMap, save_map
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.navigation.map_server import GridMap, save_map
 from rosmini.navigation.nav_core import pose_stamped
 from rosmini.ros.launch import roslaunch
 from rosmini.sim.models import model as model_called

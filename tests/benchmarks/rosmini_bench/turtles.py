@@ -11,7 +11,7 @@ from rosmini.core.errors import RosminiError
 from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.sim.logo import Logo
-from rosmini.tools.logo import source
+from rosmini.sim.verbs.logo import source
 
 from . import Measure
 

@@ -10,7 +10,7 @@ from book.tools import notebooks
 from rosmini.core.markup import parse_file
 from rosmini.core.packages import PackageIndex
 from rosmini.sim.gazebo import plugin_class
-from rosmini.tools.gz import TOOL
+from rosmini.sim.verbs.gz import TOOL
 
 from .conftest import NOTEBOOKS, figure_numbers, prose_of
 

@@ -10,10 +10,10 @@ import pytest
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.poses import compose
+from rosmini.core.maps.grid_map import GridMap
 from rosmini.navigation.amcl.laser import Scan
 from rosmini.navigation.amcl.localizer import FreeSpace, Localizer
 from rosmini.navigation.amcl.parameters import AmclParameters
-from rosmini.navigation.map_server.grid_map import GridMap
 
 BEARINGS = np.arange(90) * math.tau / 90
 SMALL = np.diag([0.01, 0.01, 0.01])

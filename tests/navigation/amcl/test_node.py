@@ -13,12 +13,12 @@ from rosmini.core.actionlib import SimpleActionClient
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.poses import compose
 from rosmini.core.graph import Graph
+from rosmini.core.maps.grid_map import GridMap
 from rosmini.core.tf import StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.amcl.field import LikelihoodField
-from rosmini.navigation.map_server.grid_map import GridMap
 from rosmini.navigation.nav_core import pose_stamped
 from rosmini.ros.launch import roslaunch
 

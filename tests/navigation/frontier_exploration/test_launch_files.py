@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from rosmini.core.graph import Graph
+from rosmini.core.maps import GridMap, save_map
 from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs import message_class
-from rosmini.navigation.map_server import GridMap, save_map
 from rosmini.ros.launch import LaunchError, find_file, roslaunch
 
 LAUNCH = """<launch>

@@ -12,11 +12,11 @@ import pytest
 from rosmini import rosrun
 from rosmini.core.errors import ParameterError
 from rosmini.core.graph import Graph
+from rosmini.core.maps import load_map
 from rosmini.core.tf import StaticTransformBroadcaster, TransformBroadcaster
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
-from rosmini.navigation.map_server import load_map
 from rosmini.ros.launch import roslaunch
 from rosmini.sim.simulator import Simulator
 

@@ -9,8 +9,7 @@ import pytest
 
 from rosmini.core.errors import ParameterError, ServiceException, UsageError
 from rosmini.core.graph import Graph
-from rosmini.msgs import message_class, service_class
-from rosmini.navigation.map_server import (
+from rosmini.core.maps import (
     GridMap,
     MapDataError,
     MapError,
@@ -18,6 +17,7 @@ from rosmini.navigation.map_server import (
     MapMissing,
     save_map,
 )
+from rosmini.msgs import message_class, service_class
 from rosmini.navigation.map_server.node import MapServer
 
 CELLS = np.array([[0, 100, -1], [0, 0, 0]], dtype=np.int8)

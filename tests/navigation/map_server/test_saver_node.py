@@ -7,8 +7,8 @@ import pytest
 
 from rosmini.core.errors import UsageError
 from rosmini.core.graph import Graph
+from rosmini.core.maps import GridMap, load_map, save_map
 from rosmini.msgs import message_class
-from rosmini.navigation.map_server import GridMap, load_map, save_map
 from rosmini.navigation.map_server.node import MapServer
 from rosmini.navigation.map_server.saver_node import MapSaver, SaverOptions
 from rosmini.ros.scripts import rosrun

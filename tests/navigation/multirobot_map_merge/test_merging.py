@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.navigation.map_server import GridMap, MapError
+from rosmini.core.maps import GridMap, MapError
 from rosmini.navigation.multirobot_map_merge.merging import merge
 
 

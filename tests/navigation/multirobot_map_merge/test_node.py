@@ -8,9 +8,9 @@ import pytest
 from rosmini import rosrun
 from rosmini.core.errors import ParameterError
 from rosmini.core.graph import Graph
+from rosmini.core.maps import GridMap
 from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class
-from rosmini.navigation.map_server import GridMap
 from rosmini.ros.launch import roslaunch
 from rosmini.sim.worlds import to_map, world
 

@@ -14,8 +14,8 @@ from rosmini.msgs import message_class
 from rosmini.ros.scripts import rosrun
 from rosmini.sim.gazebo import GazeboClient, GazeboError, GazeboServer
 from rosmini.sim.sdf import SdfError
+from rosmini.sim.verbs.gz import Gz
 from rosmini.sim.world import Box, Obstacle, World
-from rosmini.tools.gz import Gz
 
 from .conftest import DIFF_DRIVE, Bench, box, urdf
 

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 from rosmini import Graph, rosrun
 from rosmini.core.errors import ParameterError, ServiceException
+from rosmini.core.verbs import VerbError
 from rosmini.msgs import message_class, service_class
 from rosmini.sim.turtlesim import TurtleSim, frame
 from rosmini.sim.turtlesim.turtle import LIMIT
@@ -24,7 +25,6 @@ from rosmini.tools.rosnode import TOOL as ROSNODE
 from rosmini.tools.rosparam import TOOL as ROSPARAM
 from rosmini.tools.rosservice import TOOL as ROSSERVICE
 from rosmini.tools.rostopic import TOOL as ROSTOPIC
-from rosmini.tools.verbs import VerbError
 
 from ...tools.transcripts import in_order, masked
 

@@ -16,7 +16,7 @@ from rosmini.core.errors import RosminiError, UnknownPackage
 from rosmini.core.geometry import polygons
 from rosmini.core.geometry.contours import edge_loops
 from rosmini.core.geometry.raycast import raycast
-from rosmini.navigation.map_server import MapError, load_map
+from rosmini.core.maps import MapError, load_map
 from rosmini.sim.world import Cylinder, World, WorldError, edges
 from rosmini.sim.worlds import names, source, world, world_from_map
 

@@ -6,7 +6,7 @@ import ipaddress
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import nearest
-from rosmini.ros.introspection.peers import host_of
+from rosmini.core.peers import host_of
 
 from .findings import Finding
 

@@ -12,7 +12,7 @@ from rosmini.ros.introspection.nodes import succeed, why_silent
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from rosmini.ros.introspection.peers import Peers
+    from rosmini.core.peers import Peers
 
 ID = "/roswtf"
 """In whose name the Master and the nodes are asked."""

@@ -14,13 +14,13 @@ import rosmini.tools.main as cli
 from rosmini import Graph, rosrun
 from rosmini.core.errors import UsageError
 from rosmini.core.time import Time
+from rosmini.core.verbs import Call, VerbError
 from rosmini.msgs.geometry_msgs.msg import TransformStamped
 from rosmini.msgs.sensor_msgs.msg import Image
 from rosmini.msgs.std_msgs.msg import Float64, String
 from rosmini.msgs.tf2_msgs.msg import TFMessage
 from rosmini.ros.bag import Bag
-from rosmini.tools.rqt import PANELS, TOOL, Shown
-from rosmini.tools.verbs import Call, VerbError
+from rosmini.viz.verbs.rqt import PANELS, RQT, TOOL, Shown
 
 
 @pytest.fixture
@@ -91,7 +91,7 @@ def test_what_cannot_be_shown_is_said(graph: Graph) -> None:
 
 
 def test_every_command_of_its_own_is_a_verb_and_the_reverse() -> None:
-    assert set(TOOL.verbs) == {*cli.RQT, "plugins"}
+    assert set(TOOL.verbs) == {*RQT, "plugins"}
     result = TOOL.alone("msg").run("std_msgs/String")
     assert str(result) == str(TOOL.run("msg", "std_msgs/String"))
 
@@ -175,7 +175,7 @@ def test_the_table_of_plugins_has_nine_groups_and_names_every_tool_that_is_here(
     assert len({row[0] for row in rows}) == 9
     assert len(rows) == len({row[2] for row in rows})
     assert {row[3] for row in rows if row[3] in cli.COMMANDS} >= {
-        f"rqt_{verb}" for verb in cli.RQT if verb != "gui"
+        f"rqt_{verb}" for verb in RQT if verb != "gui"
     }
 
 

@@ -7,24 +7,20 @@ from typing import TYPE_CHECKING
 
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.packages import PackageIndex
-from rosmini.ros.introspection.options import Parser
+from rosmini.core.verbs import Call, Lines, Parser, Result, Shown, Tool, tool_node
 from rosmini.sim.logo import Logo, LogoError
-
-from .listening import tool_node
-from .rqt import Shown
-from .verbs import Call, Lines, Result, Tool
 
 if TYPE_CHECKING:
     from optparse import Values
 
 TOOL = Tool(
     "logo",
-    "run a program in Logo, which drives turtles and robots",
+    "run a Logo program that drives turtles and robots",
     purpose="running programs in Logo",
     example="turtlesim/turtlesim_node",
     only_verb="run",
+    group="Run and look",
 )
-add_parser, main = TOOL.add_parser, TOOL.main
 
 PROMPT, MORE = "? ", "> "
 """What UCBLogo writes where a line is typed, and where it is to be continued."""

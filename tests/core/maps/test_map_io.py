@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from rosmini.core.errors import RosminiError
-from rosmini.navigation.map_server import GridMap, MapError, load_map
+from rosmini.core.maps import GridMap, MapError, load_map
 
 FIELDS = {
     "image": "map.png",

@@ -12,9 +12,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
     from optparse import Values
 
-    from rosmini.ros.introspection.options import Parser
-
-    from .verbs import Call
+    from .options import Parser
+    from .tool import Call
 
 DURATION_S = 5.0
 """How long a verb that goes on until Ctrl-C in a terminal does so in Python [s]."""

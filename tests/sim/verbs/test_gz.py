@@ -11,14 +11,14 @@ import pytest
 from rosmini import Graph
 from rosmini.core.errors import UsageError
 from rosmini.core.markup import MarkupError
+from rosmini.core.verbs import Prompt
 from rosmini.sim import sdf
 from rosmini.sim.gazebo import GazeboError
 from rosmini.sim.gazebo.topics import FIRST_PORT
-from rosmini.tools.gz import Gz, Sample, Statistics
+from rosmini.sim.verbs.gz import Gz, Sample, Statistics
 from rosmini.tools.main import main
-from rosmini.tools.verbs import Prompt
 
-from ..sim.gazebo.conftest import Bench, box, urdf
+from ..gazebo.conftest import Bench, box, urdf
 
 Start = Callable[..., Bench]
 
@@ -183,6 +183,6 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
 
 @pytest.mark.parametrize("verb", ["topic", "model", "world", "stats", "sdf"])
 def test_help_has_an_example(verb: str) -> None:
-    from rosmini.tools.gz import TOOL
+    from rosmini.sim.verbs.gz import TOOL
 
     assert f"for example: rosmini gz {verb} -" in " ".join(str(TOOL.run(verb, "-h")).split())

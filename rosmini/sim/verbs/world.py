@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.core.errors import RosminiError
-
-from .verbs import ArgumentParser, Call, Result, Tool
+from rosmini.core.verbs import ArgumentParser, Call, Result, Tool
 
 if TYPE_CHECKING:
     import argparse
@@ -19,8 +18,9 @@ if TYPE_CHECKING:
     from rosmini.sim.sdf.document import Note
     from rosmini.sim.world import World
 
-TOOL = Tool("world", "list worlds, and check files of worlds, maps and robots")
-add_parser, main = TOOL.add_parser, TOOL.main
+TOOL = Tool(
+    "world", "list worlds, and check files of worlds, maps and robots", is_magic=False, group="Run and look"
+)
 
 LONG = 1e6
 """Lengths above this [m] are printed without decimals."""
@@ -175,7 +175,7 @@ def _stage(path: Path) -> FileCheck:
 
 
 def _map(path: Path) -> FileCheck:
-    from rosmini.navigation.map_server import load_map
+    from rosmini.core.maps import load_map
 
     grid = load_map(path)
     height, width = grid.occupancy.shape

@@ -19,17 +19,14 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import UsageError
 from rosmini.core.markup import parse_file
+from rosmini.core.verbs import SECOND, ArgumentParser, Call, Lines, Overview, Result, Span, Tool, tool_node
 from rosmini.msgs import message_class, service_class
-from rosmini.ros.introspection.services import uri_of
 from rosmini.sim import sdf, urdf
 from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.from_urdf import from_urdf
 from rosmini.sim.gazebo.services import pose_message, pose_of
 from rosmini.sim.gazebo.to_sdf import to_sdf
 from rosmini.sim.gazebo.topics import GazeboMaster, address, find_master
-
-from .listening import SECOND, Span, tool_node
-from .verbs import ArgumentParser, Call, Lines, Overview, Result, Tool
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -42,12 +39,14 @@ TOOL = Tool(
     usage_status=255,
     elsewhere=("camera", "debug", "joint", "log", "marker", "physics"),
     example="gazebo_ros/gzserver worlds/empty.world",
+    is_magic=False,
+    group="Run and look",
     purpose="looking at a Gazebo server and changing its world",
     overview=Overview(
         closing="Type {tool} <command> -h for more detailed usage", status=0, unknown_status=255
     ),
 )
-add_parser, main, Gz = TOOL.add_parser, TOOL.main, TOOL.on
+Gz = TOOL.on
 
 LOOK_BACK = 20
 """Number of samples over which `gz stats` averages."""
@@ -96,7 +95,7 @@ def _services(call: Call) -> Iterator[_Services]:
     master = find_master(call.graph)
     name = "/gazebo" if master is None else master.world.node.name
     with tool_node(call.graph, "gz") as node:
-        if uri_of(call.peers, f"{name}/get_world_properties") is None:
+        if call.peers.ask_as("/gz").find("lookupService", f"{name}/get_world_properties") is None:
             raise GazeboError(
                 f"an instance of Gazebo is not running: no node offers {name}/get_world_properties. "
                 "Start one with `rosrun gazebo_ros gzserver`"

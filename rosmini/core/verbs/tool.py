@@ -1,4 +1,4 @@
-"""Verbs of the command line: each is a function that returns a result, with two front ends, the terminal and Python.
+"""Verbs: each is a function that returns a result, with two front ends, the terminal and Python.
 
     TOOL = Tool("rosdemo", "say hello")
 
@@ -16,23 +16,15 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, cast
 
-from rosmini.core.errors import CommandError, MasterUnreachable, RosminiError, UsageError, nearest
-from rosmini.core.names import is_remapping
-
-from .signals import end_as_ctrl_c
+from rosmini.core.errors import CommandError, UsageError, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from rosmini.core.graph import Graph
-    from rosmini.ros.introspection.peers import Peers
-
-SETTLE_S = 0.1
-"""How long the nodes after a `+` run before the verb acts [s]."""
-
+    from rosmini.core.peers import Peers
 
 NOT_A_VERB = 64
 """The exit status of ROS's tools where the first word is none of their commands."""
@@ -150,7 +142,7 @@ class Verb:
     is_listed: bool = True
     """Whether the list of verbs has it."""
     takes: str = ""
-    """What its arguments name, for completion: kinds of :mod:`rosmini.tools.completion`; the last one may repeat."""
+    """What its arguments name, for completion: kinds of `rosmini.tools.completion`; the last one may repeat."""
 
     def do(self, given: Any, call: Call) -> Result:
         """Return what the verb did. Raises ``VerbError`` for a file that cannot be opened, and what the verb raises."""
@@ -185,7 +177,9 @@ class Tool:
     exit status where no Master answers. A tool that ``needs_graph`` not only reads files. One that
     ``reads_files`` does so in a terminal; what else it does there has an ``in_terminal`` of its own.
     A tool that does one thing only, as roswtf, names its ``only_verb``, which is then not among the words. One that
-    ``takes_arguments`` of launch files, ``name:=value``, gets them; of others such words are remappings.
+    ``takes_arguments`` of launch files, ``name:=value``, gets them; of others such words are remappings. One that
+    ``is_magic`` is a line magic of notebooks, too. ``group`` is its heading in `rosmini --help`, if not "ROS's own
+    commands".
     """
 
     name: str
@@ -201,6 +195,8 @@ class Tool:
     reads_files: bool = False
     only_verb: str = ""
     takes_arguments: bool = False
+    is_magic: bool = True
+    group: str = ""
     verbs: dict[str, Verb] = field(default_factory=dict)
 
     def verb(
@@ -247,17 +243,6 @@ class Tool:
             f"verbs:\n{listed}\n\n`rosmini {self.name} <verb> -h` says more about one."
         )
 
-    def _overview(self) -> str:
-        """Return the list of verbs as a tool of ROS prints it."""
-        heading = f"{self.name} is a command-line tool for {self.purpose}.\n\n"
-        listed = "\n".join(
-            f"\t{self.name} {verb.name}\t{verb.summary}" for verb in self.verbs.values() if verb.is_listed
-        )
-        closing = self.overview.closing.format(tool=self.name, example=self.example)
-        return f"{heading if self.overview.has_heading else ''}Commands:\n{listed}\n" + (
-            f"\n{closing}\n" if closing else ""
-        )
-
     # -- in Python -----------------------------------------------------------------------------------------------
 
     def run(
@@ -276,8 +261,8 @@ class Tool:
         Raises ``UsageError`` for words that make no sense, and what the verb raises.
         """
         text = [os.fspath(word) if isinstance(word, os.PathLike) else str(word) for word in words]
-        text = self._with_verb(text)
-        asked = self._help_for(text)
+        text = self.with_verb(text)
+        asked = self.help_for(text)
         if asked is not None:
             return Lines(lines=(asked,))
         verb = self.find(text[0])
@@ -297,11 +282,11 @@ class Tool:
         """Return what does verbs on ``graph`` in a notebook."""
         return Prompt(self, graph)
 
-    def _with_verb(self, words: Sequence[str]) -> list[str]:
+    def with_verb(self, words: Sequence[str]) -> list[str]:
         """Return the words with the verb that is understood, in front."""
         return [self.only_verb, *words] if self.only_verb else list(words)
 
-    def _help_for(self, words: Sequence[str]) -> str | None:
+    def help_for(self, words: Sequence[str]) -> str | None:
         """Return the help that the words ask for, if they do."""
         helps = {"-h", "--help", "help"}
         if not words or (words[0] in helps and len(words) == 1):
@@ -311,119 +296,6 @@ class Tool:
         if {"-h", "--help"} & set(words[1:]):
             return self.find(words[0]).parser().format_help()
         return None
-
-    # -- in a terminal -------------------------------------------------------------------------------------------
-
-    def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
-        """Add the tool to the parser of `rosmini`: no word of it is an option for that one."""
-        parser = subparsers.add_parser(self.name, help=self.summary, add_help=False, prefix_chars="\0")
-        parser.add_argument("words", nargs=argparse.REMAINDER)
-        return parser
-
-    def main(self, args: argparse.Namespace) -> int:
-        """Do what the words say, print it, and return the exit status."""
-        words: list[str] = args.words
-        own, nodes = _before_plus(words)
-        own = self._with_verb(own)
-        if self.purpose:
-            own = [word for word in own if self.takes_arguments or not is_remapping(word)]
-            if not own or (own[0] not in {*self.verbs, *self.elsewhere, "--help", "help"}):
-                return self._not_a_verb(own)
-
-        def act() -> Result | int:
-            asked = self._help_for(own)
-            if asked is not None:
-                print(asked)
-                if words and not nodes and words[0] in ("-h", "--help"):
-                    raise SystemExit(0)  # as argparse ends after a help text
-                return 0
-            verb = self.find(own[0])
-            if verb.in_terminal is not None:
-                verb.parser()
-                return verb.in_terminal(self._with_verb(words)[1:])
-            return self._in_terminal(verb, own[1:], nodes)
-
-        return self._reported(act)
-
-    def in_script(self, words: Sequence[str]) -> int:
-        """Do what the words say on the graph that runs the caller, print it, and return the exit status.
-
-        It is found by its name in the entry points `rosmini.tools`, by ``rostopic.rostopicmain`` on a floor below.
-        """
-        return self._reported(lambda: self.run(*(word for word in words if not is_remapping(word))))
-
-    def _reported(self, act: Callable[[], Result | int]) -> int:
-        """Print what was done, or why it was not, and return the exit status."""
-        try:
-            result = act()
-        except VerbError as error:
-            print(error, file=sys.stderr)
-            return error.status
-        except UsageError as error:
-            print(error, file=sys.stderr)
-            return self.usage_status
-        except MasterUnreachable as error:
-            if not self.purpose:
-                raise
-            print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
-            return self.failure_status
-        if isinstance(result, int):
-            return result
-        text = str(result)
-        if text or result.always_printed:
-            print(text, end=result.end)
-        for complaint in result.complaints:
-            print(complaint, file=sys.stderr)
-        return result.status
-
-    def _not_a_verb(self, words: Sequence[str]) -> int:
-        """Print the overview, and what was probably meant."""
-        print(self._overview())
-        if words and words[0] not in ("-h", "--help"):
-            hint = nearest(words[0], self.verbs)
-            print(
-                f"{self.name}: there is no command {words[0]!r}{f'; {hint}' if hint else ''}", file=sys.stderr
-            )
-        return self.overview.unknown_status if words else self.overview.status
-
-    def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
-        given = verb.parser().parse(own)
-        if not self.needs_graph or (self.reads_files and not nodes):
-            return verb.do(given, Call(cast("Peers", None), read_line=sys.stdin.readline))
-        if self.purpose and not nodes:
-            return self._on_wire(verb, given)
-        if verb.needs_graph and not nodes:
-            raise RosminiError(
-                f"{self.name} {verb.name} acts on a graph, and none is running in this process: name it after a +, "
-                f"for example `rosmini {' '.join((self.name, verb.name, *own))} + {self.example}`"
-            )
-        from rosmini.core.graph import Graph
-
-        with Graph(
-            strict=False
-        ) as graph:  # what goes wrong in a node is told by that node, and the tool goes on
-            if nodes:
-                _start(nodes, graph)
-            return verb.do(given, Call(graph))
-
-    def _on_wire(self, verb: Verb, given: Any) -> Result:
-        """Act on the graph of the Master that the environment names."""
-        say = partial(print, flush=True)
-        only_asks = verb.only_asks(given) if callable(verb.only_asks) else verb.only_asks
-        if only_asks:
-            from rosmini.ros.introspection.direct import DirectWire
-            from rosmini.ros.net.addresses import addresses
-
-            with DirectWire(addresses().master_uri) as wire:
-                return verb.do(given, Call(wire, say, read_line=sys.stdin.readline))
-        from rosmini.ros.net.connecting import connect
-
-        end_as_ctrl_c()
-        with connect(announce=False) as graph:
-            try:
-                return verb.do(given, Call(graph, say, read_line=sys.stdin.readline))
-            except KeyboardInterrupt:  # it came between two waits: no failure, as in ROS's tools
-                return Lines()
 
 
 @dataclass(frozen=True)
@@ -442,24 +314,3 @@ class Prompt:
     def run(self, *words: object) -> Result:
         """Do what the words say, and return the result. Raises as `Tool.run` does."""
         return self.tool.run(*words, graph=self.graph)
-
-
-def _before_plus(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Split words at the first `+`: the tool's, and those of the nodes that it acts on."""
-    if "+" not in words:
-        return list(words), []
-    at = words.index("+")
-    return list(words[:at]), list(words[at + 1 :])
-
-
-def _start(nodes: Sequence[str], graph: Graph) -> None:
-    """Start what stands after a `+`, and let it settle."""
-    from rosmini.ros.scripts import NodeHandle, rosrun
-
-    while nodes:
-        words, nodes = _before_plus(nodes)
-        package, _, executable = words[0].partition("/")
-        handle = rosrun(package, executable, *words[1:], graph=graph)
-        if isinstance(handle, NodeHandle):
-            handle.instance()
-    graph.run(SETTLE_S)

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rosmini.core.maps import GridMap, MapDataError, MapMetadataError
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
-from rosmini.navigation.map_server import GridMap, MapDataError, MapMetadataError
 
 CELLS = np.array([[0, 100, -1], [50, 0, 0]], dtype=np.int8)
 

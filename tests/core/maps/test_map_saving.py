@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from rosmini.navigation.map_server import GridMap, MapError, load_map, save_map
+from rosmini.core.maps import GridMap, MapError, load_map, save_map
 
 sides = st.integers(1, 2_000_000).map(lambda n: n / 1e6)
 places = st.integers(-90_000_000, 90_000_000).map(lambda n: n / 1e6)

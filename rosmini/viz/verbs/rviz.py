@@ -9,20 +9,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rosmini.ros.introspection.options import Parser
-
-from .listening import Span
-from .rqt import Shown, shown
-from .verbs import Call, Result, Tool
+from rosmini.core.verbs import Call, Parser, Result, Shown, Span, Tool, shown
 
 if TYPE_CHECKING:
     from optparse import Values
 
 TOOL = Tool(
-    "rviz", "robots, sensors and maps as displays in a scene, from a .rviz file or for what is published",
+    "rviz", "show a robot, its sensors and its plans in the browser, and send it goals",
     purpose="looking at what a robot sees and plans", only_verb="show", example="rosmini_sim/simulator",
 )  # fmt: skip
-add_parser, main = TOOL.add_parser, TOOL.main
 
 DURATION = 2.0
 """How long it listens if nobody says how long [s]."""

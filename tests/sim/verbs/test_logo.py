@@ -11,7 +11,8 @@ import pytest
 from rosmini import Graph
 from rosmini.core.errors import RosminiError, UsageError
 from rosmini.sim.logo import LogoError
-from rosmini.tools.logo import TOOL, programs
+from rosmini.sim.verbs.logo import TOOL, programs
+from rosmini.tools.terminal import Terminal
 
 MIDDLE = 499 / 90
 
@@ -66,7 +67,7 @@ def test_lines_are_typed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
         "repeat 2 [\nprint 1\n]\nbye\nprint 9\n"
     )
     monkeypatch.setattr("sys.stdin", io.StringIO(typed))
-    assert TOOL.main(Namespace(words=["--paper"])) == 0
+    assert Terminal(TOOL).main(Namespace(words=["--paper"])) == 0
     written = capsys.readouterr().out
     assert written == (
         "? ? 0 10\n? line 1: I don't know how to frwd; did you mean forward?\n? > > ? 8\n? > > 1\n1\n? "
@@ -81,5 +82,5 @@ def test_ctrl_c_ends_the_program_and_not_the_conversation(
 
     monkeypatch.setattr("rosmini.sim.logo.turtles.Turtle.face", pressed)
     monkeypatch.setattr("sys.stdin", io.StringIO("fd 10\nforever [right 1]\nprint pos\n"))
-    assert TOOL.main(Namespace(words=["--paper"])) == 0
+    assert Terminal(TOOL).main(Namespace(words=["--paper"])) == 0
     assert capsys.readouterr().out == "? ? stopped by Ctrl-C\n? 0 10\n? "

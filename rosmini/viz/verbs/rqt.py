@@ -7,17 +7,19 @@ In a terminal a picture is a page, which is opened in the browser; in a notebook
 from __future__ import annotations
 
 import sys
-import tempfile
-from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rosmini.ros.introspection.options import Parser
-
-from .arguments import global_name
-from .listening import Span, tool_node
-from .main import COMMANDS, RQT
-from .verbs import Call, Result, Tool, VerbError
+from rosmini.core.verbs import (
+    Call,
+    Parser,
+    Shown,
+    Span,
+    Tool,
+    VerbError,
+    global_name,
+    shown,
+    tool_node,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -25,27 +27,32 @@ if TYPE_CHECKING:
 
     from rosmini.viz.view import View
 
+RQT = {
+    "graph": "the computation graph",
+    "plot": "numbers in messages over time",
+    "topic": "topics with types, bandwidths, rates and values",
+    "msg": "the fields of a message type",
+    "srv": "the fields of a service type",
+    "action": "the fields of an action type",
+    "console": "what nodes log",
+    "bag": "what is in a bag, over time",
+    "tf_tree": "the tree of frames",
+    "image_view": "the next image on a topic",
+    "gui": "several plugins in one window",
+    "robot_steering": "drive a robot, with keys",
+    "publisher": "publish on topics, from a form",
+    "service_caller": "call services, from a form",
+    "logger_level": "how much each node logs, from a form",
+    "reconfigure": "parameters of nodes that run, from a form",
+}
+"""The tools of rqt and what they show."""
+
 TOOL = Tool(
-    "rqt", "graph, plots, tables of topics and messages, logs, bags, frames and images as pictures",
+    "rqt", "the tools of rqt as pictures",
     purpose="looking at a graph", example="graph",
 )  # fmt: skip
-add_parser, main = TOOL.add_parser, TOOL.main
 
 MODES = {"nodes": "nodes_only", "active": "nodes_topics_active", "all": "nodes_topics_all"}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Shown(Result):
-    """A view, and in a terminal the page that it was written to."""
-
-    view: View
-    path: Path | None = None
-
-    def __str__(self) -> str:
-        return self.view.text if self.path is None else f"{self.view.text}\n\n{self.path}"
-
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
-        return self.view._repr_mimebundle_(include, exclude)
 
 
 def _parser(verb: str, usage: str, description: str, example: str, seconds: float | None = None) -> Parser:
@@ -85,19 +92,6 @@ def _live(kind: str, call: Call, *words: str, **options: Any) -> Shown:
     from rosmini.viz.live import rqt
 
     return Shown(view=vars(rqt)[kind](call.graph, *words, **options))
-
-
-def shown(view: View, name: str, given: Values, call: Call) -> Shown:
-    """Write the page that was asked for; in a terminal open one in the browser if none was."""
-    if given.output:
-        return Shown(view=view, path=view.save(given.output))
-    if not call.in_terminal:
-        return Shown(view=view)
-    import webbrowser
-
-    path = view.save(Path(tempfile.mkdtemp(prefix="rosmini_")) / f"{name}.html")
-    webbrowser.open(path.as_uri())
-    return Shown(view=view, path=path)
 
 
 def _one_word(given: Values, parser: Parser, what: str) -> str:
@@ -423,7 +417,8 @@ def _gui_in_terminal(words: Sequence[str]) -> int:
     for plugin in wanted or [f"rqt_{verb}" for verb in RQT if verb != "gui"]:
         package = plugin.partition("/")[0]
         found = serves.get(package, "no plugin of rqt")
-        print(f"  {plugin}: {'rosmini ' * (found.split()[0] in COMMANDS)}{found}")
+        is_command = found.startswith(("ros", "rqt", "rviz"))
+        print(f"  {plugin}: {'rosmini ' * is_command}{found}")
     return 2
 
 

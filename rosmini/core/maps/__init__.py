@@ -1,0 +1,22 @@
+"""Maps as grids, and their files (http://wiki.ros.org/map_server)."""
+
+from __future__ import annotations
+
+from .grid_map import FREE, OCCUPIED, UNKNOWN, GridMap, MapDataError, MapError, MapMetadataError, MapMissing
+from .map_io import MapFile, load_map, map_file
+from .map_saving import save_map
+
+__all__ = [
+    "FREE",
+    "OCCUPIED",
+    "UNKNOWN",
+    "GridMap",
+    "MapDataError",
+    "MapError",
+    "MapFile",
+    "MapMetadataError",
+    "MapMissing",
+    "load_map",
+    "map_file",
+    "save_map",
+]

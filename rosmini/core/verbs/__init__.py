@@ -1,0 +1,34 @@
+"""What a tool of the command line is: verbs, their options and results, and how a verb listens."""
+
+from __future__ import annotations
+
+from .arguments import DURATION_S, add_duration, below_here, dashed_remapping, duration_ns, global_name
+from .listening import SECOND, Span, tool_node
+from .options import Parser
+from .shown import Shown, shown
+from .tool import NOT_A_VERB, ArgumentParser, Call, Lines, Overview, Prompt, Result, Tool, Verb, VerbError
+
+__all__ = [
+    "DURATION_S",
+    "NOT_A_VERB",
+    "SECOND",
+    "ArgumentParser",
+    "Call",
+    "Lines",
+    "Overview",
+    "Parser",
+    "Prompt",
+    "Result",
+    "Shown",
+    "Span",
+    "Tool",
+    "Verb",
+    "VerbError",
+    "add_duration",
+    "below_here",
+    "dashed_remapping",
+    "duration_ns",
+    "global_name",
+    "shown",
+    "tool_node",
+]
