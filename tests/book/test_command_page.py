@@ -33,7 +33,7 @@ def test_the_verbs_on_the_page_are_there() -> None:
         name = ""
         for first, verb in re.findall(r"`(?:rosmini (\w+)(?: |`))?(\w+)?[^`]*`?", commands):
             name = first or name
-            tool = getattr(COMMANDS[name].load(), "TOOL", None) if name else None
+            tool = COMMANDS[name].tool() if name and COMMANDS[name].folder is None else None
             if tool is not None and not tool.only_verb and verb and verb.islower():
                 assert verb in tool.verbs, f"{name} {verb}"
                 checked += 1

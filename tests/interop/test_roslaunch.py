@@ -18,7 +18,7 @@ from .conftest import SYSTEM_PYTHON, need_ros
 ROOT = Path(__file__).resolve().parents[2]
 PEER = Path(__file__).with_name("roslaunch_peer.py")
 OURS = ROOT / "assets" / "ros"
-SHAPES = ROOT / "tests" / "launch" / "data" / "shapes"
+SHAPES = ROOT / "tests" / "ros" / "launch" / "data" / "shapes"
 
 
 @pytest.fixture

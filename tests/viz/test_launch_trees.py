@@ -8,7 +8,7 @@ from pathlib import Path
 from rosmini.ros.launch import Plan, read
 from rosmini.viz import launch_tree
 
-SHAPES = Path(__file__).parents[1] / "launch" / "data" / "shapes"
+SHAPES = Path(__file__).parents[1] / "ros" / "launch" / "data" / "shapes"
 
 
 def shown(plan: Plan) -> list[str]:

@@ -8,8 +8,7 @@ decides.
 >>> next_status(Status.SUCCEEDED, GoalEvent.ABORT)  # doctest: +ELLIPSIS
 Traceback (most recent call last):
 ...
-rosmini.core.actionlib.errors.IllegalTransition: set_aborted() is for a goal that is ACTIVE or PREEMPTING; this one is
-...
+rosmini.core.actionlib.errors.IllegalTransition: set_aborted() is for a goal that is ACTIVE or PREEMPTING; ...
 """
 
 from __future__ import annotations

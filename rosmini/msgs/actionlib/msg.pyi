@@ -1,9 +1,9 @@
 # Written by python -m assets.generate; do not edit.
 from typing import Any, ClassVar, Sequence, overload
+from rosmini.core.time import Duration as _Duration
 from rosmini.msgs.actionlib_msgs import msg as _actionlib_msgs
 from rosmini.msgs.message import Message as _Message
 from rosmini.msgs.std_msgs import msg as _std_msgs
-from rosmini.core.time import Duration as _Duration
 
 class TestAction(_Message):
     action_goal: TestActionGoal

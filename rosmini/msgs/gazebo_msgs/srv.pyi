@@ -1,12 +1,12 @@
 # Written by python -m assets.generate; do not edit.
 from typing import Any, ClassVar, Sequence, overload
+from rosmini.core.time import Duration as _Duration, Time as _Time
 from rosmini.msgs.gazebo_msgs import msg as _gazebo_msgs
 from rosmini.msgs.geometry_msgs import msg as _geometry_msgs
 from rosmini.msgs.message import Message as _Message
 from rosmini.msgs.registry import Service as _Service
 from rosmini.msgs.std_msgs import msg as _std_msgs
 from rosmini.msgs.trajectory_msgs import msg as _trajectory_msgs
-from rosmini.core.time import Duration as _Duration, Time as _Time
 
 class ApplyBodyWrenchRequest(_Message):
     body_name: str

@@ -1,10 +1,10 @@
 # Written by python -m assets.generate; do not edit.
 from typing import Any, ClassVar, Sequence, overload
+from rosmini.core.time import Time as _Time
 from rosmini.msgs.actionlib_msgs import msg as _actionlib_msgs
 from rosmini.msgs.geometry_msgs import msg as _geometry_msgs
 from rosmini.msgs.message import Message as _Message
 from rosmini.msgs.std_msgs import msg as _std_msgs
-from rosmini.core.time import Time as _Time
 
 class GetMapAction(_Message):
     action_goal: GetMapActionGoal

@@ -1,8 +1,8 @@
 # Written by python -m assets.generate; do not edit.
 from typing import Any, ClassVar, Sequence, overload
+from rosmini.core.time import Duration as _Duration, Time as _Time
 from rosmini.msgs.message import Message as _Message
 from rosmini.msgs.std_msgs import msg as _std_msgs
-from rosmini.core.time import Duration as _Duration, Time as _Time
 
 class Clock(_Message):
     clock: _Time

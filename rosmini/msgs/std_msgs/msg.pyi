@@ -1,7 +1,7 @@
 # Written by python -m assets.generate; do not edit.
 from typing import Any, ClassVar, Sequence, overload
-from rosmini.msgs.message import Message as _Message
 from rosmini.core.time import Duration as _Duration, Time as _Time
+from rosmini.msgs.message import Message as _Message
 
 class Bool(_Message):
     data: bool

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .peer import Rospy
 
 NODE = Path(__file__).with_name("launch_node.py")
-FILES = Path(__file__).parents[2] / "launch" / "data" / "shapes"
+FILES = Path(__file__).parents[2] / "ros" / "launch" / "data" / "shapes"
 
 SUBJECTS = {
     "navigation.launch": "5 files, 5 nodes, a xacro",
