@@ -172,7 +172,7 @@ class TeleopPad(LiveView):
         return self._twist
 
     def press(self, key: str, times: int = 1) -> None:
-        """Take a key (`w`, `x`, `a`, `d`, `s`, `space`, or an arrow: `up`, `down`, `left`, `right`) `times` times, now.
+        """Press a key (`w`, `x`, `a`, `d`, `s`, `space`, or arrow `up`, `down`, `left`, `right`) `times` times, now.
 
         Those are the keys of `turtlebot3_teleop_key`; with others (`use`) it is the keys of that program.
 
@@ -196,12 +196,12 @@ class TeleopPad(LiveView):
             self.stop()
 
     def steer(self, linear: float, angular: float) -> None:
-        """Want these velocities [m/s, rad/s], within the limits, as a gamepad does. Raises as `press` does."""
+        """Set the target velocities [m/s, rad/s], within the limits, like a gamepad. Raises as `press` does."""
         self._require_robot()
         self._publish(self.teleop.steer(linear, angular))
 
     def use(self, keys: str) -> None:
-        """Have the keys of another program, and stop. Raises as `press` does, also if there is no such program."""
+        """Switch to the keys of another program, and stop. Raises as `press` does, also for an unknown program."""
         found = key_map(keys)
         self._rest()
         self.teleop.use(found)
@@ -213,7 +213,7 @@ class TeleopPad(LiveView):
 
     @property
     def choices(self) -> tuple[str, ...]:
-        """What can be driven: the robots of the simulation, the turtles, or the topics of the graph that are heard."""
+        """Names that can be driven: the simulation's robots, the turtles, or the graph's topics with subscribers."""
         if isinstance(self._driven, Simulation):
             return Chosen.names(self._driven)
         if isinstance(self._driven, TurtleSim):
@@ -257,7 +257,7 @@ class TeleopPad(LiveView):
             self.stop()
 
     def reset(self) -> None:
-        """Stop, and reset the simulator's robot. Raises `TeleopError` without a simulator, and as `press` does."""
+        """Stop, and reset the simulator's robot. Raises `TeleopError` without a simulator, else as `press` does."""
         if self.turtle is not None:
             self.stop()
             self.turtle.reset()
@@ -362,8 +362,8 @@ class TeleopPad(LiveView):
     def serve(self, port: int = 0) -> PageServer:
         """Serve the live pad as a page on loopback, for a program in a terminal that drives the graph.
 
-        `with pad.serve() as page:` print `page.url` and let the graph run, in wall time for a person at the keys; the
-        end of the block ends the page. Raises `TeleopError` without anywidget, `OSError` if the port is in use.
+        In `with pad.serve() as page:`, print `page.url` and let the graph run, in wall time if a person presses keys;
+        the page closes at the block's end. Raises `TeleopError` without anywidget, `OSError` if the port is in use.
         """
         from .loopback import PageServer
 

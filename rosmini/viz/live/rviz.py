@@ -51,7 +51,7 @@ SETTLES_NS = 2_000_000_000
 """For so long the view follows what comes, unless a hand is on it."""
 ZOOM = 1.25
 STEP = 0.2
-"""Of the picture's height, by which an arrow key moves a hand that is nowhere else."""
+"""Distance that an arrow key moves the pointer, in tenths of the picture's height."""
 YELLOW = np.array([1.0, 0.9, 0.2, 1.0])
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
 WORDS = {"press": 2, "move": 2, "release": 2, "wheel": 3, "orbit": NUMBERS}
