@@ -1,4 +1,4 @@
-"""Things to touch in a notebook, each with a scripted twin that calls the same callbacks."""
+"""Interactive views for a notebook, each with a scripted twin that calls the same callbacks."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ __all__ = ["Limits", "SimulationView", "Teleop", "TeleopError", "TeleopPad", "si
 
 
 def teleop_pad(driven: Simulation | TurtleSim | Graph, **options: Any) -> TeleopPad:
-    """The renderer "teleop_pad": a pad for a robot, a turtle, or what listens on a graph; see `TeleopPad`."""
+    """The renderer "teleop_pad": a pad for a robot, a turtle, or the subscribers of a graph; see `TeleopPad`."""
     return TeleopPad(driven, **options)
 
 
 def simulation_view(simulation: Simulation, **options: Any) -> SimulationView:
-    """The renderer "simulation_view": a running world in which robots and boxes are dragged; see `SimulationView`."""
+    """The renderer "simulation_view": a running world whose robots and boxes can be dragged; see `SimulationView`."""
     return SimulationView(simulation, **options)

@@ -1,4 +1,4 @@
-"""One robot of a running simulation, as a pad drives and shows it: of a simulator, of stageros or of gzserver."""
+"""One robot of a running simulation (simulator, stageros or gzserver), as a pad drives and shows it."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ from .teleop import Limits, TeleopError
 Floats = NDArray[np.float64]
 
 HIGHEST = 1000.0
-"""A robot of Gazebo has no bound on its speed: from here on it is taken as none [m/s, rad/s]."""
+"""A speed limit from here on counts as unlimited, as robots in Gazebo have none [m/s, rad/s]."""
 
 TRAIL_STEP = 0.02
-"""The least way between two points of the trail [m]."""
+"""Minimum distance between two points of the trail [m]."""
 TRAIL_JUMP = 0.3
-"""A longer way between two looks was not driven: the robot was put somewhere else, and a new trail begins [m]."""
+"""A longer jump between two samples means that the robot was moved, so a new trail begins [m]."""
 TRAIL_POINTS = 3000
 
 
 class Chosen:
-    """A robot that listens to a topic of velocities, chosen by the engine's name of it; without a name the first.
+    """A robot that subscribes to a velocity topic, chosen by its name in the engine; by default the first.
 
-    Raises `TeleopError` if there is no such robot, with the names of those that there are.
+    Raises `TeleopError`, with the names of the available robots, if there is no such robot.
     """
 
     def __init__(self, simulation: Simulation, name: str = "") -> None:
@@ -53,7 +53,7 @@ class Chosen:
         self.name = name or next(iter(drives))
         self.drive = drives[self.name]
         self.topic = self.drive.commanded_by or ""
-        """Where it hears velocities, as a global name."""
+        """Global name of the topic on which the robot receives velocities."""
         robot = self.drive.robot
         self._laser: Any = None
         for device in simulation.host.devices:
@@ -65,37 +65,37 @@ class Chosen:
             model = replace(model, lidar=self._laser.lidar)
         self.model: RobotModel = model
         self.trail: list[tuple[float, float]] = []
-        """Where it was at the looks so far [m]."""
+        """Sampled positions of the robot [m]."""
         self._poses: list[Pose] = []
 
     @staticmethod
     def names(simulation: Simulation) -> tuple[str, ...]:
-        """All robots that listen to velocities."""
+        """Return the names of all robots that subscribe to velocities."""
         return tuple(_drives(simulation))
 
     @property
     def engine(self) -> Engine:
-        """The engine that moves it."""
+        """The physics engine that moves the robot."""
         return self.simulation.engine
 
     @property
     def world(self) -> World:
-        """Where it is."""
+        """The world that contains the robot."""
         return self.engine.world
 
     @property
     def robots(self) -> dict[str, Robot]:
-        """All robots that are there."""
+        """All robots in the engine, by name."""
         return self.engine.robots
 
     @property
     def namespace(self) -> str:
-        """Of its topic."""
+        """Namespace of the velocity topic."""
         return self.topic.rpartition("/")[0] or "/"
 
     @property
     def limits(self) -> Limits:
-        """How fast it may be sent; where it has no bound, those of a Burger."""
+        """Speed limits of the robot; those of a Burger if it has none."""
         usual = Limits()
         linear, angular = self.model.max_linear, self.model.max_angular
         return Limits(
@@ -105,47 +105,47 @@ class Chosen:
 
     @property
     def sees(self) -> bool:
-        """Whether it has a laser."""
+        """True if the robot has a laser."""
         return self._laser is not None
 
     @property
     def simple(self) -> bool:
-        """Whether it moves as the robot in a page without a kernel does: on two wheels."""
+        """True if the robot moves on two driven wheels, like the robot in a page without a kernel."""
         return self.model.drive == "differential" and not self.drive.steered
 
     @property
     def scan_topic(self) -> str:
-        """Where its laser's messages are, as a global name."""
+        """Global name of the laser's topic."""
         return str(self._laser.topic)
 
     @property
     def scan_pose(self) -> Pose:
-        """Where it was when its laser measured last."""
+        """Pose of the robot at the last laser measurement."""
         pose: Pose = self._laser.pose
         return pose
 
     @property
     def scan_poses(self) -> Floats:
-        """Where it was at each beam of that (beams, 3); (1, 3) if all of them were measured at once."""
+        """Pose of the robot at each beam of the last scan (beams, 3); (1, 3) if all beams were measured at once."""
         poses: Floats = self._laser.seen_from
         return poses
 
     def truth(self, robot: str = "") -> Pose:
-        """Where it, or another one, is now: x [m], y [m], heading [rad]. Raises `RobotGone`."""
+        """Return the true pose of this or another robot: x [m], y [m], heading [rad]. Raises `RobotGone`."""
         return self.simulation.truth(robot or self.name)
 
     def last_scan(self) -> Any:
-        """The last `sensor_msgs/LaserScan`; None before the first."""
+        """Return the last `sensor_msgs/LaserScan`; None before the first."""
         return self.simulation.last_scan(self.name)
 
     def reset(self) -> None:
-        """Put all back to where it began."""
+        """Reset everything to its initial pose."""
         self.simulation.reset()
 
     # -- what a page shows of it ---------------------------------------------------------------------------------
 
     def moving(self) -> list[Obstacle]:
-        """All that need not stay where it is: what can be pushed, what moves by itself, and other robots."""
+        """Return all obstacles that can move: pushable boxes, self-moving obstacles and other robots."""
         engine = self.engine
         others = [
             Obstacle(name, Polygon(robot.model.footprint), robot.pose, robot.model.height, colour_of(i))
@@ -155,11 +155,11 @@ class Chosen:
         return [*engine.obstacles(), *others]
 
     def fixed(self) -> list[Obstacle]:
-        """All that stays where it is."""
+        """Return the static obstacles."""
         return [obstacle for obstacle in self.world.obstacles if obstacle.fixed]
 
     def scene(self) -> dict[str, Any]:
-        """The world as it is now, with the robot, for the scripts of a page; what can be pushed comes last."""
+        """Return the current world with the robot, as the page's scripts expect it; pushable obstacles come last."""
         world, height = self.world, self.model.laser.mount[2]
         obstacles = (*self.fixed(), *self.moving())
         scene = scene_data(replace(world, obstacles=obstacles), self.model)
@@ -171,7 +171,7 @@ class Chosen:
         return scene
 
     def _flagged(self, obstacle: Obstacle, shape: dict[str, Any]) -> dict[str, Any]:
-        """A shape for the robot: `low` if its laser looks over or under it, `over` if the robot drives under it."""
+        """Flag a shape for the robot: `low` if its laser misses the shape, `over` if the robot fits underneath it."""
         model = self.model
         if not obstacle.bottom <= model.laser.mount[2] <= obstacle.height:
             shape["low"] = True
@@ -180,7 +180,7 @@ class Chosen:
         return shape
 
     def pushed(self) -> list[dict[str, Any]] | None:
-        """The shapes of what need not stay where it is, if it has moved since this was asked last; else None."""
+        """Return the shapes of the movable obstacles if any has moved since the last call; else None."""
         obstacles = self.moving()
         poses = [obstacle.pose for obstacle in obstacles]
         if poses == self._poses:
@@ -189,7 +189,7 @@ class Chosen:
         return [self._flagged(obstacle, shape) for obstacle in obstacles for shape in shapes_of(obstacle)]
 
     def look(self) -> Pose:
-        """Where the robot is, noted for the trail. Raises what the simulator raises when it has been removed."""
+        """Return the robot's pose and add it to the trail. Raises the simulator's error if the robot was removed."""
         x, y, theta = self.truth()
         gone = math.dist(self.trail[-1], (x, y)) if self.trail else math.inf
         if gone > TRAIL_JUMP:
@@ -201,11 +201,11 @@ class Chosen:
 
     @property
     def blocked(self) -> bool:
-        """Whether something is in the robot's way."""
+        """True if an obstacle blocks the robot."""
         return self.engine.robot(self.name).touching
 
     def describe(self) -> str:
-        """Where the robot is and how much its laser sees, in a line that is the same on every machine."""
+        """Return one line with the robot's pose and what its laser sees, the same on every machine."""
         model, world = self.model, self.world
         where = f"{model.name} at {pose_text(self.truth())} in {world.name}"
         scan = self.ranges()
@@ -214,17 +214,17 @@ class Chosen:
         return f"{where}; {int(np.isfinite(scan).sum())} of {len(scan)} beams hit"
 
     def survey(self) -> Floats:
-        """What the laser would see from here at this moment, without noise: ranges (beams,) [m]."""
+        """Return the ranges (beams,) [m] that the laser would measure here and now, without noise."""
         return self.engine.scan(self.name, None)
 
     def ranges(self) -> Floats | None:
-        """The last scan's ranges (beams,) [m], or None if there is none yet."""
+        """Return the last scan's ranges (beams,) [m], or None before the first scan."""
         scan = self.last_scan()
         return None if scan is None else np.asarray(scan.ranges, dtype=np.float64)
 
 
 def _drives(simulation: Simulation) -> dict[str, DifferentialDrive]:
-    """What listens to velocities, by the names of its robots."""
+    """Return the velocity-controlled drives, by robot name."""
     return {
         device.robot.name: device
         for device in simulation.host.devices

@@ -1,4 +1,4 @@
-"""One turtle of a turtlesim, as a pad drives it and shows its window."""
+"""One turtle of turtlesim, as a pad drives it and shows its window."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .teleop import Limits
 
 
 class DrivenTurtle:
-    """A turtle, chosen by its name; the first by default. Raises `TeleopError` if there is none of this name."""
+    """A turtle chosen by name; the first by default. Raises `TeleopError` if there is no such turtle."""
 
     def __init__(self, sim: TurtleSim, name: str = "") -> None:
         names = self.names(sim)
@@ -30,31 +30,31 @@ class DrivenTurtle:
         self.name = name or names[0]
         keys = key_map("turtle_teleop_key")
         self.limits = Limits(keys.linear, keys.angular)
-        """How fast it may be sent. A turtle has no bound of its own: these are the speeds of `turtle_teleop_key`."""
+        """Speed limits. A turtle has none, so these are the speeds of `turtle_teleop_key`."""
 
     @staticmethod
     def names(sim: TurtleSim) -> tuple[str, ...]:
-        """All turtles of a window."""
+        """Return the names of all turtles in a window."""
         return tuple(sim.turtles)
 
     @property
     def topic(self) -> str:
-        """Where it hears velocities, as a global name."""
+        """Global name of the topic on which the turtle receives velocities."""
         return self.sim.node.resolve(f"{self.name}/cmd_vel")
 
     @property
     def namespace(self) -> str:
-        """Of the window's node."""
+        """Namespace of the window's node."""
         return self.sim.node.namespace
 
     @property
     def title(self) -> str:
-        """What is driven, in a few words."""
+        """Short description of the driven turtle."""
         return f"Drive {self.name} of {self.sim.node.name.lstrip('/')}"
 
     @property
     def turtle(self) -> Turtle:
-        """The turtle. Raises `TeleopError` if it was killed or the node has ended."""
+        """The turtle. Raises `TeleopError` if it was killed or its node has shut down."""
         node = self.sim.node
         if node.is_shutdown():
             raise TeleopError(f"the node {node.name} was shut down.")
@@ -63,36 +63,36 @@ class DrivenTurtle:
         return self.sim.turtles[self.name]
 
     def look(self) -> Pose:
-        """Where it is: x [m], y [m], heading [rad]."""
+        """Return the turtle's pose: x [m], y [m], heading [rad]."""
         turtle = self.turtle
         return turtle.x, turtle.y, turtle.theta
 
     @property
     def blocked(self) -> bool:
-        """Whether it runs against the border of its window."""
+        """True if the turtle pushes against the border of its window."""
         turtle, (x, y, theta) = self.turtle, self.look()
         ahead = [turtle.forward * math.cos(theta), turtle.forward * math.sin(theta)]
         sides = zip((x, y), ahead, strict=True)
         return any((at <= 0 and way < 0) or (at >= LIMIT and way > 0) for at, way in sides)
 
     def describe(self) -> str:
-        """Where it is and how much was drawn, in a line that is the same on every machine."""
+        """Return one line with the turtle's pose and the number of strokes, the same on every machine."""
         strokes = plural(self.sim.frame.paper.count, "stroke")
         return f"{self.name} at {pose_text(self.look())} in the window of {self.sim.node.name}; {strokes}"
 
     def reset(self) -> None:
-        """Reset the window, by its service: one turtle in the middle, and nothing drawn."""
+        """Reset the window by its service: one turtle in the middle and an empty background."""
         node = self.sim.node
         node.service_client("reset", service_class("std_srvs/Empty")).call()
 
     # -- for a page ----------------------------------------------------------------------------------------------
 
     def state(self, since: int = 0, clears: int | None = None) -> dict[str, Any]:
-        """What a canvas draws: see `Frame.state`."""
+        """Return the data that a canvas draws; see `Frame.state`."""
         return self.sim.state(since, clears)
 
     def data(self) -> dict[str, Any]:
-        """All that the scripts of a page have to know."""
+        """Return all data that the page's scripts need."""
         return {
             "name": self.name,
             "pose_topic": self.sim.node.resolve(f"{self.name}/pose"),

@@ -1,8 +1,8 @@
-"""Which key does what: the keys of ROS's teleoperation programs, for a pad.
+"""Key maps of ROS's teleoperation programs, for a pad.
 
-The tables are those of the programs that rosmini brings for terminals, and are read from them: keys, steps, factors
-and speeds are the literals at the top of the scripts in `assets/ros`. Of ours are the arrow keys where a program has
-none, and the buttons.
+The tables are read from the programs that rosmini supplies for terminals: keys, steps, factors and speeds are the
+literals at the top of the scripts in `assets/ros`. rosmini adds the buttons, and the arrow keys if a program has
+none.
 """
 
 from __future__ import annotations
@@ -18,52 +18,52 @@ from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.packages import assets_dir
 
 Move = tuple[float, float, float, float]
-"""Ahead, to the left, up, and a turn to the left."""
+"""Motion of a key: forward, left, up, and a turn to the left."""
 
 ARROWS = {"up": "ArrowUp", "down": "ArrowDown", "left": "ArrowLeft", "right": "ArrowRight"}
 SPOKEN = MappingProxyType({"space": " ", **ARROWS})
-"""What keys are called that have no letter; browsers have the other names."""
+"""Names of the keys without a letter; browsers use the values."""
 
 
 class TeleopError(RosminiError, ValueError):
-    """A key that the pad does not know, invalid limits, or a robot that is no longer there."""
+    """An unknown key, invalid limits, or a robot that no longer exists."""
 
 
 @dataclass(frozen=True)
 class KeyMap:
-    """The keys of one program, named as browsers name them, and what they do."""
+    """The keys of one teleoperation program, under the names that browsers use, and their effects."""
 
     name: str
-    """Of the program: `turtlebot3_teleop_key`."""
+    """Name of the program, such as `turtlebot3_teleop_key`."""
     moves: Mapping[str, Move]
-    """In steps, if they add up; else a direction, -1 to 1 each."""
+    """Motion per key: in steps if `adds`, else a direction with components from -1 to 1."""
     linear: float
-    """A step, or the speed at first [m/s]."""
+    """Linear step, or initial linear speed [m/s]."""
     angular: float
-    """A step, or the speed at first [rad/s]."""
+    """Angular step, or initial angular speed [rad/s]."""
     stops: tuple[str, ...]
-    """The keys that stop."""
+    """Keys that stop the robot."""
     buttons: tuple[str, ...]
-    """Of a page: three rows of three keys, "" where there is none."""
+    """Buttons of the page: three rows of three keys, "" for an empty place."""
     adds: bool = False
-    """Whether each key adds a step to what is wanted; else it says what is wanted."""
+    """True if each key adds a step to the target; otherwise it sets the target."""
     others_stop: bool = False
-    """Whether a key without a meaning stops."""
+    """True if an unassigned key stops the robot."""
     factors: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """By how much keys multiply the linear and the angular speed."""
+    """Factors by which keys multiply the linear and the angular speed."""
     holds: float | None = None
-    """How long what is driven follows one message, after which it rests [s]; None: the message is sent again and
-    again."""
+    """Time [s] for which the robot or turtle follows one message before it stops; None if the message is sent
+    repeatedly."""
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """All keys that have a meaning."""
+        """All assigned keys."""
         return (*self.moves, *self.factors, *self.stops)
 
     def named(self, name: str) -> str:
-        """The key that `name` means: as browsers name it, in any case, or "space", "up", "down", "left", "right".
+        """Return the key for `name`: the browser's name in any case, or "space", "up", "down", "left", "right".
 
-        Raises `TeleopError` with the nearest name, or with all of them.
+        Raises `TeleopError` with the closest name, or with all names.
         """
         lower = name.lower()
         arrows = (arrow for arrow in ARROWS.values() if arrow.lower() == lower)
@@ -81,7 +81,7 @@ class KeyMap:
 
     @property
     def help(self) -> str:
-        """What the keys do, in a sentence."""
+        """One sentence that describes the keys."""
         return _HELP[self.name]
 
 
@@ -94,12 +94,12 @@ _HELP = MappingProxyType(
     }
 )
 NAMES = tuple(_HELP)
-"""Of the programs whose keys a pad can have."""
+"""Names of the programs whose keys a pad can use."""
 
 
 @cache
 def key_map(name: str = "turtlebot3_teleop_key") -> KeyMap:
-    """The keys of a program. Raises `TeleopError` for another name, with the nearest."""
+    """Return the key map of a program. Raises `TeleopError` for an unknown name, with the closest one."""
     if name == "turtlebot3_teleop_key":
         told = _literals("turtlebot3_teleop", name)
         steps = {key: (ahead, 0.0, 0.0, turn) for key, (ahead, turn) in told["STEPS"].items()}
@@ -130,13 +130,13 @@ def key_map(name: str = "turtlebot3_teleop_key") -> KeyMap:
 
 
 def burger_limits() -> tuple[float, float]:
-    """How fast a TurtleBot3 Burger is sent at most: linear [m/s], angular [rad/s]."""
+    """Return the maximum speeds of a TurtleBot3 Burger: linear [m/s], angular [rad/s]."""
     linear, angular = _literals("turtlebot3_teleop", "turtlebot3_teleop_key")["LIMITS"]["burger"]
     return linear, angular
 
 
 def _with_arrows(moves: Mapping[str, Any], keys: str) -> Mapping[str, Move]:
-    """Let the arrows up, down, left and right do what these keys do."""
+    """Give the up, down, left and right arrows the effects of these keys."""
     known = {key: tuple(float(part) for part in move) for key, move in moves.items()}
     arrows = {arrow: known[key] for arrow, key in zip(ARROWS.values(), keys, strict=True)}
     return MappingProxyType(known | arrows)  # type: ignore[arg-type]  # four parts each
@@ -144,7 +144,7 @@ def _with_arrows(moves: Mapping[str, Any], keys: str) -> Mapping[str, Move]:
 
 @cache
 def _literals(package: str, script: str) -> Mapping[str, Any]:
-    """What the script of a package of ours assigns at its top, as far as it is literals; nothing of it is run."""
+    """Return the literals that a packaged script assigns at its top, without running the script."""
     path = assets_dir() / "ros" / package / "nodes" / script
     found: dict[str, Any] = {}
     for statement in ast.parse(path.read_text(encoding="utf-8")).body:

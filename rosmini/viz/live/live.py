@@ -1,10 +1,10 @@
-"""A pad in a live notebook: what goes between the node in the kernel and the page that shows it.
+"""A pad in a live notebook: the link between its node in the kernel and its page.
 
-The page is sent a frame at 30 Hz of the graph's time while it is open.
+While the page is open, it receives frames at 30 Hz of the graph's time.
 
-A page that shows a robot in motion has to say that it is still there. This is about the reader at the browser, so it
-is wall time that counts, in a graph in simulated time too; what a script presses needs no page, and goes on without
-one.
+A page that drives a robot must send heartbeats. They concern the reader at the browser, so they are timed in wall
+time, also if the graph runs in simulated time; keys pressed by a script need no page and work
+without one.
 """
 
 from __future__ import annotations
@@ -38,19 +38,19 @@ if TYPE_CHECKING:
 
 FRAME_HZ = 30.0
 DEAD_MAN_S = 1.0
-"""After so long without a word from the page the robot stops."""
+"""The robot stops if the page has been silent for this long [s]."""
 QUIET_S = 0.2
-"""So often a frame is sent in which nothing has changed: the page sees by it that the kernel answers."""
+"""Interval between frames that repeat an unchanged state [s]; they show the page that the kernel responds."""
 SHORTEST_S = 0.015
-"""No two frames follow one another faster: a graph that runs ahead of the clock sends no more than a page can show."""
+"""Minimum interval between frames [s]: a graph that runs ahead of the clock sends no more than a page can show."""
 
 
 AROUND_S = 1.0
-"""No two looks for other drivers follow one another faster [s]."""
+"""Minimum interval between two searches for other drivers [s]."""
 
 
 class Link(PageLink):
-    """Takes what the page of a pad sends (see `rosmini-pad-kernel.js`), and sends it frames."""
+    """Receives the messages of a pad's page (see `rosmini-pad-kernel.js`) and sends it frames."""
 
     acts = frozenset({"key", "steer", "start", "reset", "choose", "keys"})
     signs = frozenset({"beat"})
@@ -63,13 +63,13 @@ class Link(PageLink):
         self._last: tuple[Any, ...] = ()
         self._others: tuple[str, ...] = ()
         self._choices: tuple[str, ...] = ()
-        """What can be driven, as the page knows it."""
+        """Names of everything that can be driven, as last sent to the page."""
         self._drawn: tuple[int, int | None] = (0, None)
-        """Which strokes of turtles the page has: their number, and how often the paper was cleared before."""
+        """The turtle strokes that the page has: their number, and how often the background had been cleared."""
         self._last_sent = 0.0
         self._looked = -AROUND_S
         self._scan: NDArray[np.float32] | None = None
-        """A scan that the page has not got: ranges (beams,), then the robot's pose at each beam (beams, 3)."""
+        """A scan not yet sent to the page: ranges (beams,), then the robot's pose at each beam (beams, 3)."""
         self._scans: Subscriber | None = None
         script = module((*scripts_of(pad), "rosmini-pad-kernel.js"), "rosminiPadKernel")
         super().__init__(script, self._data(), clock)
@@ -80,18 +80,18 @@ class Link(PageLink):
         self._choices = tuple(pad.choices)
         data = pad_data(pad) | {"choices": list(self._choices), "chosen": pad.chosen}
         if pad.sight is not None and pad.gone is None:
-            # It also has the laser's code loaded now, while the cell runs, and not at the first key.
+            # This also loads the laser's code now, while the cell runs, instead of at the first key.
             data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
         return data
 
     @property
     def node(self) -> Node:
-        """The pad's."""
+        """The pad's node."""
         return self.pad.node
 
     @property
     def gone(self) -> str | None:
-        """Why there is nothing to drive any more, or None."""
+        """Reason why there is nothing left to drive, or None."""
         return self.pad.gone
 
     # -- in the graph --------------------------------------------------------------------------------------------
@@ -124,7 +124,7 @@ class Link(PageLink):
                 self._tell_gone(why)
 
     def _look_around(self) -> None:
-        """Find out who else drives: not at each key, and no key waits for it, since the Master may be far away."""
+        """Look for other drivers, separately from the keys: the Master may be remote, and no key may wait for it."""
         now = self._clock()
         if now - self._looked >= AROUND_S:
             self._looked = now
@@ -149,7 +149,7 @@ class Link(PageLink):
         self._send({"type": "pad", "data": data}, None if ranges is None else [ranges])
 
     def _begin(self) -> None:
-        """Send frames from now on, unless that goes on already."""
+        """Start to send frames, unless they are being sent already."""
         pad = self.pad
         if self._timer is not None:
             return
@@ -176,7 +176,7 @@ class Link(PageLink):
         self._last, self._choices = (), ()
 
     def _stop(self) -> None:
-        """Stop what the page drives; what a script drives goes on."""
+        """Stop motion that the page caused; motion that a script caused continues."""
         driven, self._driven_by_page = self._driven_by_page, False
         if driven and self.pad.gone is None and not self.pad.teleop.at_rest:
             self.pad.stop()
@@ -234,7 +234,7 @@ class Link(PageLink):
             blocked,
             pad.sent,
         )
-        # Of topics the Master knows, who may be far away: they are asked for when the pad is opened.
+        # The Master, which may be remote, is asked for topics when the pad is opened.
         choices = self._choices if pad.turtle is None and pad.sight is None else tuple(pad.choices)
         is_new, self._choices = choices != self._choices, choices
         if (

@@ -1,4 +1,4 @@
-"""What goes live in a notebook: the pad, the view of a simulation, the panels of rqt."""
+"""Base class of the live notebook views: the pad, the simulation view and the rqt panels."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from rosmini.viz.view import MimeBundle, View
 
 
 class LiveView(View):
-    """A view that is a widget in a live notebook; in the book, and where no kernel runs, it is its page or picture."""
+    """A view that is a widget in a live notebook, and a page or picture in the book or without a kernel."""
 
     _link: Any = None
 
     @abstractmethod
     def _new_link(self) -> Any:
-        """Make what goes between the kernel and the page."""
+        """Create the link between the kernel and the page."""
 
     @property
     def link(self) -> Any:
-        """What goes between this and its page in a live notebook. Raises `RosminiError` without anywidget."""
+        """The link between this view and its page in a live notebook. Raises `RosminiError` without anywidget."""
         if self._link is None:
             self._link = self._new_link()
         return self._link

@@ -1,9 +1,9 @@
-"""A widget's page without Jupyter: served on loopback, for a terminal session.
+"""Serve a widget's page on loopback without Jupyter, for a terminal session.
 
-A few requests do what Jupyter does for a widget: the page's scripts and data, what the kernel's side sends as
-server-sent events, and what the page says by POST. The server listens on loopback only, at a port of the system's
-choice, under a path that nobody can guess; a request must name this host and port, so that no other page in the
-browser can speak to it, and the page cannot be shown inside another one.
+A few HTTP requests replace Jupyter's widget protocol: the page fetches its scripts and data, receives the kernel's
+messages as server-sent events, and sends its own by POST. The server listens on loopback only, on a free port, under
+an unguessable path. A request must name this host and port, so that no other page in the browser
+can talk to the server, and no other page can frame this one.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from rosmini.viz.svg import escape
 
 LOOPBACK = "127.0.0.1"
 MOST_BYTES = 64_000
-"""Longest message of a page."""
+"""Maximum length of a page's message [bytes]."""
 MOST_DIGITS = 12
-"""Longest `Content-Length` that is read, in digits."""
+"""Maximum number of digits accepted in `Content-Length`."""
 MOST_WAITING = 200
-"""How many messages wait for a page; a slower one is dropped, and begins again."""
+"""Maximum number of messages queued for a page; a slower page is disconnected and starts again."""
 MOST_CONNECTIONS = 32
-"""How many connections, each with a thread, a server has at most. A browser opens six."""
+"""Maximum number of connections of a server, each with a thread. A browser opens six."""
 SILENCE_S = 10.0
-"""After this time without a message a page is sent an empty line, which fails if the page has gone."""
+"""Keep-alive interval [s]: a silent page is sent an empty line, which fails if the page has gone."""
 END_S = 2.0
 
 HEADERS = {
@@ -46,7 +46,7 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-store",
 }
-"""What each answer has: no other page may frame the page, and none learns its address."""
+"""Headers of each response: no other page may frame this one or learn its address."""
 
 PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -88,34 +88,34 @@ app.render({{ model, el: document.getElementById("page") }});
 
 
 class Served(Protocol):
-    """A widget, as it is served: :class:`~rosmini.viz.live.page_link.PageWidget`."""
+    """The widget that a page server serves: :class:`~rosmini.viz.live.page_link.PageWidget`."""
 
     elsewhere: Any
-    """Takes what is sent to the page, in place of Jupyter."""
+    """Receives the messages to the page in place of Jupyter."""
 
     @property
     def script(self) -> str:
-        """Its page's module."""
+        """JavaScript module of the page."""
 
     @property
     def state(self) -> dict[str, Any]:
-        """What its page knows at the beginning."""
+        """Initial data of the page."""
 
     def hear(self, content: dict[str, Any]) -> None:
-        """Take what its page says."""
+        """Receive a message from the page."""
 
 
 class PageServer:
-    """Serves the page of a widget until it is closed.
+    """Serve the page of a widget until closed.
 
     >>> with PageServer(widget, title="RViz") as server:  # doctest: +SKIP
     ...     print(server.url)
     http://127.0.0.1:43210/9jL0.../
 
     Args:
-        widget: the widget; what it sends goes to all pages that are open.
-        title: of the page.
-        port: 0 for one that is free.
+        widget: the widget; its messages go to all open pages.
+        title: title of the page.
+        port: port to listen on; 0 for a free one.
 
     Raises:
         OSError: the port is in use.
@@ -137,16 +137,16 @@ class PageServer:
 
     @property
     def port(self) -> int:
-        """Where it listens."""
+        """Port on which the server listens."""
         return int(self._server.server_address[1])
 
     @property
     def url(self) -> str:
-        """The page's address."""
+        """Address of the page."""
         return f"http://{LOOPBACK}:{self.port}/{self.token}/"
 
     def close(self) -> None:
-        """End it; pages that are open are told. Harmless when repeated."""
+        """Close the server and notify the open pages. Calling it again has no effect."""
         self.widget.elsewhere = None
         with self._lock:
             for page in self._pages:
@@ -181,22 +181,22 @@ class PageServer:
     # -- from the pages, each in a thread of the server's ---------------------------------------------------------
 
     def opened(self) -> queue.Queue[str | None]:
-        """Take a page that listens from now on."""
+        """Register a page that has started to listen, and return its queue."""
         page: queue.Queue[str | None] = queue.Queue(MOST_WAITING)
         with self._lock:
             self._pages.add(page)
         return page
 
     def left(self, page: queue.Queue[str | None]) -> None:
-        """Forget a page."""
+        """Remove a page."""
         with self._lock:
             self._pages.discard(page)
 
 
 def open_window(server: PageServer, name: str) -> None:
-    """Say in the terminal where the window of a node is, and open it in a browser where there is a screen.
+    """Print the address of a node's window, and open it in a browser if there is a screen.
 
-    Not by the log: roslaunch writes what a node logs into a file.
+    This bypasses the log because roslaunch writes a node's log to a file.
     """
     out, err = sys.__stdout__, sys.__stderr__
     is_redirected = err is None or not err.isatty()
@@ -207,7 +207,7 @@ def open_window(server: PageServer, name: str) -> None:
 
 
 def has_screen() -> bool:
-    """Return whether a browser has somewhere to appear; without a screen a text browser would take the terminal."""
+    """Return True if a browser can open a window; without a screen, a text browser would take over the terminal."""
     return sys.platform in ("darwin", "win32") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
 
 
@@ -219,14 +219,14 @@ def _drain(page: queue.Queue[str | None]) -> None:
 
 
 def _packed(value: Any) -> dict[str, str]:
-    """Bytes, as JSON has them."""
+    """Encode bytes as base64, for `json.dumps`."""
     if isinstance(value, bytes | bytearray | memoryview):
         return {"base64": base64.b64encode(value).decode()}
     raise TypeError(f"a page is sent {type(value).__name__}, which JSON does not have")
 
 
 class _Server(ThreadingHTTPServer):
-    """Has a bounded number of connections: for a new one, it closes the oldest that has not shown the token."""
+    """An HTTP server that limits connections by closing the oldest one that has not presented the token."""
 
     daemon_threads = True
     block_on_close = False
@@ -236,11 +236,11 @@ class _Server(ThreadingHTTPServer):
         self._free = threading.BoundedSemaphore(MOST_CONNECTIONS)
         self._lock = threading.Lock()
         self._strangers: dict[Any, None] = {}
-        """The connections that have not shown the token, the oldest first."""
+        """Connections that have not presented the token, oldest first."""
         super().__init__(*words)
 
     def process_request(self, request: Any, client_address: Any) -> None:
-        """Answer a connection in a thread, or close it if all others have shown the token."""
+        """Handle a connection in a thread, or close it if all others have presented the token."""
         if not self._free.acquire(blocking=False):
             with self._lock:
                 oldest = next(iter(self._strangers), None)
@@ -256,7 +256,7 @@ class _Server(ThreadingHTTPServer):
         super().process_request(request, client_address)
 
     def process_request_thread(self, request: Any, client_address: Any) -> None:
-        """Answer a connection until it ends."""
+        """Handle a connection until it ends."""
         try:
             super().process_request_thread(request, client_address)
         finally:
@@ -264,18 +264,18 @@ class _Server(ThreadingHTTPServer):
             self._free.release()
 
     def known(self, connection: Any) -> None:
-        """Take a connection off those that have not shown the token."""
+        """Mark a connection as having presented the token."""
         with self._lock:
             self._strangers.pop(connection, None)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Say nothing of a connection that broke; a terminal belongs to the tool."""
+        """Suppress the report of a broken connection, because the terminal belongs to the tool."""
         if not isinstance(sys.exception(), OSError):
             super().handle_error(request, client_address)
 
 
 class _Handler(BaseHTTPRequestHandler):
-    """Answers a page."""
+    """Handles the requests of a page."""
 
     server: _Server
     protocol_version = "HTTP/1.1"
@@ -286,10 +286,10 @@ class _Handler(BaseHTTPRequestHandler):
         super().__init__(*words)
 
     def log_message(self, format: str, *args: Any) -> None:  # the base class's name for it
-        """Say nothing: a terminal belongs to the tool."""
+        """Suppress the access log, because the terminal belongs to the tool."""
 
     def _asked(self) -> str | None:
-        """What is asked for under the token; None, and an answer, where the request is not from a page of ours."""
+        """Return the path below the token; send an error and return None if the request is not from our page."""
         hosts = {f"{name}:{self.pages.port}" for name in (LOOPBACK, "localhost")}
         origin = self.headers.get("Origin")
         is_ours = self.headers.get("Host") in hosts and (
@@ -303,7 +303,7 @@ class _Handler(BaseHTTPRequestHandler):
         return rest
 
     def do_GET(self) -> None:
-        """Send the page, its module, its data, or what happens."""
+        """Send the page, its module, its data or the stream of events."""
         match self._asked():
             case "":
                 page = PAGE.format(title=escape(self.pages.title))
@@ -322,7 +322,7 @@ class _Handler(BaseHTTPRequestHandler):
                 self._answer(HTTPStatus.NOT_FOUND, "text/plain", b"there is nothing here\n")
 
     def do_POST(self) -> None:
-        """Take what a page says."""
+        """Receive a message from the page."""
         rest = self._asked()
         if rest is None:
             return
@@ -342,19 +342,19 @@ class _Handler(BaseHTTPRequestHandler):
         self._answer(HTTPStatus.NO_CONTENT, "text/plain", b"")
 
     def _length(self) -> int | None:
-        """Return the length of the request's body; None if it is not given as a number."""
+        """Return the length of the request's body; None if the header is not a number."""
         text = self.headers.get("Content-Length", "")
         is_number = text.isascii() and text.isdecimal() and len(text) <= MOST_DIGITS
         return int(text) if is_number else None
 
     def end_headers(self) -> None:
-        """Send the headers, and with each answer those that keep other pages out."""
+        """Send the headers, including those that keep other pages out."""
         for name, value in HEADERS.items():
             self.send_header(name, value)
         super().end_headers()
 
     def _events(self) -> None:
-        """Send what there is to say until the page or the server has gone."""
+        """Send messages until the page disconnects or the server closes."""
         page = self.pages.opened()
         self.close_connection = True
         self.send_response(HTTPStatus.OK)

@@ -44,42 +44,42 @@ if TYPE_CHECKING:
     from .loopback import PageServer
 
 CONNECT_S = 1.0
-"""So long a new pad waits for those who listen already, so that its first message is not lost."""
+"""Time for which a new pad waits for existing subscribers [s], so that its first message is not lost."""
 
 
 class PadNode(Node):
-    """The node of a pad. A new pad of its name takes its place without a complaint: a cell was run again."""
+    """The node of a pad. A new pad of the same name replaces it without a warning, as when a cell is run again."""
 
 
 class TeleopPad(LiveView):
-    """An ordinary node that publishes velocities as ROS's teleoperation programs do; in a notebook a pad with keys.
+    """A node that publishes velocities as ROS's teleoperation programs do; in a notebook it shows a pad with keys.
 
-    A key publishes at once, and then every 0.1 s what has come nearer to the target. When nothing is wanted and
-    nothing is sent any more, the pad is silent (the original goes on with zeros, in the way of any other node that
-    drives), until the next key.
+    A key publishes at once, and then every 0.1 s a velocity closer to the target. Once target and velocity are zero,
+    the pad is silent until the next key. (The original keeps on publishing zeros, which disturbs any other node that
+    drives the robot.)
 
-    `press`, `release`, `steer` and `stop` are what the keys, buttons, touches and gamepads of a browser call too.
+    The keys, buttons, touches and gamepads of a browser also call `press`, `release`, `steer` and `stop`.
 
     Args:
-        driven: a simulator, stageros or gzserver, whose robot is driven and shown; a turtlesim, whose turtle is; or a
-            graph, and then only the messages are shown.
-        robot: which robot or turtle; without it the first. One without a laser is driven, but not shown: `view()`
-            shows all.
-        topic: where to publish, resolved and remapped as by the simulation's node; by default where the robot
-            listens, and on a graph ``cmd_vel``.
+        driven: a simulator, stageros or gzserver, to drive and show its robot; turtlesim, to drive its turtle; or a
+            graph, to show only the messages.
+        robot: name of the robot or turtle; by default the first. A robot without a laser is driven but not shown:
+            `view()` shows all.
+        topic: the topic to publish on, resolved and remapped as by the simulation's node; by default the one that the
+            robot subscribes to, and on a graph ``cmd_vel``.
         name: the name of the node.
-        limits: how fast at most, and how fast that changes; those of the simulator's robot by default, and of a Burger
+        limits: maximum speeds and accelerations; by default those of the simulator's robot, or of a Burger
             without one.
-        keys: whose keys it has: `turtlebot3_teleop_key`, the default for robots, `turtle_teleop_key`, the default for
-            turtles, or `teleop_twist_keyboard`. (The last sends each message
+        keys: the program whose keys are used: `turtlebot3_teleop_key`, the default for robots, `turtle_teleop_key`, the
+            default for turtles, or `teleop_twist_keyboard`. (The last publishes each message
             once; the pad sends it ten times a second, as with `_repeat_rate:=10` there.)
-        hold: whether a key has to be held, as a dead man's switch has: the robot stops when it is released.
-        solid: whether the robot is shown in three dimensions, from behind, in the place of the map; where a browser
-            cannot, the map stays.
-        title: a caption under the pad, and the first line of its text form.
+        hold: True if a key must be held, as on a dead man's switch: the robot stops when it is released.
+        solid: True to show the robot in three dimensions, from behind, in place of the map; a browser without WebGL
+            still shows the map.
+        title: caption under the pad, and first line of its text form.
 
     Raises:
-        TeleopError: `driven` is neither, there is no such robot, or no program of that name.
+        TeleopError: `driven` is none of these, or there is no such robot or program.
 
     """
 
@@ -121,7 +121,7 @@ class TeleopPad(LiveView):
         usual = "turtlebot3_teleop_key" if self.turtle is None else "turtle_teleop_key"
         self.teleop = Teleop(self._limits_now(), key_map(keys or usual))
         self.sent = 0
-        """How many messages were published."""
+        """Number of published messages."""
         self.twist_class = message_class("geometry_msgs/Twist")
         before = self.graph.nodes.get(resolve(name, namespace))
         if isinstance(before, PadNode):
@@ -163,20 +163,20 @@ class TeleopPad(LiveView):
 
     @property
     def topic(self) -> str:
-        """Where it publishes, as a global name."""
+        """Global name of the topic that the pad publishes on."""
         return self._publisher.topic
 
     @property
     def twist(self) -> Any:
-        """What was published last; zero before that."""
+        """The last published message; zero before the first."""
         return self._twist
 
     def press(self, key: str, times: int = 1) -> None:
         """Press a key (`w`, `x`, `a`, `d`, `s`, `space`, or arrow `up`, `down`, `left`, `right`) `times` times, now.
 
-        Those are the keys of `turtlebot3_teleop_key`; with others (`use`) it is the keys of that program.
+        These are the keys of `turtlebot3_teleop_key`; after `use`, those of the selected program apply.
 
-        Raises `TeleopError` for another key and when the robot has been removed, `ROSException` when the node was
+        Raises `TeleopError` for an unknown key and if the robot was removed, `ROSException` if the node was
         shut down.
         """
         named = self.teleop.keys.named(key)
@@ -187,11 +187,11 @@ class TeleopPad(LiveView):
             self._publish(self.teleop.press(named))
 
     def stop(self) -> None:
-        """Stop at once, as the key `s` does. Raises as `press` does."""
+        """Stop at once, like the key `s`. Raises the same errors as `press`."""
         self.press("space")
 
     def release(self) -> None:
-        """Release all keys: with `hold` the robot stops. Raises as `press` does."""
+        """Release all keys: with `hold` the robot stops. Raises the same errors as `press`."""
         if self.hold and not self.teleop.at_rest:
             self.stop()
 
@@ -208,7 +208,7 @@ class TeleopPad(LiveView):
 
     @property
     def keys(self) -> str:
-        """Whose keys it has: the name of a program."""
+        """Name of the program whose keys are in use."""
         return self.teleop.keys.name
 
     @property
@@ -225,9 +225,9 @@ class TeleopPad(LiveView):
         return tuple(sorted(found | {self.topic}))
 
     def choose(self, name: str) -> None:
-        """Stop what is driven, and drive another one of the `choices`, with its own limits.
+        """Stop the current robot and drive another of the `choices`, with its limits.
 
-        Raises `TeleopError` if it is none of them, and `ROSException` when the node was shut down.
+        Raises `TeleopError` for any other name, and `ROSException` if the node was shut down.
         """
         if isinstance(self._driven, Simulation | TurtleSim):
             kind = Chosen if isinstance(self._driven, Simulation) else DrivenTurtle
@@ -248,7 +248,7 @@ class TeleopPad(LiveView):
 
     @property
     def others(self) -> tuple[str, ...]:
-        """The other nodes that publish on the topic: a robot obeys the last word, whoever says it."""
+        """Other nodes that publish on the topic: a robot obeys the last message, from any publisher."""
         publishers = dict(self.node.master.ask("getSystemState")[0]).get(self.topic, ())
         return tuple(sorted(name for name in publishers if name != self.node.name))
 
@@ -271,7 +271,7 @@ class TeleopPad(LiveView):
         self.sight.trail.clear()
 
     def on_publish(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback(twist)` for each message from now on."""
+        """Call `callback(twist)` for each message published from now on."""
         self._listeners.append(callback)
 
     def _publish(self, velocity: tuple[float, float]) -> None:
@@ -303,7 +303,7 @@ class TeleopPad(LiveView):
 
     @property
     def gone(self) -> str | None:
-        """Why there is nothing to drive any more (the robot was removed, or the node shut down), or None."""
+        """Reason why there is nothing left to drive (robot removed or node shut down), or None."""
         if self.node.is_shutdown():
             return f"the node {self.node.name} was shut down."
         if self.sight is not None or self.turtle is not None:
@@ -323,7 +323,7 @@ class TeleopPad(LiveView):
 
     @property
     def text(self) -> str:
-        """What is wanted, what was sent, and how the robot is."""
+        """Text form: target and sent velocities, and the state of the robot."""
         return self._state() if self.title is None else f"{self.title}\n{self._state()}"
 
     def _state(self) -> str:
@@ -342,7 +342,7 @@ class TeleopPad(LiveView):
 
     @property
     def alt(self) -> str:
-        """The pad in a sentence or two."""
+        """Alternative text: the pad in one or two sentences."""
         drives = "" if self.sight is None else f" the {self.sight.model.name} in its world and"
         if self.turtle is not None:
             drives = " turtles in their window and"
@@ -354,13 +354,13 @@ class TeleopPad(LiveView):
 
     @property
     def html(self) -> str:
-        """The pad as a page: it drives a robot of its own there, in the same world."""
+        """The pad as a page without a kernel, which drives its own robot in the same world."""
         from .page import static_html
 
         return static_html(self, caption=self.title)
 
     def serve(self, port: int = 0) -> PageServer:
-        """Serve the live pad as a page on loopback, for a program in a terminal that drives the graph.
+        """Serve the live pad as a page on loopback, for a terminal program that drives the graph.
 
         In `with pad.serve() as page:`, print `page.url` and let the graph run, in wall time if a person presses keys;
         the page closes at the block's end. Raises `TeleopError` without anywidget, `OSError` if the port is in use.

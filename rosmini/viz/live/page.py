@@ -1,4 +1,4 @@
-"""The pad in a page: what its scripts are given, and the page that needs no kernel."""
+"""Pages of the teleoperation pad: the data for their scripts, and the page that needs no kernel."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from .teleop import Teleop
 
 STEP = 0.005
-"""How long one step of the robot in a page is [s]: that of the engine's physics."""
+"""Time step of the robot in a page [s], equal to that of the engine's physics."""
 
 TURTLE_STEP = 0.004
-"""The same of a turtle: both its 16 ms and the 0.1 s between messages are so many of these [s]."""
+"""Time step of a turtle in a page [s]: both its 16 ms and the 0.1 s between messages are multiples of it."""
 
 SCRIPTS = (
     "rosmini-canvas.js",
@@ -35,19 +35,19 @@ SCRIPTS = (
     "rosmini-pad.js",
 )
 SOLID = "rosmini-meshcat.js"
-"""What shows a robot in three dimensions."""
+"""Script that shows a robot in three dimensions."""
 HEIGHT = 420
 
 
 def scripts_of(pad: Pad) -> tuple[str, ...]:
-    """The scripts of a pad's page, in the order in which they are run."""
+    """Return the scripts of a pad's page, in the order in which they run."""
     if pad.turtle is not None:
         return (*SCRIPTS, "rosmini-turtle.js")
     return (*SCRIPTS, SOLID) if pad.solid else SCRIPTS
 
 
 class Pad(Protocol):
-    """A teleoperation pad, as its pages see it: :class:`~rosmini.viz.live.pad.TeleopPad`."""
+    """A teleoperation pad, as its pages use it: :class:`~rosmini.viz.live.pad.TeleopPad`."""
 
     sight: Chosen | None
     turtle: DrivenTurtle | None
@@ -59,56 +59,56 @@ class Pad(Protocol):
 
     @property
     def node(self) -> Node:
-        """What publishes."""
+        """The node that publishes."""
 
     @property
     def topic(self) -> str:
-        """Where it publishes."""
+        """Topic that the pad publishes on."""
 
     @property
     def gone(self) -> str | None:
-        """Why there is nothing to drive any more."""
+        """Reason why there is nothing left to drive, or None."""
 
     @property
     def text(self) -> str:
-        """What is wanted, what was sent, and how the robot is."""
+        """Text form: target and sent velocities, and the state of the robot."""
 
     @property
     def alt(self) -> str:
-        """The pad in a sentence or two."""
+        """Alternative text: the pad in one or two sentences."""
 
     @property
     def choices(self) -> Sequence[str]:
-        """What can be driven."""
+        """Names that can be driven."""
 
     @property
     def others(self) -> Sequence[str]:
-        """Who else drives it."""
+        """Other nodes that publish on the topic."""
 
     def press(self, key: str) -> None:
-        """Take a key."""
+        """Press a key."""
 
     def steer(self, linear: float, angular: float) -> None:
-        """Take velocities."""
+        """Set the target velocities."""
 
     def use(self, keys: str) -> None:
-        """Have the keys of another program."""
+        """Switch to the keys of another program."""
 
     def choose(self, name: str) -> None:
-        """Drive another one."""
+        """Drive another of the choices."""
 
     def stop(self) -> None:
         """Stop at once."""
 
     def reset(self) -> None:
-        """Put the robot back."""
+        """Reset the robot."""
 
     def on_publish(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback(twist)` for each message."""
+        """Call `callback(twist)` for each published message."""
 
 
 def pad_data(pad: Pad) -> dict[str, Any]:
-    """All that a page needs of a pad, as JSON. Lengths are rounded to millimetres, angles to 0.0001 rad."""
+    """Return all data that a page needs of a pad, as JSON. Lengths are rounded to 1 mm, angles to 0.0001 rad."""
     data: dict[str, Any] = {
         "title": title(pad),
         "topic": pad.topic,
@@ -132,7 +132,7 @@ def pad_data(pad: Pad) -> dict[str, Any]:
 
 
 def _solid(sight: Chosen) -> dict[str, Any]:
-    """The world and the robot in three dimensions, as the viewer's script takes them."""
+    """Return the world and the robot in three dimensions, in the form that the viewer's script reads."""
     from rosmini.viz.meshcat.view import robot_3d
 
     view = robot_3d(
@@ -142,7 +142,7 @@ def _solid(sight: Chosen) -> dict[str, Any]:
 
 
 def _maps(pad: Pad) -> list[str]:
-    """Whose keys it can have: keys that hold for a moment are for turtles."""
+    """Return the key maps that fit the pad: maps whose keys hold for a moment are for turtles."""
     return [
         name
         for name in NAMES
@@ -151,7 +151,7 @@ def _maps(pad: Pad) -> list[str]:
 
 
 def title(pad: Pad) -> str:
-    """What the pad drives, in a few words."""
+    """Return a short description of what the pad drives."""
     if pad.turtle is not None:
         return pad.turtle.title
     if pad.sight is None:
@@ -161,10 +161,10 @@ def title(pad: Pad) -> str:
 
 
 def static_html(pad: Pad, *, caption: str | None = None) -> str:
-    """The HTML of a pad that drives a robot of its own, from where the pad's robot is; equal bytes for an equal state.
+    """Return the HTML of a pad that drives its own robot from the current pose; equal bytes for an equal state.
 
-    What is not driven by two wheels (a car, or what goes sideways) would move otherwise there: of that it is a
-    picture of how things stand.
+    A robot without two driven wheels (a car, or one that moves sideways) would move differently in the page, so it
+    gets a still picture.
     """
     if pad.sight is not None and not pad.sight.simple:
         return _still(pad)
@@ -183,7 +183,7 @@ def static_html(pad: Pad, *, caption: str | None = None) -> str:
 
 @cache
 def module(names: Sequence[str], driver: str) -> str:
-    """Scripts as one module for anywidget, in which `driver` talks to the kernel."""
+    """Return the scripts as one module for anywidget, in which `driver` talks to the kernel."""
     texts = [asset_path(name).read_text(encoding="utf-8") for name in names]
     if SOLID in names:
         texts.insert(0, f"globalThis.rosminiAsset = (() => {{{unpacking([MESHCAT])} return asset; }})();")
@@ -191,7 +191,7 @@ def module(names: Sequence[str], driver: str) -> str:
 
 
 def _still(pad: Pad) -> str:
-    """What is there without scripts and in print: the world, if there is one, and how things stand."""
+    """Return the content for print and for browsers without scripts: the world, if there is one, and the state."""
     words = element("p", escape(pad.text).replace("\n", "<br>"))
     if (pad.sight is None and pad.turtle is None) or pad.gone is not None:
         return words

@@ -1,7 +1,7 @@
-"""What goes between the page of something live (a pad, a view, a panel) and the graph behind it.
+"""The link between the page of a live view (pad, simulation view or panel) and its graph.
 
-A page's messages arrive in the kernel's main thread, in a thread of JupyterLab's (a subshell) or in one of the page
-server's (`rosmini.viz.live.loopback`). They go through the scheduler's inbox, and everything else happens in the graph.
+A page's messages arrive in the kernel's main thread, in a JupyterLab thread (a subshell) or in a thread of the page
+server (`rosmini.viz.live.loopback`). They pass through the scheduler's inbox; all other work happens in the graph.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ if TYPE_CHECKING:
     from rosmini.core.graph.lanes import Lane
 
 LEFT_S = 3.0
-"""A page that has sent nothing for this long [s] is closed: it is sent nothing more."""
+"""Timeout [s] after which a silent page counts as closed and receives no more messages."""
 
 
 class PageWidget(anywidget.AnyWidget):
-    """The page of a pad, a view or a panel, as Jupyter knows it."""
+    """The page of a pad, a view or a panel, as a Jupyter widget."""
 
     data = traitlets.Dict().tag(sync=True)
 
     elsewhere: Callable[[dict[str, Any], list[bytes] | None], None] | None = None
-    """Takes what is sent to the page where a program serves it in place of Jupyter (`rosmini.viz.live.loopback`)."""
+    """Receives the messages to the page if a program serves it in place of Jupyter (`rosmini.viz.live.loopback`)."""
 
     def send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
-        """Send the page a message."""
+        """Send a message to the page."""
         if self.elsewhere is None:
             super().send(content, buffers)
         else:
@@ -43,27 +43,27 @@ class PageWidget(anywidget.AnyWidget):
 
     @property
     def script(self) -> str:
-        """The page's module."""
+        """JavaScript module of the page."""
         return str(self._esm)
 
     @property
     def state(self) -> dict[str, Any]:
-        """The data that the page starts from."""
+        """Initial data of the page."""
         return dict(self.data)
 
     def hear(self, content: dict[str, Any]) -> None:
-        """Take a message of the page, in any thread."""
+        """Receive a message from the page, in any thread."""
         self._handle_custom_msg(content, [])
 
 
 class PageLink(ABC):
-    """Takes what a page sends and hands it to the graph. `clock` is wall time, in seconds."""
+    """Receives a page's messages and passes them to the graph. `clock` returns wall-clock time [s]."""
 
     acts: ClassVar[frozenset[str]]
-    """The kinds of message that a hand causes; in a notebook they start a graph that stands still."""
+    """Kinds of message that a user's action causes; in a notebook they start a stopped graph."""
 
     signs: ClassVar[frozenset[str]] = frozenset({"hello", "beat"})
-    """The kinds that only say that a page is there; while the graph stands still they are answered and dropped."""
+    """Kinds that only report that a page exists; while the graph is stopped they are answered and dropped."""
 
     def __init__(
         self, script: str, data: dict[str, Any], clock: Callable[[], float] = time.monotonic
@@ -83,20 +83,20 @@ class PageLink(ABC):
     @property
     @abstractmethod
     def gone(self) -> str | None:
-        """Why there is nothing to show any more, or None. Asked in the graph, and of a node that was shut down."""
+        """Reason why there is nothing left to show, or None. Called in the graph, also after the node was shut down."""
 
     @abstractmethod
     def _take(self, kind: str | None, content: dict[str, Any]) -> None:
-        """Do what a message says, in the graph."""
+        """Carry out a message, in the graph."""
 
     def receive(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
-        """Take a message of the page, in any thread."""
+        """Receive a message from the page, in any thread."""
         self._heard = self._clock()
         node, graph, kind = self.node, self.node.graph, content.get("type")
         if node.is_shutdown():
             self._send({"type": "gone", "text": self.gone})
             return
-        # Between two of its slices a program that serves the page does not drive the graph, but soon does again.
+        # Between two slices a program that serves the page does not drive the graph, but it soon will again.
         is_driven = graph.is_live or graph.scheduler.driven or self.widget.elsewhere is not None
         if kind in self.acts and not graph.is_live:
             try:
@@ -111,13 +111,13 @@ class PageLink(ABC):
         graph.scheduler.call_soon_threadsafe(partial(self._queue, kind, content))
 
     def _queue(self, kind: str | None, content: dict[str, Any]) -> None:
-        """Have messages taken in order, though one may wait for the Master: a release must not overtake a press."""
+        """Queue messages in order, although one may wait for the Master: a release must not overtake a press."""
         if self._lane is None or self._lane.dead:
             self._lane = self.node.spawn(f"{self.node.name} page")
         self._lane.submit(partial(self._take, kind, content))
 
     def _refuse(self, content: dict[str, Any], text: str) -> None:
-        """Say on the page why a message was refused."""
+        """Tell the page why a message was refused."""
         del content
         self._send({"type": "refused", "text": text})
 
@@ -126,10 +126,10 @@ class PageLink(ABC):
 
 
 def answer_in_subshells(comm: Any) -> None:
-    """Let the page choose the thread that hears it.
+    """Let the page choose the thread that receives its messages.
 
-    ipykernel 7.4 handles a page's messages where the kernel last sent it one. That is the main thread, which is busy
-    while a cell runs: the stop key would wait for the cell's end.
+    ipykernel 7.4 handles a page's messages in the thread that last sent it one. That is the main thread, which is busy
+    while a cell runs, so the stop key would wait for the end of the cell.
     """
     if hasattr(comm, "_reply_subshell_for"):
         vars(comm)["_reply_subshell_for"] = lambda _data, asked: asked

@@ -1,7 +1,7 @@
-"""RViz's window on a running graph: the scene, its tools under a hand or keys, its displays with their statuses.
+"""RViz's window on a running graph: the scene, its tools for pointer and keys, its displays and their statuses.
 
-It is a panel as those of rqt are, in which the real RViz can be, too (`rqt_rviz`). What a hand does in a page,
-:meth:`RVizWindow.set` does in a script.
+It is a panel like those of rqt; the real RViz can be one as well (`rqt_rviz`). A script can do what a user does in
+the page with :meth:`RVizWindow.set`.
 """
 
 from __future__ import annotations
@@ -48,31 +48,31 @@ if TYPE_CHECKING:
     from .rviz_solid import Message
 
 SETTLES_NS = 2_000_000_000
-"""For so long the view follows what comes, unless a hand is on it."""
+"""Time for which the view follows new data [ns], unless the user is moving it."""
 ZOOM = 1.25
 STEP = 0.2
 """Distance that an arrow key moves the pointer, in tenths of the picture's height."""
 YELLOW = np.array([1.0, 0.9, 0.2, 1.0])
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
 WORDS = {"press": 2, "move": 2, "release": 2, "wheel": 3, "orbit": NUMBERS}
-"""What a hand does on a picture, and how many numbers say how."""
+"""Pointer actions on a picture, and the number of arguments of each."""
 NO_WEBGL = "This browser draws nothing in three dimensions (WebGL): this is the view without perspective."
 
 
 class RVizWindow(Panel):
-    """A scene that goes on.
+    """A live RViz scene.
 
     Args:
         graph: the graph.
         config: a `.rviz` file, or its path; without one, each topic that can be shown has a display, also if it
             appears later.
-        fixed_frame: overrides that of the file.
-        name: of the window's node, without which another window takes this one's place; `rviz` by default.
-        node: what listens and publishes, in place of a node of the window's own.
-        height: of the picture [CSS px].
+        fixed_frame: overrides the file's fixed frame.
+        name: name of the window's node, which replaces an earlier window of the name; `rviz` by default.
+        node: node that subscribes and publishes; by default the window creates one.
+        height: height of the picture [CSS px].
 
     Raises:
-        ConfigError: the file is no configuration of RViz.
+        ConfigError: the file is not an RViz configuration.
 
     """
 
@@ -91,17 +91,17 @@ class RVizWindow(Panel):
         self.scene = Scene(graph, found, fixed_frame=fixed_frame, node=self.node)
         self._suggestions = Suggestions(graph, self.scene, fixed_frame) if config is None else None
         self._numbered: list[Display] = []
-        """The displays, each at the number that its control has: a click must not reach a display that is new there."""
+        """The displays by the number of their control, so that a click cannot reach a display that took its place."""
         self.tools = Tools(self.scene)
         self.time = TimePanel(self.scene)
         self.selected: list[Picked] = []
-        """What the tool Select took last."""
+        """Last selection of the tool Select."""
         self._size = (WIDTH, height)
         self._layers: list[Layer] = []
         self._look: Look | None = None
         self._solid = SolidPage()
         self._is_live = False
-        """Whether what is shown goes to a page that is alive."""
+        """True if a live page shows the window."""
         self._has_webgl = is_possible()
         self._held = self._is_dragged = False
         self._hand = np.array(self._size) / 2
@@ -109,14 +109,14 @@ class RVizWindow(Panel):
         self._fits_until_ns = self.scene.context.now_ns + SETTLES_NS
 
     def close(self) -> None:
-        """End it, as one closes a window. Harmless when repeated."""
+        """Close the window. Calling it again has no effect."""
         self.scene.close()
         super().close()
 
     # -- what it shows -------------------------------------------------------------------------------------------
 
     def parts(self) -> Sequence[Part]:
-        """Tools, the scene, what the tool says, view and frame, the displays, time, and what is selected."""
+        """Parts of the panel: tools, scene, tool message, view and frame, displays, time, and selection."""
         now_ns = self.scene.context.now_ns
         if self._suggestions is not None and self._suggestions.look() and self._fits_until_ns:
             self._fits_until_ns = now_ns + SETTLES_NS
@@ -157,7 +157,7 @@ class RVizWindow(Panel):
 
     @property
     def is_solid(self) -> bool:
-        """Whether a page shows it in three dimensions: with a view that turns, where the browser can."""
+        """True if a page shows it in three dimensions: the view can turn and the browser supports it."""
         return self._is_live and self._has_webgl and isinstance(self.scene.view, Orbit)
 
     @property
@@ -173,16 +173,16 @@ class RVizWindow(Panel):
 
     @property
     def scripts(self) -> tuple[str, ...]:
-        """Of its page."""
+        """Scripts of its page."""
         return (*super().scripts, *SCRIPTS) if is_possible() else super().scripts
 
     def markup(self, *, live: bool) -> str:
-        """What it shows, as HTML; in a live page the viewer has a place of its own in it."""
+        """Return the window as HTML; a live page has a separate element for the 3D viewer."""
         self._is_live = live
         return super().markup(live=live)
 
     def news(self, *, whole: bool) -> Message | None:
-        """What a page that shows it in three dimensions has to be told beside the sheet."""
+        """Return what a page in three dimensions needs in addition to the sheet."""
         if not self.is_solid:
             return None
         return self._on_hub(
@@ -192,7 +192,7 @@ class RVizWindow(Panel):
         )
 
     def _in_hand(self) -> list[Primitive]:
-        """What the tool draws."""
+        """Return what the current tool draws."""
         tool, look = self.tools.current, self._look
         found = list(tool.primitives())
         if isinstance(tool, Select) and tool.corners is not None and self._held and look is not None:
@@ -255,14 +255,14 @@ class RVizWindow(Panel):
                 self._numbered[int(key[1])].enabled = value
 
     def fit(self) -> None:
-        """Look from above, at all there is, as long as nothing of the file says otherwise."""
+        """Look from above at the whole scene, unless the file specifies another view."""
         view = self.scene.view
         if view is not None and not isinstance(view, TopDownOrtho):
             return
         self._fit_all(TopDownOrtho())
 
     def _fit_all(self, made: ViewController | None = None) -> None:
-        """Look at all there is, with a view of the kind that there is, or with another."""
+        """Fit the whole scene into the present view, or into another kind of view."""
         made = made or self.scene.view or TopDownOrtho()
         self._layers = self.scene.update()
         self.scene.view = None
@@ -285,14 +285,14 @@ class RVizWindow(Panel):
         self.scene.view = view_like(TYPES[title], sight, view["Target Frame"], self.scene.context)
 
     def zoom(self, factor: float) -> None:
-        """Look from closer, or with a factor under 1 from farther away."""
+        """Zoom in by a factor, or out if it is below 1."""
         self._fits_until_ns = 0
         view = self.scene.view
         if view is not None:
             view.zoom(factor)
 
     def _touch(self, text: str) -> None:
-        """Do what a hand does on the picture; see `Drawing`. Raises `ViewError` for anything else."""
+        """Carry out a pointer action on the picture; see `Drawing`. Raises `ViewError` for any other text."""
         kind, *rest = text.split() or [""]
         self._fits_until_ns = 0
         if kind == "key" and len(rest) == 1:
@@ -318,7 +318,7 @@ class RVizWindow(Panel):
             self._use(kind)
 
     def _use(self, kind: str) -> None:
-        """Let the tool in the hand press, move or be released where the hand is."""
+        """Let the current tool press, move or release at the pointer."""
         look = self._look
         if look is None:
             return
@@ -345,13 +345,13 @@ class RVizWindow(Panel):
             self.tools.put_away()
 
     def _point(self, look: Look) -> Floats | None:
-        """What of the scene is under the hand, for tools that take what is there; else the ground."""
+        """Return the scene point under the pointer, for tools that pick objects; else the point on the ground."""
         if self.tools.current.needs_object:
             return hit(self._layers, look, self._hand)
         return np.array(look.metres(*self._hand))
 
     def _press_key(self, key: str) -> None:
-        """Take a tool by its key, move the hand by arrows, press and release by Enter."""
+        """Select a tool by its key, move the pointer by arrow keys, press and release by Enter."""
         if key in ARROWS:
             self._hand = np.clip(
                 self._hand + STEP * 0.1 * self._size[1] * np.array(ARROWS[key]), 0, self._size
@@ -377,14 +377,14 @@ class RVizWindow(Panel):
 
 
 def _rectangle(first: Floats, last: Floats, look: Look) -> Lines:
-    """The outline of a rectangle of the picture, on the ground."""
+    """Return the outline of a rectangle of the picture, on the ground."""
     (left, top), (right, bottom) = look.pixels(np.array([first, last]))
     corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]
     return Lines(np.array([look.metres(*corner) for corner in corners]), YELLOW)
 
 
 def _title(name: str) -> str:
-    """A kind of view, as RViz's panel Views calls it."""
+    """Return the title of a kind of view in RViz's Views panel."""
     package, _, kind = name.partition("/")
     return f"{kind} ({package})"
 
@@ -392,4 +392,4 @@ def _title(name: str) -> str:
 TYPES = {
     _title(kind.plugin_name): kind.plugin_name for kind in (Orbit, ThirdPersonFollower, TopDownOrtho, XYOrbit)
 }
-"""The views to choose from."""
+"""The available kinds of view."""

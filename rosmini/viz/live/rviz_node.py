@@ -1,7 +1,7 @@
 """The node `rviz/rviz`, which launch files start: ``<node pkg="rviz" type="rviz" args="-d file.rviz"/>``.
 
-In a process of its own it is a page on this machine, as `rosmini rviz` is, which a browser opens where there is a
-screen. In a graph with other nodes, a notebook's for instance, it opens nothing and says how to look.
+In a separate process it is a local page, as for `rosmini rviz`, which opens in a browser if there is a
+screen. In a graph with other nodes, such as a notebook's, it opens nothing and prints how to see it.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 
 
 class RViz:
-    """The window of a launch file.
+    """The RViz window of a launch file.
 
     Args:
         node: the started node.
-        words: ``-d FILE``, a configuration, and ``-f FRAME``, the fixed frame in place of the file's.
+        words: ``-d FILE``, a configuration, and ``-f FRAME``, which overrides the file's fixed frame.
 
     Raises:
-        UsageError: other arguments.
-        ConfigError: the file is not there, or is no configuration of RViz.
+        UsageError: invalid arguments.
+        ConfigError: the file does not exist, or is not an RViz configuration.
 
     """
 
@@ -60,7 +60,7 @@ class RViz:
         open_window(self._server, window.node.name.lstrip("/"))
 
     def close(self) -> None:
-        """End the page. Harmless when repeated."""
+        """Close the page. Calling it again has no effect."""
         if self._server is not None:
             self._server.close()
         if self.window is not None:

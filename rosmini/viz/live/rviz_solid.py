@@ -1,7 +1,7 @@
-"""RViz's window in three dimensions: what its page is sent beside the sheet, see `rosmini-rviz.js`.
+"""RViz's window in three dimensions: the data that its page receives besides the sheet, see `rosmini-rviz.js`.
 
-The page turns the scene by itself, without asking; what the view has become it says in words, `orbit N YAW PITCH
-DISTANCE DX DY DZ`, in radians and metres of the fixed frame, with what the target has moved by since it said so last.
+The page turns the scene without asking the kernel. It reports the new view in words, `orbit N YAW PITCH DISTANCE
+DX DY DZ`, in radians and metres of the fixed frame; DX DY DZ is the target's displacement since the last report.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ if TYPE_CHECKING:
 
 SCRIPTS = ("rosmini-meshcat.js", "rosmini-rviz.js")
 NUMBERS = 6
-"""So many follow the word `orbit` and its number."""
+"""Number of arguments of the word `orbit`."""
 HOST = '<div class="rq-solid" data-solid="view"></div>'
-"""Where the page puts the viewer."""
+"""The element in which the page puts the viewer."""
 
 Message = tuple[dict[str, Any], list[bytes]]
 
 
 def is_possible() -> bool:
-    """Whether meshcat, whose viewer draws it, is installed."""
+    """Return True if meshcat, whose viewer draws the scene, is installed."""
     return find_spec("meshcat") is not None
 
 
 def turn(scene: Scene, numbers: Sequence[float]) -> None:
-    """Take over how a page has turned the view."""
+    """Apply a view change that the page reported."""
     view = scene.view
     if isinstance(view, Orbit):
         yaw, pitch, distance, *offset = numbers
@@ -49,11 +49,11 @@ def turn(scene: Scene, numbers: Sequence[float]) -> None:
 
 
 class SolidPage:
-    """What pages have been sent of a scene."""
+    """The state of a scene that its pages have received."""
 
     def __init__(self) -> None:
         self.turns = 0
-        """The number of the last turn that a page has told of."""
+        """Number of the last view change that a page reported."""
         self._feed = Feed()
         self._last: dict[str, Any] = {}
 
@@ -67,7 +67,7 @@ class SolidPage:
         *,
         whole: bool,
     ) -> Message | None:
-        """What is new; `drawn` is what the tool draws, `size` that of the picture [px]."""
+        """Return the changes; `drawn` is what the tool draws, `size` that of the picture [px]."""
         numbers = {id(display): i for i, display in enumerate(scene)}
         shown = [(f"rviz/{numbers[id(layer.display)]}", layer.primitives) for layer in layers]
         commands = self._feed.news([*shown, ("rviz/tool", drawn)], whole=whole)

@@ -1,4 +1,4 @@
-"""The view of a running simulation: robots and boxes are dragged with a mouse, a finger or keys, as in Gazebo's window.
+"""A live view of a simulation: drag robots and boxes with mouse, finger or keys, as in Gazebo's window.
 
 >>> from rosmini import Graph
 >>> from rosmini.sim.simulator import Simulator
@@ -31,14 +31,14 @@ T = TypeVar("T")
 
 
 class SimulationView(LiveView):
-    """A running world from above, in a notebook; `drag` and `turn` are what a browser's pointer and keys call too.
+    """A running world from above, in a notebook; a browser's pointer and keys also call `drag` and `turn`.
 
-    In a live notebook it follows the simulation, whoever drives the graph. In the book, and where no kernel runs, it
-    is a picture of how things stand.
+    In a live notebook it follows the simulation, no matter what drives the graph. In the book, and without a kernel,
+    it is a still picture.
 
     Args:
         simulation: a simulator, stageros or gzserver.
-        title: a caption under the view, and the first line of its text form.
+        title: caption under the view, and first line of its text form.
 
     Raises:
         ViewError: `simulation` is not one of them.
@@ -54,24 +54,24 @@ class SimulationView(LiveView):
         self.watch = Watch(simulation)
         self.title = title
         self.message = ""
-        """What the last drag, turn or button did, or why it was refused."""
+        """Result of the last drag, turn or button, or the reason why it was refused."""
 
     # -- what is done --------------------------------------------------------------------------------------------
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of all that can be dragged."""
+        """Names of everything that can be dragged."""
         return self._on_hub(lambda: tuple(body.name for body in self.watch.bodies() if body.takeable))
 
     def pose(self, name: str) -> Pose:
-        """Where a robot or a thing is now: x [m], y [m], heading [rad]. Raises `ViewError` for another name."""
+        """Return the pose of a robot or an object: x [m], y [m], heading [rad]. Raises `ViewError` for another name."""
         return self._on_hub(lambda: self.watch.pose(self.watch.body(name)))
 
     def drag(self, name: str, to: Sequence[float]) -> None:
-        """Take a robot or a box and put it down at x, y [m], with its present heading or with a third number [rad].
+        """Move a robot or a box to x, y [m], with its present heading or with a third number [rad].
 
-        It is at rest then. If something stands there it stays where it was, and `WorldError` says what. Raises
-        `ViewError` for another name and for what is no place, and when the simulation has ended.
+        It is then at rest. If the place is occupied, it stays where it was and `WorldError` names the obstacle. Raises
+        `ViewError` for an unknown name, for an invalid position, and after the simulation has ended.
         """
         if len(to) not in (2, 3) or not all(math.isfinite(part) for part in to):
             raise ViewError(f"{name!r} cannot be dragged to {tuple(to)!r}: give x and y [m], both finite")
@@ -88,31 +88,31 @@ class SimulationView(LiveView):
         self._on_hub(put)
 
     def turn(self, name: str, heading: float) -> None:
-        """Take a robot or a box and turn it to a heading [rad, counter-clockwise from x]. Raises as `drag` does."""
+        """Turn a robot or a box to a heading [rad, counter-clockwise from x]. Raises the same errors as `drag`."""
         if not math.isfinite(heading):
             raise ViewError(f"{name!r} cannot be turned to {heading!r}: give a finite heading [rad]")
         x, y, _ = self.pose(name)
         self.drag(name, (x, y, heading))
 
     def pause(self) -> None:
-        """Let the world's time stand. Harmless when repeated."""
+        """Pause the world's time. Calling it again has no effect."""
         self._do(self.watch.simulation.pause, "time stands")
 
     def unpause(self) -> None:
-        """Let the world's time go on. Harmless when repeated."""
+        """Resume the world's time. Calling it again has no effect."""
         self._do(self.watch.simulation.unpause, "time goes on")
 
     def step(self, seconds: float = STEP_S) -> None:
-        """Let so much of the world's time pass, then pause. Raises `RosminiError` unless it is a positive number."""
+        """Advance the world's time by this many seconds, then pause. Raises `RosminiError` unless positive."""
         self._do(lambda: self.watch.simulation.step(seconds), f"{seconds:g} s have passed")
 
     def reset(self) -> None:
-        """Put everything back to where it began, as the simulation's own `reset` does."""
+        """Reset everything to its initial pose, like the simulation's `reset`."""
         self._do(self.watch.simulation.reset, "all is back where it began")
 
     @property
     def paused(self) -> bool:
-        """Whether time stands."""
+        """True if time is paused."""
         return self.watch.host.paused
 
     def _do(self, action: Callable[[], object], said: str) -> None:
@@ -124,7 +124,7 @@ class SimulationView(LiveView):
         self._on_hub(act)
 
     def _try(self, action: Callable[[], object]) -> None:
-        """Do it, and keep what is wrong with it as the message."""
+        """Run the action, and store its error as the message."""
         try:
             action()
         except RosminiError as error:
@@ -143,13 +143,13 @@ class SimulationView(LiveView):
 
     @property
     def heading(self) -> str:
-        """What is viewed, in a few words."""
+        """Short description of the viewed world."""
         world = self.watch.engine.world
         return self.title or f"Simulation of the world {world.name}"
 
     @property
     def text(self) -> str:
-        """The time, and where all is that can be dragged: robots first."""
+        """The time, and the poses of everything that can be dragged, robots first."""
         return self._on_hub(self._describe)
 
     def _describe(self) -> str:
@@ -169,12 +169,12 @@ class SimulationView(LiveView):
         return "\n".join(lines)
 
     def still(self) -> Picture:
-        """A picture of how things stand."""
+        """Return a picture of the current state."""
         return self._on_hub(lambda: self.watch.picture(self.title))
 
     @property
     def alt(self) -> str:
-        """The view in a few sentences."""
+        """Alternative text: the view in a few sentences."""
         return f"{self.still().alt} Robots and boxes can be dragged in a live notebook."
 
     def _images(self) -> dict[str, bytes]:
@@ -183,7 +183,7 @@ class SimulationView(LiveView):
 
     @property
     def html(self) -> str | None:
-        """The still picture: what moves needs the simulation, which runs in Python."""
+        """The still picture: motion needs the simulation, which runs in Python."""
         return self.still().html
 
     def _new_link(self) -> Any:

@@ -1,13 +1,13 @@
-"""From keys to velocities, as ROS's teleoperation programs do it. No node and no clock is in here.
+"""Convert keys to velocities as ROS's teleoperation programs do, without a node or a clock.
 
-With the keys of `turtlebot3_teleop_key` a key moves a *target*; what is sent approaches the target, by half a step in
-each cycle of 0.1 s. Its stop sets both to zero at once. Each key begins a cycle of its own, as the read of the
-keyboard there ends with a key or after 0.1 s. With those of `teleop_twist_keyboard` a key says where to go, at a speed
-that other keys change. Which keys there are is in `rosmini.viz.live.key_maps`.
+With the keys of `turtlebot3_teleop_key` a key moves a *target*; the command approaches the target by half a step in
+each cycle of 0.1 s. Its stop key sets both to zero at once. Each key starts a new cycle, because the original's
+keyboard read returns on a key or after 0.1 s. With those of `teleop_twist_keyboard` a key sets the direction, at a
+speed that other keys change. `rosmini.viz.live.key_maps` lists the keys.
 
-The facts (slopes, cycle) are those of `turtlebot3_teleop/nodes/turtlebot3_teleop_key` in
-https://github.com/ROBOTIS-GIT/turtlebot3, branch noetic. Ours is the rounding to a millionth, without which six steps
-of 0.01 would give 0.060000000000000005; ours are ramps, too (`Limits.linear_acceleration`).
+The slopes and the cycle are those of `turtlebot3_teleop/nodes/turtlebot3_teleop_key` in
+https://github.com/ROBOTIS-GIT/turtlebot3, branch noetic. rosmini adds rounding to a millionth, without which six steps
+of 0.01 would give 0.060000000000000005, and ramps (`Limits.linear_acceleration`).
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from typing import Any
 from .key_maps import KeyMap, TeleopError, burger_limits, key_map
 
 PERIOD = 0.1
-"""How long a cycle is without a key [s]."""
+"""Length of a cycle without a key [s]."""
 SLOPE = 0.5
-"""How far what is sent moves in a cycle, in steps."""
+"""Change of the command per cycle, in steps."""
 GRAIN = 1e6
-"""Velocities are multiples of a part of this many."""
+"""Velocities are multiples of 1 / GRAIN."""
 
 REST = (0.0, 0.0)
 _LINEAR, _ANGULAR = burger_limits()
@@ -33,19 +33,19 @@ __all__ = ["GRAIN", "PERIOD", "SLOPE", "KeyMap", "Limits", "Teleop", "TeleopErro
 
 @dataclass(frozen=True)
 class Limits:
-    """How fast a robot may be sent, and how fast that may change: at most as a TurtleBot3 Burger by default.
+    """Maximum speeds and accelerations of a robot; by default those of a TurtleBot3 Burger.
 
-    Raises `TeleopError` if one of them is not a positive number; accelerations may be infinite.
+    Raises `TeleopError` if a value is not positive; accelerations may be infinite.
     """
 
     linear: float = _LINEAR
-    """[m/s]"""
+    """Linear speed [m/s]."""
     angular: float = _ANGULAR
-    """[rad/s]"""
+    """Angular speed [rad/s]."""
     linear_acceleration: float = math.inf
-    """[m/s²]"""
+    """Linear acceleration [m/s²]."""
     angular_acceleration: float = math.inf
-    """[rad/s²]"""
+    """Angular acceleration [rad/s²]."""
 
     def __post_init__(self) -> None:
         for name, value in (("linear", self.linear), ("angular", self.angular)):
@@ -61,46 +61,46 @@ class Limits:
 
 
 class Teleop:
-    """The velocities that are wanted, and those that are sent: linear [m/s] and angular [rad/s]."""
+    """Target and command velocities: linear [m/s] and angular [rad/s]."""
 
     def __init__(self, limits: Limits | None = None, keys: KeyMap | None = None) -> None:
         self.limits = limits or Limits()
         self.use(keys or key_map())
 
     def use(self, keys: KeyMap) -> None:
-        """Have other keys, at their own speed at first, and be at rest."""
+        """Switch to other keys, at their initial speed, and come to rest."""
         self.keys = keys
         self.speed = (
             _limited(keys.linear, self.limits.linear),
             _limited(keys.angular, self.limits.angular),
         )
-        """What a key without steps asks for."""
+        """Speed that a key without steps sets."""
         self.stop()
 
     def stop(self) -> None:
-        """Want nothing, and send nothing but zeros."""
+        """Set target and command to zero."""
         self.target = REST
-        """What the keys ask for."""
+        """Velocities that the keys ask for."""
         self.command = REST
-        """What was sent last."""
+        """Velocities sent last."""
         self.aside = REST
-        """What was sent last to the left and up [m/s], by `teleop_twist_keyboard` with Shift, t and b."""
+        """Sideways and vertical velocities sent last [m/s], by `teleop_twist_keyboard` with Shift, t and b."""
         self._direction = (0.0, 0.0, 0.0, 0.0)
         self.is_steered = False
-        """Whether a gamepad said last what is wanted, not a key."""
+        """True if a gamepad, not a key, set the target last."""
 
     @property
     def at_rest(self) -> bool:
-        """Whether nothing is wanted and nothing is sent."""
+        """True if target and command are zero."""
         return self.target == self.command == self.aside == REST
 
     @property
     def repeats(self) -> bool:
-        """Whether what is sent is sent again in the next cycle; else it is forgotten after `keys.holds`."""
+        """True if the command is sent again in the next cycle; otherwise it lapses after `keys.holds`."""
         return self.keys.holds is None or self.is_steered
 
     def press(self, key: str) -> tuple[float, float]:
-        """Take a key, named as in the key map, and return what is to be sent. Raises `KeyError`."""
+        """Apply a key, named as in the key map, and return the command. Raises `KeyError`."""
         if key in self.keys.stops:
             self.stop()
         elif key in self.keys.factors:
@@ -127,7 +127,7 @@ class Teleop:
         return self.cycle()
 
     def steer(self, linear: float, angular: float) -> tuple[float, float]:
-        """Want these velocities, and return what is to be sent. Raises `TeleopError` unless they are finite."""
+        """Set the target velocities, and return the command. Raises `TeleopError` unless they are finite."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             raise TeleopError(f"a pad is steered with finite velocities, not {linear!r} and {angular!r}")
         self.is_steered = True
@@ -136,7 +136,7 @@ class Teleop:
         return self.cycle()
 
     def cycle(self) -> tuple[float, float]:
-        """Come nearer to the target, and return what is to be sent."""
+        """Move the command towards the target, and return it."""
         slopes = slopes_of(self.keys, self.limits)
         self.command = (
             _approach(self.command[0], self.target[0], slopes[0]),
@@ -152,7 +152,7 @@ class Teleop:
 
 
 def slopes_of(keys: KeyMap, limits: Limits) -> tuple[float, float]:
-    """How much what is sent changes in a cycle at most: linear [m/s], angular [rad/s]."""
+    """Return the maximum change of the command per cycle: linear [m/s], angular [rad/s]."""
     linear, angular = (SLOPE * keys.linear, SLOPE * keys.angular) if keys.adds else (math.inf, math.inf)
     return min(linear, PERIOD * limits.linear_acceleration), min(
         angular, PERIOD * limits.angular_acceleration
@@ -160,7 +160,7 @@ def slopes_of(keys: KeyMap, limits: Limits) -> tuple[float, float]:
 
 
 def table(limits: Limits, keys: KeyMap | None = None) -> dict[str, Any]:
-    """All numbers of a pad, for the script that does the same in the browser; None is without a bound."""
+    """Return all numbers of a pad for the equivalent script in the browser; None means unlimited."""
     keys = keys or key_map()
     slopes = [slope if math.isfinite(slope) else None for slope in slopes_of(keys, limits)]
     return {
@@ -192,5 +192,5 @@ def _approach(value: float, target: float, slope: float) -> float:
 
 
 def _rounded(value: float) -> float:
-    # Not round(): a script in the browser has to come to the same bits.
+    # Not round(): the script in the browser must compute the same bits.
     return math.floor(value * GRAIN + 0.5) / GRAIN

@@ -1,7 +1,7 @@
-"""The window of a turtlesim in a terminal: a page on this machine, as `rosmini rviz` is.
+"""The window of turtlesim in a terminal: a local page, as for `rosmini rviz`.
 
-A page shows the turtles and what they draw, and drives them by keys. Its node, `/teleop_pad`, starts when the page is
-first opened: until then the graph has the nodes that it has in ROS.
+The page shows the turtles and their trails, and drives them by keys. Its node, `/teleop_pad`, starts when the page is
+first opened: until then the graph has the same nodes as in ROS.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from .pad import TeleopPad
 
 PATIENCE_S = 10.0
-"""So long a page waits for its node [s]."""
+"""Time for which a page waits for its node [s]."""
 
 
 class PadOnDemand:
-    """The page of a pad for turtles; the pad is made in the graph, when a page first asks for it."""
+    """The page of a pad for turtles; the graph creates the pad when a page first requests it."""
 
     def __init__(self, sim: TurtleSim) -> None:
         self._sim = sim
@@ -37,7 +37,7 @@ class PadOnDemand:
 
     @property
     def elsewhere(self) -> Any:
-        """Takes what is sent to the page."""
+        """Receives the messages to the page."""
         return self._elsewhere
 
     @elsewhere.setter
@@ -48,17 +48,17 @@ class PadOnDemand:
 
     @property
     def script(self) -> str:
-        """Its page's module."""
+        """JavaScript module of the page."""
         return self._link().widget.script
 
     @property
     def state(self) -> dict[str, Any]:
-        """What its page knows at the beginning, all turtles of now included."""
+        """Initial data of the page, including all present turtles."""
         link = self._link()
         return {**link.widget.state, "choices": list(link.pad.choices)}
 
     def hear(self, content: dict[str, Any]) -> None:
-        """Take what its page says."""
+        """Receive a message from the page."""
         self._link().widget.hear(content)
 
     def _link(self) -> Link:
@@ -84,7 +84,7 @@ class PadOnDemand:
 
 
 def turtle_window(sim: TurtleSim) -> PageServer | None:
-    """The renderer "turtle_window": serve the window until the node ends, and say where it is."""
+    """The renderer "turtle_window": serve the window until the node shuts down, and print its address."""
     name = sim.node.name.lstrip("/")
     if find_spec("anywidget") is None:
         print(f"{name}: its window needs `pip install anywidget`", file=sys.stderr, flush=True)

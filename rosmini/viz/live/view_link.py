@@ -1,6 +1,6 @@
-"""A view of a simulation in a live notebook: what goes between the kernel and the page that shows it.
+"""The link between a simulation view's page in a live notebook and the kernel.
 
-Frames are sent at up to 30 Hz while the page is open. They never keep a graph going that has nothing else to do.
+Frames are sent at up to 30 Hz while the page is open. They do not keep an otherwise idle graph running.
 """
 
 from __future__ import annotations
@@ -43,37 +43,37 @@ SCRIPTS = (
     "rosmini-view-kernel.js",
 )
 LASER_S = 0.1
-"""No two looks of the lasers follow one another faster [s]."""
+"""Minimum interval between two laser measurements [s]."""
 
 
 class LinkedView(Protocol):
-    """A view, as its page sees it: :class:`~rosmini.viz.live.simulation_view.SimulationView`."""
+    """A simulation view, as its page uses it: :class:`~rosmini.viz.live.simulation_view.SimulationView`."""
 
     watch: Watch
     message: str
 
     @property
     def heading(self) -> str:
-        """What is viewed, in a few words."""
+        """Short description of the viewed world."""
 
     def drag(self, name: str, to: Sequence[float]) -> None:
-        """Take a robot or a box, and put it down."""
+        """Move a robot or a box."""
 
     def pause(self) -> None:
-        """Stop the world's time."""
+        """Pause the world's time."""
 
     def unpause(self) -> None:
-        """Let the world's time go on."""
+        """Resume the world's time."""
 
     def step(self, seconds: float) -> None:
-        """Let so much of the world's time pass."""
+        """Advance the world's time by this many seconds."""
 
     def reset(self) -> None:
-        """Put everything back."""
+        """Reset everything to its initial pose."""
 
 
 class _Same:
-    """Equal to nothing but what holds the very same thing."""
+    """Compares equal only to an object that holds the identical items."""
 
     def __init__(self, thing: object) -> None:
         self.thing = thing
@@ -85,7 +85,7 @@ class _Same:
 
 
 class ViewLink(PageLink):
-    """Takes what the page of a view sends (see `rosmini-view-kernel.js`), and sends it frames."""
+    """Receives the messages of a view's page (see `rosmini-view-kernel.js`) and sends it frames."""
 
     acts = frozenset({"drag", "pause", "unpause", "step", "reset", "start"})
 
@@ -103,12 +103,12 @@ class ViewLink(PageLink):
 
     @property
     def node(self) -> Node:
-        """The simulation's."""
+        """The simulation's node."""
         return self.watch.node
 
     @property
     def gone(self) -> str | None:
-        """Why there is nothing to see any more, or None."""
+        """Reason why there is nothing left to show, or None."""
         return self.watch.gone
 
     # -- in the graph --------------------------------------------------------------------------------------------
@@ -139,7 +139,7 @@ class ViewLink(PageLink):
         self._send({"type": "refused", "name": content.get("name"), "text": text})
 
     def _frame(self) -> None:
-        """Show how things are, and come again."""
+        """Send the current state, and schedule the next frame."""
         if self._cancel is not None:
             self._cancel()
             self._cancel = None
@@ -153,7 +153,7 @@ class ViewLink(PageLink):
         if now - self._last_sent >= SHORTEST_S or not self._last:
             self._show(now)
         node = self.watch.node
-        # Where time stands and nobody makes the graph live, a timer would be all that keeps a run going.
+        # While time is paused and the graph is not live, a timer alone would keep a run going.
         if node.graph.is_live or not self.watch.host.paused:
             scheduler = node.scheduler
             when = scheduler.now_ns() + round(1e9 / FRAME_HZ)
@@ -183,7 +183,7 @@ class ViewLink(PageLink):
         )
 
     def _present(self) -> tuple[Any, ...]:
-        """What has to be the same for what the page knows of the world still to hold."""
+        """Return the objects that must stay identical for the page's copy of the world to remain valid."""
         engine, host = self.watch.engine, self.watch.host
         return (_Same(engine.world), tuple(engine.robots), len(host.devices))
 
@@ -193,7 +193,7 @@ class ViewLink(PageLink):
         return np.concatenate(looks) if looks else np.zeros(0, dtype=np.float32)
 
     def _data(self) -> dict[str, Any]:
-        """All that a page has to know, as JSON."""
+        """Return all data that a page needs, as JSON."""
         watch = self.watch
         self._key, self._bodies = self._present(), watch.bodies()
         self._seen = []

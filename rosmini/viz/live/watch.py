@@ -1,4 +1,4 @@
-"""What a view shows of a running simulation: whose world it is, what is in it, and where that is now."""
+"""What a view shows of a running simulation: its world, the bodies in it and their poses."""
 
 from __future__ import annotations
 
@@ -25,45 +25,45 @@ Floats = NDArray[np.float64]
 
 HERE: Pose = (0.0, 0.0, 0.0)
 STEP_S = 0.1
-"""How much time the button Step lets pass [s]."""
+"""Time by which the button Step advances the world [s]."""
 LASERS = 12
-"""So many lasers are drawn; of more one would see nothing."""
+"""Maximum number of lasers drawn; more would hide the scene."""
 
 
 @dataclass(frozen=True)
 class Body:
-    """A robot, or a thing that can be elsewhere than it was."""
+    """A robot or an object that can move."""
 
     name: str
     kind: str
-    """robot, box (it can be pushed), or mover (it moves by itself, and cannot be taken)."""
+    """robot, box (can be pushed), or mover (moves by itself and cannot be dragged)."""
     model: RobotModel | None = None
     obstacle: Obstacle | None = None
     axle: Pose = HERE
-    """Where the engine has it, seen from its own origin."""
+    """Pose of the engine's reference point (the axle) in the frame of the body."""
     colour: str = "grey"
 
     @property
     def takeable(self) -> bool:
-        """Whether it can be dragged."""
+        """True if it can be dragged."""
         return self.kind != "mover"
 
     @property
     def what(self) -> str:
-        """What it is, in words."""
+        """Description of the body."""
         if self.model is not None:
             return f"robot {self.model.title or self.model.name}"
         return "thing that can be pushed" if self.takeable else "moves by itself"
 
     @property
     def reach(self) -> float:
-        """How far it goes from its origin [m]."""
+        """Distance from its origin to its farthest point [m]."""
         if self.model is not None:
             return self.model.reach
         return 0.0 if self.obstacle is None else _reach(shapes_of(self.obstacle, HERE))
 
     def data(self, laser: LidarModel | None) -> dict[str, Any]:
-        """What the page has to know of it: it is drawn in the engine's frame."""
+        """Return the data that the page needs of it, drawn in the engine's frame."""
         robot, shapes = None, None
         if self.model is None:
             shapes = [] if self.obstacle is None else shapes_of(self.obstacle, HERE)
@@ -86,7 +86,7 @@ class Body:
 
 
 class Watch:
-    """Looks at a running simulation, and changes nothing in it but what it is told to drag."""
+    """Observes a running simulation, and changes only what it is told to drag."""
 
     def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation
@@ -96,23 +96,23 @@ class Watch:
 
     @property
     def engine(self) -> Engine:
-        """The engine."""
+        """The physics engine."""
         return self.simulation.engine
 
     @property
     def host(self) -> Host:
-        """The time."""
+        """The simulation's host, which has the time."""
         return self.simulation.host
 
     @property
     def gone(self) -> str | None:
-        """Why there is nothing to see any more; None while there is."""
+        """Reason why there is nothing left to show, or None."""
         if self.node.is_shutdown():
             return f"the simulation has ended: the node {self.node.name} was shut down"
         return None
 
     def bodies(self) -> list[Body]:
-        """All that is in the world and need not stay where it is: robots first, in insertion order."""
+        """Return everything in the world that can move: robots first, in insertion order."""
         axle = getattr(self.simulation, "axle", None)
         found = [
             Body(
@@ -130,7 +130,7 @@ class Watch:
         return found
 
     def body(self, name: str) -> Body:
-        """The one of this name. Raises `ViewError`, with the nearest."""
+        """Return the body of this name. Raises `ViewError`, with the closest name."""
         bodies = {body.name: body for body in self.bodies()}
         titled = [body for body in bodies.values() if body.model is not None and body.model.title == name]
         if name not in bodies and len(titled) == 1:  # Stage's robots have names in their file too
@@ -143,7 +143,7 @@ class Watch:
         return bodies[name]
 
     def pose(self, body: Body) -> Pose:
-        """Where it is now: x [m], y [m], heading [rad]."""
+        """Return its current pose: x [m], y [m], heading [rad]."""
         engine = self.engine
         pose = (
             engine.peek(body.name, self.host.engine_now) if body.kind == "robot" else engine.pose(body.name)
@@ -151,7 +151,7 @@ class Watch:
         return pose if body.axle == HERE else compose(pose, inverse(body.axle))
 
     def lasers(self, bodies: list[Body]) -> dict[str, LidarModel]:
-        """The lasers that are drawn, by the names of their robots: of each robot the first."""
+        """Return the lasers to draw, by robot name: the first laser of each robot."""
         devices = self.host.devices
         if len(devices) != self._counted:
             self._counted, self._lasers = len(devices), {}
@@ -166,23 +166,23 @@ class Watch:
         return found
 
     def survey(self, name: str, lidar: LidarModel) -> NDArray[np.float32]:
-        """Where a robot is, and what its laser would measure there now, without noise: x, y, heading, ranges."""
+        """Return a robot's pose and its laser's noise-free measurement now: x, y, heading, ranges."""
         ranges = self.engine.scan(name, None, lidar=lidar)
         return np.concatenate([self.engine.robot(name).pose, ranges]).astype(np.float32)
 
     def still(self) -> World:
-        """What stays where it is."""
+        """The static part of the world."""
         world = self.engine.world
         return replace(world, obstacles=tuple(each for each in world.obstacles if each.fixed))
 
     def scene(self) -> dict[str, Any]:
-        """What stays where it is, for the scripts of a page."""
+        """Return the static part of the world, for a page's scripts."""
         data = scene_data(self.still())
         data["bounds"] = self.bounds(data["bounds"])
         return data
 
     def bounds(self, bounds: list[float]) -> list[float]:
-        """The rectangle to be seen: that of the world, and all that is in it."""
+        """Return the visible rectangle: that of the world, extended by everything in it."""
         x0, y0, x1, y1 = bounds
         for body in self.bodies():
             (x, y, _), reach = self.pose(body), body.reach
@@ -190,7 +190,7 @@ class Watch:
         return [round(side, 3) for side in (x0, y0, x1, y1)]
 
     def picture(self, title: str | None) -> Picture:
-        """How it looks now."""
+        """Return a picture of the current state."""
         bodies = self.bodies()
         robots = [(body, self.pose(body)) for body in bodies if body.model is not None]
         things = [
@@ -215,7 +215,7 @@ class Watch:
 
 
 def _laser(lidar: LidarModel) -> dict[str, Any]:
-    """A laser as a script draws it: where it sits [m, rad], and its beams [rad, m]."""
+    """Return a laser for a script: its mounting pose [m, rad], and its beams [rad, m]."""
     return {
         "x": round(lidar.mount[0], 4),
         "y": round(lidar.mount[1], 4),
@@ -227,7 +227,7 @@ def _laser(lidar: LidarModel) -> dict[str, Any]:
 
 
 def _reach(shapes: list[dict[str, Any]]) -> float:
-    """How far shapes go from their origin [m]."""
+    """Return the distance from the shapes' origin to their farthest point [m]."""
     far = [0.05]
     for shape in shapes:
         if shape["kind"] == "disc":
