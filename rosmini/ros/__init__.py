@@ -1,1 +1,1 @@
-"""What makes scripts, files and tools of real ROS work: rospy, the wire, bags, launch files and catkin."""
+"""Support for scripts, files and tools of real ROS: rospy, the wire protocols, bags, launch files and catkin."""

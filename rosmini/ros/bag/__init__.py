@@ -1,7 +1,7 @@
-"""Bags: recordings of what goes over topics, in ROS's file format 2.0 (http://wiki.ros.org/Bags/Format/2.0).
+"""Bags: recordings of topics in ROS's file format 2.0 (http://wiki.ros.org/Bags/Format/2.0).
 
-:class:`Bag` reads and writes them; :class:`Recorder` and :class:`Player` are nodes of a graph; the rest are the tools
-of the command ``rosbag``.
+:class:`Bag` reads and writes them; :class:`Recorder` and :class:`Player` are nodes of a graph; the other modules are
+the tools of the command ``rosbag``.
 """
 
 from __future__ import annotations

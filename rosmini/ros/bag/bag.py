@@ -52,25 +52,25 @@ if TYPE_CHECKING:
 
 
 class Bag(Summaries):
-    """A bag, open for reading ("r"), writing ("w": it begins empty) or appending ("a").
+    """A bag, open for reading ("r"), writing ("w": it starts empty) or appending ("a").
 
     Args:
         f: the file's path, or a file open in binary mode.
-        mode: "r", "w" or "a". In all of them messages can be read.
-        compression: of what is written: "none", "bz2" or "lz4" (`Compression`).
-        chunk_threshold: from this size on a chunk is closed [bytes].
-        allow_unindexed: read a bag whose recording did not come to an end as far as it goes; in mode "a", repair it.
-        options: {"compression": ..., "chunk_threshold": ...}, as the two arguments.
-        skip_index: for ROS's sake; an index is never read before it is needed.
-        numpy: give numeric arrays as read-only numpy arrays, else as rospy's tuples and bytes.
+        mode: "r", "w" or "a". Messages can be read in all of them.
+        compression: of the chunks that are written: "none", "bz2" or "lz4" (`Compression`).
+        chunk_threshold: size at which a chunk is closed [bytes].
+        allow_unindexed: read an unfinished bag as far as possible; in mode "a", repair it.
+        options: {"compression": ..., "chunk_threshold": ...}, like the two arguments.
+        skip_index: accepted for compatibility with ROS; an index is always read only when it is needed.
+        numpy: return numeric arrays as read-only numpy arrays, otherwise as tuples and bytes like rospy.
 
     Raises:
         ROSBagException: the file is empty, damaged, encrypted or not a bag; `ROSBagUnindexedException` if it has no
             index, or a damaged one.
         OSError: the file cannot be opened.
-        ValueError: the file is no path and no stream, or the mode, the compression or the threshold is none.
+        ValueError: ``f`` is neither a path nor a stream, or the mode, compression or threshold is not valid.
 
-    All methods that need the file raise ``ValueError`` once the bag is closed, as those of ROS.
+    As in ROS, all methods that need the file raise ``ValueError`` once the bag is closed.
 
     """
 
@@ -108,7 +108,7 @@ class Bag(Summaries):
         self._numbers: dict[tuple[str, bytes], int] = {}
         self._by_topic: dict[str, int] = {}
         self.problems: list[str] = []
-        """What is wrong with a bag without an index that was opened all the same."""
+        """Problems of a bag that was opened without an index."""
         try:
             with in_file(self._name):
                 self._index = self._open(f, allow_unindexed)
@@ -132,10 +132,10 @@ class Bag(Summaries):
             self._mode = "w"
         if self._mode == "r":
             if not (stream or Path(f).is_dir()):
-                check(f, sys.maxsize)  # to open a pipe would be to wait for who writes to it
+                check(f, sys.maxsize)  # opening a pipe would wait for its writer
             self._file = self._input = f if stream else Input(FileIO(f))
             return self._read_index(self._file, allow_unindexed)
-        # no buffer: what a full disk refuses must not wait in one
+        # no buffer: data that a full disk refuses must not wait in one
         self._file = f if stream else FileIO(f, "w+" if self._mode == "w" else "r+")
         self._input = f if stream else Input(FileIO(f))
         if self._mode == "w":
@@ -166,7 +166,7 @@ class Bag(Summaries):
         self.problems = found.problems
         if not found.tail and found.bare is None:
             return found.index
-        # what is whole in an unfinished chunk is read from a copy in memory, and the file stays as it is
+        # whole messages of an unfinished chunk are read from a copy in memory; the file is not changed
         copy = BytesIO()
         file.seek(0)
         copy.write(file.read(found.end))
@@ -199,7 +199,7 @@ class Bag(Summaries):
             self._by_topic.setdefault(known.topic, number)
 
     def _resume(self, file: BinaryIO, found: Scan) -> Writer:
-        """Return a writer that goes on behind what was found, with the messages of the unfinished chunk."""
+        """Return a writer that continues after the last chunk found, with the messages of the unfinished chunk."""
         file.truncate(found.end)
         writer = self._new_writer(file, found.index, found.end)
         if found.bare is not None:
@@ -211,9 +211,9 @@ class Bag(Summaries):
         return writer
 
     def reindex(self) -> Iterator[int]:
-        """Make a new index, for a bag opened with mode "a" and ``allow_unindexed``; yield positions in the file.
+        """Rebuild the index of a bag opened with mode "a" and ``allow_unindexed``; yield positions in the file.
 
-        Opening has done it already; this is for programs that ask for it, as ROS's own does.
+        Opening the bag has already done this; the method exists for programs that call it, as ROS's tool does.
         """
         yield from (chunk.position for chunk in self._index.chunks)
 
@@ -224,7 +224,7 @@ class Bag(Summaries):
             self._writer.flush()
 
     def close(self) -> None:
-        """Write the index, and close the file. Harmless when repeated. Raises ``BagFull`` if there is no room."""
+        """Write the index and close the file; may be called repeatedly. Raises ``BagFull`` if there is no room."""
         try:
             if self._writer is not None and self._file is not None:
                 self._writer.close()
@@ -250,27 +250,27 @@ class Bag(Summaries):
 
     @property
     def filename(self) -> str | None:
-        """The file's path, None if the bag was made from an open file."""
+        """The file's path; None if the bag was made from an open file."""
         return self._filename
 
     @property
     def version(self) -> int:
-        """The version of the format, 200 for 2.0."""
+        """Version of the format: 200 for 2.0."""
         return self._version
 
     @property
     def mode(self) -> str:
-        """How it was opened."""
+        """Mode in which the bag was opened."""
         return self._mode
 
     @property
     def options(self) -> dict[str, Any]:
-        """The options for writing."""
+        """Options for writing."""
         return {"compression": self._compression, "chunk_threshold": self._chunk_threshold}
 
     @property
     def size(self) -> int:
-        """How long the file is [bytes]; while it is written, with what is still in memory."""
+        """Length of the file [bytes]; while writing, including the data still in memory."""
         file = self._reading()
         if self._writer is not None and not self._writer.closed:
             return self._writer.size
@@ -281,7 +281,7 @@ class Bag(Summaries):
 
     @property
     def compression(self) -> str:
-        """How chunks are compressed that are written from now on."""
+        """Compression of the chunks written from now on."""
         return self._compression
 
     @compression.setter
@@ -294,7 +294,7 @@ class Bag(Summaries):
 
     @property
     def chunk_threshold(self) -> int:
-        """From which size on a chunk is closed [bytes]."""
+        """Size at which a chunk is closed [bytes]."""
         return self._chunk_threshold
 
     @chunk_threshold.setter
@@ -307,7 +307,7 @@ class Bag(Summaries):
 
     @property
     def index(self) -> Index:
-        """The connections and chunks; also of a bag that is closed."""
+        """The connections and chunks; also available once the bag is closed."""
         if self._writer is not None and self._file is not None:
             self._writer.flush()
         return self._index
@@ -320,7 +320,7 @@ class Bag(Summaries):
         return self._input
 
     def reader(self) -> Reader:
-        """Return what reads the bag's bytes; everything written so far is there."""
+        """Return the reader of the bag; it also sees everything written so far."""
         self.flush()
         return Reader(self._reading(), self._index, self._name)
 
@@ -345,9 +345,9 @@ class Bag(Summaries):
         raw: bool = False,
         return_connection_header: bool = False,
     ) -> Iterator[Any]:
-        """Yield (topic, message, time) of one topic, some, or all, in time order, between two times (both included).
+        """Yield (topic, message, time) of one, several or all topics, in time order, between two times (both included).
 
-        With ``raw`` a message is (type, bytes, md5 sum, (chunk, offset), class). Raises ``ROSBagException`` at damage.
+        With ``raw`` a message is (type, bytes, md5 sum, (chunk, offset), class). Raises ``ROSBagException`` on damage.
         """
         found = self.read_raw(topics, start_time, end_time, connection_filter)
         return self._messages(found, raw, return_connection_header)
@@ -369,7 +369,7 @@ class Bag(Summaries):
                     raise DeserializationError(
                         f"{self._name}: the message on {conn.topic} at {place} cannot be read: {error}"
                     ) from error
-            del data  # its memory is free for the next one then, which saves a large one much time
+            del data  # free its memory for the next one, which saves much time with large messages
             time = Time(*divmod(nanoseconds, 1_000_000_000))
             if with_header:
                 yield BagMessageWithConnectionHeader(conn.topic, message, time, dict(conn.header))
@@ -386,13 +386,13 @@ class Bag(Summaries):
         return self.read_messages()
 
     def table(self, topic: str) -> Table:
-        """Return a topic as columns, as ``table()`` does. Raises ``ROSBagException`` if the bag lacks the topic."""
+        """Return a topic as a table of columns (see `table`). Raises ``ROSBagException`` if the bag lacks the topic."""
         from .table import table
 
         return table(self.message_class(topic), self.read_messages(topic))
 
     def info(self, *, freq: bool = False, utc: bool = False) -> str:
-        """Return what ``rosbag info`` prints, with frequencies if asked for; times are local, or of UTC."""
+        """Return the output of ``rosbag info``, with frequencies if asked for; times are local, or in UTC."""
         return info_text(self, freq=freq, utc=utc)
 
     def __str__(self) -> str:
@@ -411,10 +411,10 @@ class Bag(Summaries):
         raw: bool = False,
         connection_header: Mapping[str, str | bytes] | None = None,
     ) -> None:
-        """Write a message, recorded at ``t`` (the graph's time now, if not given).
+        """Write a message, recorded at ``t`` (default: the graph's time now).
 
         With ``raw`` a message is (type, bytes, md5 sum, class), or the same with a position before the class. Messages
-        with another ``connection_header`` get a connection of their own. Raises ``ValueError`` for a closed bag, an
+        with another ``connection_header`` get a separate connection. Raises ``ValueError`` for a closed bag, an
         empty topic or no message, ``BagFull`` when there is no more room, ``SerializationError`` for a field of the
         wrong type.
         """
@@ -455,7 +455,7 @@ class Bag(Summaries):
         return self.connect(connection(0, topic, header))
 
     def connect(self, conn: Connection) -> int:
-        """Return this bag's number for a connection of another bag, or of a graph; its header is kept to the byte."""
+        """Return this bag's number for a connection of another bag or of a graph; its header is kept byte for byte."""
         if self._writer is None:
             raise NotOpenForWriting(f"{self._name} is not open for writing")
         key = conn.topic, conn.raw
@@ -466,18 +466,18 @@ class Bag(Summaries):
         return number
 
     def write_raw(self, number: int, nanoseconds: int, data: bytes) -> None:
-        """Write a message of the connection with a number that :meth:`connect` gave, recorded at a time [ns]."""
+        """Write a message, recorded at a time [ns], to the connection whose number :meth:`connect` returned."""
         if self._writer is None or self._file is None:
             raise NotOpenForWriting(f"{self._name} is not open for writing")
         self._writer.write(number, nanoseconds, data)
 
     def sync(self) -> None:
-        """Write what is in memory, so that it survives a crash, and go on with the chunk that is open."""
+        """Write the data in memory so that it survives a crash, and continue with the open chunk."""
         if self._writer is not None:
             self._writer.sync()
 
     def set_encryptor(self, encryptor: str | None = None, param: str | None = None) -> None:  # noqa: ARG002
-        """Accept that there is no encryption. Raises ``ROSBagEncryptNotSupportedException`` for any other."""
+        """Accept "no encryption". Raises ``ROSBagEncryptNotSupportedException`` for any other encryptor."""
         if encryptor:
             raise ROSBagEncryptNotSupportedException(
                 f"bags are not encrypted here ({encryptor}): use real ROS's `rosbag encrypt`"
@@ -485,6 +485,6 @@ class Bag(Summaries):
 
 
 def _now() -> Time:
-    from rosmini.core.graph import running_graph  # what only reads a bag needs no graph
+    from rosmini.core.graph import running_graph  # a program that only reads a bag needs no graph
 
     return running_graph().now()

@@ -1,6 +1,6 @@
-"""What goes wrong with bags.
+"""Errors about bags.
 
-The names and relatives are those of ROS's ``rosbag``, so an ``except`` of a script catches ours.
+Names and base classes are those of ROS's ``rosbag``, so an ``except`` clause of a script catches ours.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class ROSBagFormatException(ROSBagException):
 
 
 class ROSBagUnindexedException(ROSBagException):
-    """A bag has no index: its recording did not come to an end. ``rosbag reindex`` makes one."""
+    """A bag has no index because its recording was not finished; ``rosbag reindex`` makes one."""
 
     def __init__(self, value: object = "Unindexed bag") -> None:
         super().__init__(value)
@@ -42,7 +42,7 @@ class DamagedIndex(ROSBagUnindexedException, ROSBagFormatException):
 
 
 class ROSBagEncryptNotSupportedException(ROSBagException):
-    """A bag is encrypted in a way that cannot be read here."""
+    """A bag is encrypted in a way that is not supported."""
 
 
 class ROSBagEncryptException(ROSBagException):
@@ -51,7 +51,7 @@ class ROSBagEncryptException(ROSBagException):
 
 @contextmanager
 def in_file(name: str) -> Iterator[None]:
-    """Have errors about what is read within the block begin with the file's name."""
+    """Prefix errors raised within the block with the file's name."""
     try:
         yield
     except ROSBagException as error:
@@ -62,16 +62,16 @@ def in_file(name: str) -> Iterator[None]:
 
 
 class UnknownCompression(ROSBagException, ValueError):
-    """A bag cannot be compressed in this way (rosbag raises ``ValueError``)."""
+    """Unknown compression (rosbag raises ``ValueError``)."""
 
 
 class NotOpenForWriting(ROSBagException, UnsupportedOperation):
-    """A bag that is open for reading was to be written to (rosbag raises what Python raises for such a file)."""
+    """A bag open for reading cannot be written to (rosbag raises Python's error for such a file)."""
 
 
 class BagFull(ROSBagException):
-    """The disk, a quota or a limit of file sizes is full. What fitted is in the bag, which is closed and whole."""
+    """The disk, a quota or a file size limit is full; what fitted is in the bag, which is closed and intact."""
 
 
 class FilterError(ROSBagException):
-    """An expression that chooses messages uses what such an expression may not use, or failed on a message."""
+    """A filter expression uses something that is not allowed, or failed on a message."""

@@ -1,8 +1,8 @@
-"""The expression of ``rosbag filter``, confined: it reads ``topic``, ``m`` and ``t``, computes, and nothing else.
+"""The restricted expressions of ``rosbag filter``: they read ``topic``, ``m`` and ``t``, compute, and do nothing else.
 
-ROS's tool evaluates any Python. Here it is one of :mod:`rosmini.core.expressions`, which knows what is listed and
-nothing
-else: of a message its fields and constants (and ``_type``), of a time its two numbers and what makes one number of it.
+ROS's tool evaluates any Python. Here :mod:`rosmini.core.expressions` evaluates the expression, and allows only
+these
+names: the fields and constants of a message (and ``_type``), the two numbers of a time and its conversions to a number.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:
     """Return ``f(topic, m, t)`` that evaluates an expression on a message.
 
-    Raises ``FilterError``, which says what is not allowed or where the expression breaks off; the function raises it,
-    too, when an expression fails on a message (a field that this type does not have, for instance), or would take too
-    long or too much memory.
+    Raises ``FilterError``, which says what is not allowed or where the expression is incomplete. The function raises it
+    as well if the expression fails on a message (a field that this type does not have, for instance), or needs too much
+    time or memory.
     """
     try:
         expression = message_expression(text, ("topic", "m", "t"))

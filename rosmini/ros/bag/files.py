@@ -1,4 +1,4 @@
-"""The files of a recording: their names, and one after another when it is split."""
+"""The files of a recording: their names, and the sequence of files when it is split."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 def base_name(output: str | None, prefix: str | None, now: Time, *, simulated: bool) -> str:
-    """Return a recording's path without number and ``.bag``: ``output`` (-O), else ``prefix`` (-o) and the date.
+    """Return a recording's path without number and ``.bag``: ``output`` (-O), or ``prefix`` (-o) and the date.
 
-    The date is the local one, as ROS's, and that of UTC in simulated time, where nothing may depend on the machine.
+    The date is local, as in ROS, but in UTC in simulated time, where nothing may depend on the machine.
     """
     if output is not None:
         return output.removesuffix(".bag")
@@ -25,12 +25,12 @@ def base_name(output: str | None, prefix: str | None, now: Time, *, simulated: b
 
 
 class BagFiles:
-    """Opens one bag after another. A file is called ``.active`` until it is closed, as ROS's are.
+    """Opens one bag after another; a file is named ``.active`` until it is closed, as in ROS.
 
     Args:
         base: the path without number and ``.bag``.
         split: number the files, from 0.
-        max_splits: the largest number of files at a time, the open one included; the oldest is removed.
+        max_splits: maximum number of files, including the open one; the oldest is removed.
         compression: of the files.
         chunk_threshold: of the files [bytes].
 
@@ -47,12 +47,12 @@ class BagFiles:
         self._number = 0
         self.bag: Bag | None = None
         self.paths: list[Path] = []
-        """The finished files that are still there."""
+        """The finished files that have not been removed."""
         self.path = Path()
-        """Where the open file will be."""
+        """Final path of the open file."""
 
     def open(self) -> Bag:
-        """Open the next file. Raises ``OSError`` if that cannot be."""
+        """Open the next file. Raises ``OSError`` if that is not possible."""
         number = f"_{self._number}" if self._split else ""
         self._number += 1
         while self._max_splits is not None and len(self.paths) >= self._max_splits:
@@ -66,7 +66,7 @@ class BagFiles:
         return self.path.with_name(self.path.name + ".active")
 
     def close(self) -> None:
-        """Close the open file and give it its name; harmless without one. Raises ``BagFull`` as ``Bag.close`` does."""
+        """Close the open file, if any, and give it its final name. Raises ``BagFull`` as ``Bag.close`` does."""
         bag, self.bag = self.bag, None
         if bag is None:
             return

@@ -1,4 +1,4 @@
-"""What a bag's index says: connections, chunks, and where in a chunk each message is."""
+"""The index of a bag: connections, chunks, and the position of each message in its chunk."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Connection:
-    """A publisher's connection, as it was recorded: the topic it stood under, and its header to the byte.
+    """A recorded connection of a publisher: its topic, and its header byte for byte.
 
-    ``raw`` holds the fields of the connection header (http://wiki.ros.org/ROS/Connection%20Header) as the file has
-    them.
+    ``raw`` holds the fields of the connection header (http://wiki.ros.org/ROS/Connection%20Header) as they are in the
+    file.
     """
 
     id: int
     topic: str
     raw: bytes
     place: str = field(default="", compare=False)
-    """Where it was read from."""
+    """File and position from which it was read."""
 
     @cached_property
     def header(self) -> dict[str, bytes]:
-        """The fields of the connection header."""
+        """Fields of the connection header."""
         return parse_fields(self.raw, self.place or f"the connection of {self.topic}")
 
     def text(self, name: str) -> str:
-        """Return a field of the header as text; empty if it has no such field."""
+        """Return a header field as text; empty if there is no such field."""
         return self.header.get(name, b"").decode("utf-8", "replace")
 
     @cached_property
@@ -53,16 +53,16 @@ class Connection:
 
     @property
     def caller(self) -> str:
-        """The node that published; empty if the bag does not say."""
+        """Name of the publishing node; empty if the bag does not record it."""
         return self.text("callerid")
 
     @property
     def latching(self) -> bool:
-        """Whether the publisher latched its last message."""
+        """True if the publisher latched its last message."""
         return self.text("latching") == "1"
 
     def fits(self, topics: Iterable[str] | None) -> bool:
-        """Return whether the topic is one of ``topics`` (None: all are)."""
+        """Return True if the topic is one of ``topics`` (None: all topics)."""
         return topics is None or self.topic in topics
 
 
@@ -79,7 +79,7 @@ def connection(number: int, topic: str, header: Mapping[str, str | bytes]) -> Co
 
 @dataclass
 class Chunk:
-    """A chunk: where it is, which times it spans [ns], and how many messages of which connection are in it."""
+    """A chunk: its position, the times it spans [ns], and its number of messages for each connection."""
 
     position: int
     data_position: int
@@ -94,7 +94,7 @@ class Chunk:
 
     @property
     def messages(self) -> int:
-        """How many messages are in it."""
+        """Number of messages in the chunk."""
         return sum(self.counts.values())
 
 
@@ -107,19 +107,19 @@ class Index:
 
     @property
     def messages(self) -> int:
-        """How many messages are in the bag."""
+        """Number of messages in the bag."""
         return sum(chunk.messages for chunk in self.chunks)
 
     def count(self, number: int) -> int:
-        """Return how many messages a connection has."""
+        """Return the number of messages of a connection."""
         return sum(chunk.counts.get(number, 0) for chunk in self.chunks)
 
     @property
     def start(self) -> int | None:
-        """The time of the first message [ns]; None without messages."""
+        """Time of the first message [ns]; None if there are no messages."""
         return min((chunk.start for chunk in self.chunks if chunk.counts), default=None)
 
     @property
     def end(self) -> int | None:
-        """The time of the last message [ns]; None without messages."""
+        """Time of the last message [ns]; None if there are no messages."""
         return max((chunk.end for chunk in self.chunks if chunk.counts), default=None)

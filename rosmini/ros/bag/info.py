@@ -1,4 +1,4 @@
-"""What ``rosbag info`` prints of a bag: its formats are those of ROS's tool."""
+"""The output of ``rosbag info``, in the formats of ROS's tool."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def human_size(size: float) -> str:
-    """Return a number of bytes as the tool shows it."""
+    """Return a number of bytes as the tool prints it."""
     for suffix in ("KB", "MB", "GB", "TB", "PB", "EB", "ZB", "YB"):
         size /= 1024
         if size < 1024:
@@ -25,7 +25,7 @@ def human_size(size: float) -> str:
 
 
 def human_frequency(hertz: float) -> str:
-    """Return a frequency as the tool shows it."""
+    """Return a frequency as the tool prints it."""
     for suffix in ("Hz", "kHz", "MHz", "GHz", "THz"):
         if hertz < 1000:
             return f"{hertz:.1f} {suffix}"
@@ -34,7 +34,7 @@ def human_frequency(hertz: float) -> str:
 
 
 def human_duration(seconds: float) -> str:
-    """Return a duration as the tool shows it."""
+    """Return a duration as the tool prints it."""
     minutes = int(seconds / 60)
     hours = minutes // 60
     if hours:
@@ -45,16 +45,16 @@ def human_duration(seconds: float) -> str:
 
 
 def human_time(seconds: float, *, utc: bool = False) -> str:
-    """Return a time as the tool shows it: of the local time zone, with hundredths."""
+    """Return a time as the tool prints it: in the local time zone, with hundredths."""
     fraction = f"{seconds - int(seconds):.2f}"[1:]
     clock = time.gmtime(seconds) if utc else time.localtime(seconds)
     return time.strftime("%b %d %Y %H:%M:%S", clock) + fraction
 
 
 def info_text(bag: Summaries, *, freq: bool = True, path: str | None = None, utc: bool = False) -> str:
-    """Return what ``rosbag info`` prints; with frequencies only with ``--freq``, while ``str(bag)`` has them as in ROS.
+    """Return the output of ``rosbag info``; frequencies need ``--freq``, but ``str(bag)`` includes them as in ROS.
 
-    ``path`` is shown in place of the file's own; ``utc`` shows times of UTC in place of the machine's time zone.
+    ``path`` replaces the file's own path; ``utc`` shows times in UTC instead of the machine's time zone.
     """
     rows: list[tuple[str, str]] = []
     path = path or bag.filename
@@ -140,7 +140,7 @@ def _topic_rows(topics: dict[str, TopicTuple]) -> list[str]:
 
 
 def info_yaml(bag: Summaries, key: str | None = None, *, freq: bool = True) -> str | None:
-    """Return what ``rosbag info -y`` prints, or the value at ``key`` (such as ``topics[0].type``) as ``-k`` does.
+    """Return the output of ``rosbag info -y``, or the value at ``key`` (such as ``topics[0].type``) as ``-k`` does.
 
     Raises ``ROSBagException`` if there is no such key.
     """
@@ -149,7 +149,7 @@ def info_yaml(bag: Summaries, key: str | None = None, *, freq: bool = True) -> s
         return text
 
     def failure(message: str, _source: str, _line: int | None) -> ROSBagException:
-        # the names of topics may be anything
+        # topic names may be anything
         return ROSBagException(f'Error getting key "{key}": what the bag says: {message}')
 
     tree = next((value for value, _ in documents(text, "the bag", failure)), None)

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from .player import Player
 
 PERIOD_NS = 100_000_000
-"""The period of the status line."""
+"""Period of the status line [ns]."""
 
 
 class Keys:
-    """Reads keys for a player until its node ends. Does nothing where there is no terminal.
+    """Reads keys for a player until its node ends; does nothing without a terminal.
 
-    A thread waits for keys, since nothing else can without holding the graph up; what they do is done by the graph.
+    A thread waits for keys, so that the graph is not blocked; the graph carries out the actions.
     """
 
     def __init__(self, player: Player, stdin: TextIO | None = None, stdout: TextIO | None = None) -> None:
@@ -34,7 +34,7 @@ class Keys:
         try:
             self._restore = _read_keys_at_once(stdin.fileno())
         except (ImportError, OSError):
-            return  # no terminal of POSIX
+            return  # not a POSIX terminal
         self._stdout.write("\nHit space to toggle paused, or 's' to step.\n")
         player.node.on_shutdown(self.close)
         self._file = stdin.fileno()
@@ -42,7 +42,7 @@ class Keys:
         self._scheduler.on_hub(self._show)
 
     def close(self) -> None:
-        """Restore the terminal. Harmless when repeated."""
+        """Restore the terminal; may be called repeatedly."""
         restore, self._restore = self._restore, _nothing
         if restore is not _nothing:
             restore()
@@ -61,7 +61,7 @@ class Keys:
             self._scheduler.call_soon_threadsafe(press)
 
     def press(self, key: str) -> None:
-        """Do what a key means."""
+        """Carry out the action of a key."""
         player = self._player
         if player.done:
             return
@@ -82,7 +82,7 @@ class Keys:
 
 
 def status_line(player: Player) -> str:
-    """Return where a player is, in the words of ROS's tool."""
+    """Return the status line of a player, in the words of ROS's tool."""
     now = player.position.to_nsec()
     state = "PAUSED " if player.paused else "RUNNING"
     passed, length = (now - player.start) / 1e9, (player.end - player.start) / 1e9
@@ -90,7 +90,7 @@ def status_line(player: Player) -> str:
 
 
 def _read_keys_at_once(file: int) -> Callable[[], object]:
-    """Have a terminal give each key at once and not show it; return what undoes that. Ctrl-C stays Ctrl-C."""
+    """Make a terminal deliver keys at once without echo; return a function that undoes it. Ctrl-C still works."""
     import termios
     import tty
 

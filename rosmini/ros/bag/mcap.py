@@ -1,7 +1,7 @@
-"""Bags as MCAP files (https://mcap.dev/spec), which Foxglove opens, and back: the same bytes in another container.
+"""Convert bags to MCAP files (https://mcap.dev/spec), which Foxglove opens, and back; the message bytes stay the same.
 
-The profile is `ros1`: messages are as on ROS 1's wire (`ros1`), schemas are message definitions (`ros1msg`), and the
-metadata of a channel are the fields of the connection header (https://mcap.dev/spec/registry).
+The profile is `ros1`: messages are encoded as on ROS 1's wire (`ros1`), schemas are message definitions (`ros1msg`),
+and channel metadata holds the fields of the connection header (https://mcap.dev/spec/registry).
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 IN_OTHER_FIELDS = ("topic", "type", "message_definition")
-"""Fields of the connection header that have a place of their own in the file."""
+"""Fields of the connection header that are stored elsewhere in the file."""
 
 
 def to_mcap(source: Bag | str | os.PathLike[str], target: str | os.PathLike[str]) -> Copied:
-    """Write all messages of a bag, open or not, into a new MCAP file, compressed with lz4.
+    """Write all messages of a bag, open or not, to a new MCAP file, compressed with lz4.
 
     Raises:
         ROSBagException: the bag cannot be read, or the package `mcap` is not installed. No file is left behind.
@@ -87,10 +87,10 @@ def _copy(bag: Bag, writer_of: Any, file: IO[bytes]) -> Copied:
 
 
 def from_mcap(source: str | os.PathLike[str], target: str | os.PathLike[str] | BinaryIO) -> Copied:
-    """Write all messages of an MCAP file whose profile is ROS 1 into a bag, in the order in which they are there.
+    """Write all messages of an MCAP file with a ROS 1 profile to a bag, in the order of the file.
 
     Raises:
-        ROSBagException: it is no MCAP file or is damaged, a channel is not ROS 1's, or the package `mcap` is not
+        ROSBagException: it is no MCAP file or is damaged, a channel is not from ROS 1, or the package `mcap` is not
             installed. No file is left behind.
         OSError: a file cannot be read or written.
 
@@ -122,7 +122,7 @@ def from_mcap(source: str | os.PathLike[str], target: str | os.PathLike[str] | B
 
 
 def _messages(file: IO[bytes], name: str) -> Iterator[tuple[Any, Any, Any]]:
-    """Schema, channel and message of each message, as they follow one another in the file."""
+    """Yield schema, channel and message of each message, in file order."""
     try:
         from mcap.exceptions import McapError
         from mcap.records import Channel, Message, Schema
@@ -152,7 +152,7 @@ def _messages(file: IO[bytes], name: str) -> Iterator[tuple[Any, Any, Any]]:
 
 
 def _records(file: IO[bytes]) -> Iterator[Any]:
-    """All records of the file; what is in its chunks is unpacked here, since the library does so without bounds."""
+    """Yield all records of the file; chunks are decompressed here, since the library does so without a size limit."""
     from mcap.records import Chunk
     from mcap.stream_reader import StreamReader
 
@@ -167,7 +167,7 @@ def _records(file: IO[bytes]) -> Iterator[Any]:
 
 
 class _Bounded:
-    """A file that refuses to read beyond its end: the library reads as much as the file says."""
+    """A file that refuses to read past its end; the library would try to read any length that the file claims."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self._file = file
@@ -182,7 +182,7 @@ class _Bounded:
 
 
 def _in_chunk(chunk: Any) -> Iterator[Any]:
-    """Yield the records of an unpacked chunk, one by one: there may be millions of them."""
+    """Yield the records of a decompressed chunk one by one; there may be millions of them."""
     from mcap.opcode import Opcode
     from mcap.records import Channel, Message, Schema
     from mcap.stream_reader import get_chunk_data_stream
@@ -203,7 +203,7 @@ def _in_chunk(chunk: Any) -> Iterator[Any]:
 
 
 def _unpacked(data: bytes, compression: str, size: int, position: int) -> bytes:
-    """The data of a chunk, of which no more than it claims to hold are unpacked. Raises ``ROSBagException``."""
+    """Return the data of a chunk, decompressing no more than its stated size. Raises ``ROSBagException``."""
     if compression != "zstd":
         return decompress(data, compression or Compression.NONE, size, position)
     from zstandard import ZstdDecompressor, ZstdError
@@ -227,7 +227,7 @@ def _unpacked(data: bytes, compression: str, size: int, position: int) -> bytes:
 
 
 def _connection(schema: Any, channel: Any, name: str) -> tuple[Any, dict[str, str]]:
-    """The class of a channel's messages, and its connection header."""
+    """Return the class of a channel's messages, and its connection header."""
     encodings = (channel.message_encoding, None if schema is None else schema.encoding)
     if encodings != ("ros1", "ros1msg"):
         raise ROSBagException(

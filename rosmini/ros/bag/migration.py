@@ -1,6 +1,6 @@
-"""Bags whose types have changed since: their messages as messages of this system's types, field by field.
+"""Migrate bags whose message types have changed: convert messages to this system's types, field by field.
 
-ROS's tool reads how from rule files, which are programs; without one it goes by the names of the fields, as this does
+ROS's tool reads rule files, which are programs; without a rule it matches fields by name, as this module does
 (http://wiki.ros.org/rosbag/migration).
 """
 
@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 
 
 class Fixed(NamedTuple):
-    """What was done with a bag: None if it was not written, and what stood in the way of each type."""
+    """Result for one bag: the copied counts, None if it was not written, and the obstacles of each type."""
 
     copied: Copied | None
     obstacles: dict[TypeChange, tuple[str, ...]]
 
 
 def differences(old: Any, new: Any, path: str = "") -> list[str]:
-    """Return what a message class has that the other cannot take, or lacks: a line for each field."""
+    """Return the fields of a message class that the other cannot take, or lacks: a line for each."""
     was, now = _types(old), _types(new)
     found = [f"the field {path}{name} is gone" for name in was if name not in now]
     found += [f"the field {path}{name} is new" for name in now if name not in was]
@@ -46,7 +46,7 @@ def differences(old: Any, new: Any, path: str = "") -> list[str]:
 
 
 def migrated(message: Any, new: Any) -> Any:
-    """Return a message as one of another class: fields of the same name and type keep their values."""
+    """Return a message converted to another class: fields of the same name and type keep their values."""
     old = type(message)
     made, was, now = new(), _types(old), _types(new)
     for name in was.keys() & now.keys():
@@ -66,14 +66,14 @@ def _types(cls: Any) -> dict[str, str]:
 
 
 def _nested(cls: Any, kind: str) -> Any:
-    """Return the class of a field of messages, None for any other field."""
+    """Return the class of a field that holds messages, None for any other field."""
     return cls._nested.get(kind.partition("[")[0])
 
 
 def fix_bag(source: PathLike, target: PathLike, *, force: bool = False) -> Fixed:
-    """Write a bag whose messages are of this system's types; a type that is unknown here stays as it is.
+    """Write a bag with its messages converted to this system's types; types unknown here are copied as they are.
 
-    Nothing is written if fields do not go together, but with ``force``: then what is new is empty, and what is gone is
+    If fields do not match, nothing is written, except with ``force``: then new fields are empty, and removed fields are
     lost. Raises ``ROSBagException``.
     """
     two_files(source, target)
@@ -103,7 +103,7 @@ def _copy(inbag: Bag, outbag: Bag) -> Copied:
 
 
 def _way(conn: Connection, outbag: Bag) -> Callable[[RawMessage], None]:
-    """Return what writes the messages of a connection."""
+    """Return a function that writes the messages of a connection."""
     local = local_class(conn)
     if local is None or local._md5sum == conn.md5sum:
         number = outbag.connect(conn)

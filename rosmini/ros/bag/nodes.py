@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 
 def record(node: Node, *args: str) -> Recorder:
-    """Record what the arguments say.
+    """Record as the arguments say.
 
-    Raises ``UsageError`` for arguments that make no sense, ``ROSBagException`` for a bag that cannot be opened, else as
+    Raises ``UsageError`` for invalid arguments, ``ROSBagException`` for a bag that cannot be opened, and the errors of
     `Recorder`.
     """
     options = record_options(args)
@@ -33,9 +33,9 @@ def record(node: Node, *args: str) -> Recorder:
 
 
 def play(node: Node, *args: str) -> Player:
-    """Play what the arguments say; with ``--keys`` the terminal pauses and steps.
+    """Play as the arguments say; with ``--keys`` the terminal pauses and steps.
 
-    Raises ``UsageError`` for arguments that make no sense, ``ROSBagException`` for a bag that cannot be opened, else as
+    Raises ``UsageError`` for invalid arguments, ``ROSBagException`` for a bag that cannot be opened, and the errors of
     `Player`.
     """
     keys = "--keys" in args
@@ -49,7 +49,7 @@ def play(node: Node, *args: str) -> Player:
 
 @contextmanager
 def _opening() -> Iterator[None]:
-    """Raise ``ROSBagException`` where the system opens no such file, with the name that may be meant."""
+    """Turn errors on opening a file into ``ROSBagException``, which suggests similar file names."""
     try:
         yield
     except OSError as error:

@@ -1,4 +1,4 @@
-"""The command lines of ``rosbag record`` and ``rosbag play``: ROS's options, for our recorder and player."""
+"""Command lines of ``rosbag record`` and ``rosbag play``: ROS's options, for rosmini's recorder and player."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ Options = TypeVar("Options", RecordOptions, PlayOptions)
 
 
 class BagUsageError(ROSBagException, UsageError):
-    """A command line that makes no sense; the text says which ones do."""
+    """An invalid command line; the text says which ones are valid."""
 
 
 class Parser(ToolParser):
-    """A parser of ``rosbag``."""
+    """Parser of a ``rosbag`` command."""
 
     def __init__(self, usage: str, description: str, example: str) -> None:
         example = f"  rosmini rosbag {example}"
@@ -103,7 +103,7 @@ def seconds(parser: Parser, text: str) -> float:
 
 
 def record_options(args: Sequence[str]) -> RecordOptions:
-    """Return what a command line asks to record. Raises ``UsageError``."""
+    """Return the recording options of a command line. Raises ``UsageError``."""
     parser = record_parser()
     given, topics = parser.parse_args(list(args))
     if not (topics or given.all or given.of_node):
@@ -188,7 +188,7 @@ def play_parser() -> Parser:
 
 
 def play_options(args: Sequence[str]) -> tuple[list[str], PlayOptions]:
-    """Return which bags a command line asks to play, and how. Raises ``UsageError``."""
+    """Return the bags and the playing options of a command line. Raises ``UsageError``."""
     parser = play_parser()
     given, bags = parser.parse_args(list(args))
     if given.bags:
@@ -203,6 +203,6 @@ def play_options(args: Sequence[str]) -> tuple[list[str], PlayOptions]:
 
 
 def _options(cls: type[Options], given: Values, **changed: Any) -> Options:
-    """Return the options of a recorder or player: those given under the names of its fields, some of them changed."""
+    """Return the options of a recorder or player: values whose names are its fields, with some changed."""
     named = {each.name: getattr(given, each.name) for each in fields(cls) if hasattr(given, each.name)}
     return cls(**{**named, **changed})

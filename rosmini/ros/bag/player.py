@@ -1,6 +1,6 @@
-"""``rosbag play`` as a node: publishes what is in bags, at the times between which it was recorded.
+"""``rosbag play`` as a node: publishes the messages of bags with the intervals at which they were recorded.
 
-It goes by the graph's own time, simulated or wall, even if nodes go by ``/clock``, which it can publish
+It uses the graph's time, simulated or wall-clock, even if nodes use ``/clock``, which it can publish
 (``clock=True``).
 """
 
@@ -24,14 +24,14 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node, Publisher
 
 PLAYED_LATCHED = frozenset({"/tf_static"})
-"""Topics that are latched whatever the bag says, as they are useless otherwise (http://wiki.ros.org/tf2#tf_static)."""
+"""Topics that are latched whatever the bag says, being useless otherwise (http://wiki.ros.org/tf2#tf_static)."""
 
 
 @dataclass(frozen=True)
 class PlayOptions:
-    """How to play; the names are those of ROS's options, times are in seconds.
+    """Options for playing, named after ROS's; times are in seconds.
 
-    Raises ``ROSBagException`` for what makes no sense.
+    Raises ``ROSBagException`` for invalid options.
     """
 
     rate: float = 1.0
@@ -63,13 +63,13 @@ class PlayOptions:
 
 
 class Player:
-    """Plays bags, from now on.
+    """Plays bags, starting now.
 
     Args:
-        node: the node that publishes; it is shut down at the end, as ROS's is, unless ``keep_alive``.
+        node: the node that publishes; it is shut down at the end, as in ROS, unless ``keep_alive``.
         bags: paths, or open bags, which are played as one.
-        options: how.
-        fields: the same one by one: see `PlayOptions`.
+        options: the options for playing.
+        fields: the same options as keyword arguments: see `PlayOptions`.
 
     Raises:
         ROSBagException: a bag cannot be read, a topic is in none of them, or there is nothing to play.
@@ -86,7 +86,7 @@ class Player:
         self.node = node
         self.options = options or PlayOptions(**fields)
         self.played = 0
-        """How many messages were published."""
+        """Number of messages published."""
         self.done = False
         self.paused = self.options.pause
         self._scheduler = node.scheduler
@@ -109,7 +109,7 @@ class Player:
             self._close()
             raise
         self._origin = self.start
-        """The time in the bags that belongs to ``_began``, of the graph's time [ns]."""
+        """Time in the bags that corresponds to the graph's time ``_began`` [ns]."""
         self._began = 0
         node.scheduler.on_hub(self._begin)
 
@@ -123,7 +123,7 @@ class Player:
         return bag
 
     def _span(self) -> tuple[int, int]:
-        """Return the first and the last time that is played [ns]."""
+        """Return the first and last time to play [ns]."""
         starts = [bag.index.start for bag in self._bags if bag.index.start is not None]
         ends = [bag.index.end for bag in self._bags if bag.index.end is not None]
         if not starts:
@@ -174,7 +174,7 @@ class Player:
             self.node.run(self._wait_for_subscribers, f"{self.node.name} waits for subscribers")
 
     def target(self, topic: str) -> str:
-        """Return the name under which a topic of the bags is published: with the prefix, remapped."""
+        """Return the name under which a topic of the bags is published: prefixed and remapped."""
         return self.node.resolve(self.options.prefix.rstrip("/") + topic if self.options.prefix else topic)
 
     def _advertise(self, bag: Bag, number: int) -> None:
@@ -193,7 +193,7 @@ class Player:
         )
 
     def _greet(self, topic: str, peer: str) -> None:
-        """Give a late subscriber what each connection of a topic latched; the newest it has from the graph already."""
+        """Send a late subscriber the latched message of each connection; the graph has already sent it the newest."""
         for message in list(self._latched[topic].values())[:-1]:
             self._publishers[topic].publish_to(peer, message)
 
@@ -213,7 +213,7 @@ class Player:
     # -- time ------------------------------------------------------------------------------------------------------
 
     def _now(self) -> int:
-        """Return the time in the bags that it is now [ns]."""
+        """Return the current time in the bags [ns]."""
         if self.paused:
             return self._origin
         passed = max(0, self._scheduler.now_ns() - self._began)
@@ -221,11 +221,11 @@ class Player:
 
     @property
     def position(self) -> Time:
-        """Where in the bags it is: a time at which things were recorded."""
+        """Current position in the bags, as a time of recording."""
         return Time.from_nsec(self._now())
 
     def _due(self, time: int) -> int:
-        """Return the graph's time at which a message of this time in the bags is due."""
+        """Return the graph's time at which a message recorded at this time is due."""
         if self.options.immediate:
             return self._began
         return self._began + int((time - self._origin) / self.options.rate)
@@ -238,7 +238,7 @@ class Player:
             self._cancel_clock = self._scheduler.call_at(first, self._tick).cancel
 
     def _fire(self) -> None:
-        """Publish the message that is due; each in an event of its own, so that it is on its way before the next."""
+        """Publish the message that is due, each in a separate event, so that it is sent before the next."""
         if self.done or self.paused:
             return
         if self._next is None:
@@ -258,7 +258,7 @@ class Player:
             self._cancel = self._scheduler.call_at(when, self._fire).cancel
 
     def _skip(self, time: int, following: int) -> None:
-        """Leave a time out in which there is nothing."""
+        """Skip a period without messages."""
         gap = self.options.skip_empty
         if gap is not None and following - time > gap * 1e9:
             self._began, self._origin = self._scheduler.now_ns(), following
@@ -273,7 +273,7 @@ class Player:
             kept = self._latched[topic]
             key = id(bag), conn.id
             kept.pop(key, None)
-            kept[key] = message  # the newest is the last one
+            kept[key] = message  # the newest comes last
         self._publishers[topic].relay(message)
         self.played += 1
         return conn.topic, time
@@ -294,19 +294,19 @@ class Player:
         self._cancel_clock()
 
     def pause(self) -> None:
-        """Stop the time of the bags. Harmless when it stands still."""
+        """Pause playing; has no effect if already paused."""
         if not self.paused and not self.done:
             self._hold(self._now())
 
     def resume(self) -> None:
-        """Let the time of the bags go on. Harmless when it does."""
+        """Resume playing; has no effect if not paused."""
         if self.paused and not self.done:
             self.paused = False
             self._began = max(self._scheduler.now_ns(), self._began)
             self._go_on()
 
     def step(self) -> bool:
-        """Publish the next message of a player that is paused, and be where it was recorded; False if there is none.
+        """Publish the next message of a paused player and move to its time; False if no message is left.
 
         Raises ``ROSBagException`` if the player is not paused.
         """
@@ -329,7 +329,7 @@ class Player:
         if self.options.clock:
             self._publishers["/clock"].publish(clock=Time.from_nsec(self.end))
         if self.options.loop:
-            # what latches restarts as well; a turn without a length would never let time pass
+            # latched messages restart as well; a loop without a length would never let time pass
             self._rewind(self._scheduler.now_ns() + int(max(self.options.delay, 1e-3) * 1e9))
             return
         self.done = True
@@ -337,7 +337,7 @@ class Player:
             self.node.shutdown("everything was played")
 
     def stop(self) -> None:
-        """End playing, and the node. Harmless when repeated."""
+        """Stop playing and end the node; may be called repeatedly."""
         self.node.shutdown("playing was stopped")
 
     def _finish(self) -> None:

@@ -1,4 +1,4 @@
-"""Reading a bag: its index first, then messages in the order of time, one chunk after another."""
+"""Reading a bag: first its index, then its messages in time order, chunk by chunk."""
 
 from __future__ import annotations
 
@@ -41,26 +41,26 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
 KEPT = 16 * 1024 * 1024
-"""How much of the read chunks stays in memory [bytes]; always the last one. Overlapping chunks are read in turn."""
+"""Maximum size of cached chunks [bytes], besides the last one; overlapping chunks are read alternately."""
 
 
 LARGE = 64 * 1024
-"""From this mean length on, the messages of an uncompressed chunk are read one by one [bytes]."""
+"""Mean message length from which messages of an uncompressed chunk are read one by one [bytes]."""
 
 
 MOST_SKIPPED = 100
-"""How many connections may precede the message that an index entry names."""
+"""Maximum number of connection records before the message that an index entry names."""
 
 
 class Input(BufferedReader):
-    """A file that is read, and closed without a word by whoever forgets to: nothing is lost by it."""
+    """A file reader that closes itself silently when garbage-collected."""
 
     def __del__(self) -> None:
         self.close()
 
 
 class RawMessage(NamedTuple):
-    """A message as the bag has it; ``time`` is when it was recorded [ns]."""
+    """A message as stored in the bag; ``time`` is when it was recorded [ns]."""
 
     connection: Connection
     time: int
@@ -78,7 +78,7 @@ def read_data(file: BinaryIO, record: Record, what: str) -> bytes:
 def read_index(file: BinaryIO, name: str) -> Index:
     """Read the index at the end of a bag.
 
-    Raises ``ROSBagUnindexedException`` if it has none or a damaged one, ``ROSBagFormatException`` if the file is no
+    Raises ``ROSBagUnindexedException`` if it has none or a damaged one, ``ROSBagFormatException`` if the file is not a
     bag, ``ROSBagEncryptNotSupportedException`` if it is encrypted.
     """
     check_magic(file, name)
@@ -89,7 +89,7 @@ def read_index(file: BinaryIO, name: str) -> Index:
             f"{name} is truncated: {error.value} Its index is lost with its end: `rosbag reindex {name}` makes a new "
             "one."
         ) from error
-    except ROSBagFormatException as error:  # rosbag, too, takes a bag with a damaged index for one without
+    except ROSBagFormatException as error:  # like rosbag, treat a damaged index as a missing one
         raise DamagedIndex(
             f"{name} has no index that can be read: {error.value}. `rosbag reindex {name}` saves what is in it."
         ) from error
@@ -124,7 +124,7 @@ def _index(file: BinaryIO, name: str) -> Index:
 
 
 def _check_apart(chunks: list[Chunk]) -> None:
-    """Raise ``ROSBagFormatException`` if two chunks have bytes in common, which would be read twice."""
+    """Raise ``ROSBagFormatException`` if two chunks overlap in the file and would be read twice."""
     end = 0
     for chunk in sorted(chunks, key=lambda each: each.position):
         if chunk.position < end:
@@ -135,7 +135,7 @@ def _check_apart(chunks: list[Chunk]) -> None:
 
 
 def index_position(file: BinaryIO) -> int:
-    """Return where the index of a bag begins that has one: there an appending writer goes on."""
+    """Return the position of a bag's index, where an appending writer continues."""
     first = read_record(file, len(MAGIC))
     return 0 if first is None else field(first, "index_pos", u64)
 
@@ -153,7 +153,7 @@ def _expected(file: BinaryIO, position: int, op: int) -> Record:
 
 
 def connection_of(file: BinaryIO, record: Record, name: str) -> Connection:
-    """Return the connection that a record of a file describes."""
+    """Return the connection that a record of the file describes."""
     raw = read_data(file, record, "a connection")
     topic = record.fields.get("topic", b"").decode("utf-8", "replace")
     return Connection(
@@ -162,7 +162,7 @@ def connection_of(file: BinaryIO, record: Record, name: str) -> Connection:
 
 
 def chunk_at(file: BinaryIO, position: int) -> Chunk:
-    """Return what the chunk's own header says; times and counts are those of the index."""
+    """Return a chunk as its header describes it; times and counts come from the index."""
     record = read_record(file, position)
     if record is None:
         raise Truncated(f"the file ends before the chunk at byte {position}.")
@@ -189,9 +189,9 @@ def _chunk_of(file: BinaryIO, record: Record) -> Chunk:
 
 
 class Reader:
-    """Reads the messages of an open bag, of which the index is known.
+    """Reads the messages of an open bag whose index is known.
 
-    It keeps a few chunks, so memory does not grow with the bag. The index may grow while it reads.
+    It caches few chunks, so memory does not grow with the bag. The index may grow while it reads.
     """
 
     def __init__(self, file: BinaryIO, index: Index, name: str) -> None:
@@ -205,7 +205,7 @@ class Reader:
     ) -> Iterator[RawMessage]:
         """Yield the messages of ``wanted`` connections from ``start`` to ``end`` [ns], both included, in time order.
 
-        Messages of the same time come in the order in which they were recorded. Raises ``ROSBagFormatException`` at
+        Messages with the same time come in the order in which they were recorded. Raises ``ROSBagFormatException`` on
         damage.
         """
         if wanted is None:
@@ -229,7 +229,7 @@ class Reader:
         yield from self._read(pending, read)
 
     def times(self, number: int) -> list[int]:
-        """Return the times of a connection's messages [ns], in order, without reading a message."""
+        """Return the times of a connection's messages [ns], in order, without reading the messages."""
         found: list[int] = []
         for chunk in self.index.chunks:
             packed = self.entries(chunk).get(number, b"")
@@ -248,7 +248,7 @@ class Reader:
                     yield time, number, offset, conn
 
     def entries(self, chunk: Chunk) -> dict[int, bytes]:
-        """Return the packed entries (see `Chunk`) of each connection in a chunk, from the records that follow it."""
+        """Return the packed entries (see `Chunk`) of each connection in a chunk, from the index records after it."""
         if chunk.entries is not None:
             return chunk.entries
         entries: dict[int, bytes] = {}
@@ -278,7 +278,7 @@ class Reader:
         return data
 
     def _read(self, entries: list[tuple[int, int, int, int]], read: dict[int, int]) -> Iterator[RawMessage]:
-        """Yield the messages of index entries; ``read`` counts the bytes of each chunk."""
+        """Yield the messages of index entries; ``read`` counts the bytes read from each chunk."""
         connections, chunks = self.index.connections, self.index.chunks
         last, data, large = -1, b"", False
         with in_file(self._name):
@@ -289,9 +289,9 @@ class Reader:
                     large = chunk.compression == Compression.NONE and chunk.size > LARGE * sum(
                         chunk.counts.values()
                     )
-                    data = b""  # so that not two chunks are in memory
+                    data = b""  # so that two chunks are never in memory at once
                     data = data if large else self.data(chunk)
-                # Without a name for the message, so that its memory is free again for the next one.
+                # The message gets no name, so that its memory is free again for the next one.
                 yield RawMessage(
                     connections[conn],
                     time,
@@ -306,7 +306,7 @@ class Reader:
                 )
 
     def _large_message(self, chunk: Chunk, offset: int) -> bytes:
-        """A message of an uncompressed chunk, read from the file without the rest of the chunk; as `message_at`."""
+        """Return a message of an uncompressed chunk without reading the rest of the chunk; see `message_at`."""
         position, end = chunk.data_position + offset, chunk.data_position + chunk.size
         while (record := read_record(self._file, position)) is not None and record.end <= end:
             if record.op == OP_MESSAGE:
@@ -318,7 +318,7 @@ class Reader:
 
 
 def _counted(message: bytes, chunk: Chunk, number: int, read: dict[int, int]) -> bytes:
-    """Return a message, and count its bytes. Raises ``ROSBagFormatException`` if a chunk's messages overlap."""
+    """Return a message and count its bytes. Raises ``ROSBagFormatException`` if a chunk's messages overlap."""
     read[number] = read.get(number, 0) + len(message)
     if read[number] > chunk.size:
         raise ROSBagFormatException(
@@ -328,7 +328,7 @@ def _counted(message: bytes, chunk: Chunk, number: int, read: dict[int, int]) ->
 
 
 def message_at(data: bytes, offset: int, chunk: Chunk) -> bytes:
-    """Return the message whose record is at ``offset`` of a chunk's data; connections before it are skipped."""
+    """Return the message whose record is at ``offset`` of a chunk's data, skipping connection records before it."""
     try:
         for _ in range(MOST_SKIPPED):
             begin = offset + 4

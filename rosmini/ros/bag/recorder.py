@@ -1,7 +1,7 @@
-"""``rosbag record`` as a node: subscribes to topics and writes what arrives, with the connections it came over.
+"""``rosbag record`` as a node: subscribes to topics and writes the messages with their connections.
 
-No message is lost: what a callback is given is written before the graph goes on, at any rate, in simulated time and in
-wall time.
+No message is lost at any rate, in simulated or wall-clock time: a message passed to a callback is written before the
+graph continues.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 
 MEGABYTE = 1024 * 1024
 SYNC_NS = 10**9
-"""The period after which what was recorded is flushed to the file, at the next message."""
+"""Period after which recorded data is flushed to the file, at the next message [ns]."""
 
 
 class AnyMessage:
-    """What a subscriber of any type says that it takes."""
+    """The message type of a subscriber that accepts any type."""
 
     _type = "*"
     _md5sum = "*"
@@ -41,9 +41,9 @@ class AnyMessage:
 
 @dataclass(frozen=True)
 class RecordOptions:
-    """What to record and where to; the names are those of ROS's options, sizes are in bytes and times in seconds.
+    """Options for recording, named after ROS's; sizes are in bytes and times in seconds.
 
-    Raises ``ROSBagException`` for what makes no sense.
+    Raises ``ROSBagException`` for invalid options.
     """
 
     topics: tuple[str, ...] = ()
@@ -87,11 +87,11 @@ class RecordOptions:
 
     @property
     def follows(self) -> bool:
-        """Whether topics that come later may have to be recorded, too."""
+        """True if topics advertised later may have to be recorded too."""
         return self.all or self.regex or self.of_node is not None
 
     def wants(self, topic: str, subscribed: Iterable[str]) -> bool:
-        """Return whether a topic of the Master is to be recorded; ``subscribed``: those of the node to follow."""
+        """Return True if a topic is to be recorded; ``subscribed`` are the topics of the node to follow."""
         if self.excluded is not None and self.excluded.fullmatch(topic):
             return False
         if self.of_node is not None and topic in subscribed:
@@ -107,15 +107,15 @@ def _pattern(text: str) -> re.Pattern[str]:
 
 
 class Recorder:
-    """Records topics into a bag from now on, until :meth:`stop`, the node's end, or what the options say.
+    """Records topics into a bag, starting now, until :meth:`stop`, the node's end, or the limit in the options.
 
     Args:
-        node: the node that subscribes. It is shut down at the recording's end, as ROS's is.
-        options: what to record.
-        fields: the same one by one: see `RecordOptions`.
+        node: the node that subscribes. It is shut down when the recording ends, as in ROS.
+        options: the options for recording.
+        fields: the same options as keyword arguments: see `RecordOptions`.
 
     Raises:
-        ROSBagException: the options make no sense.
+        ROSBagException: the options are invalid.
         OSError: the file cannot be opened.
 
     """
@@ -124,11 +124,11 @@ class Recorder:
         self.node = node
         self.options = options or RecordOptions(**fields)
         self.error: BagFull | OSError | None = None
-        """Why the recording ended before its time."""
+        """The error that ended the recording early."""
         self.dropped = 0
-        """How many messages the buffer could not hold."""
+        """Number of messages dropped because the buffer was full."""
         self.counts: dict[str, int] = {}
-        """How many messages were recorded of each topic."""
+        """Number of recorded messages for each topic."""
         self._subscribers: dict[str, Subscriber] = {}
         self._numbers: dict[int, int] = {}
         self._connections: dict[int, tuple[Connection, dict[str, str]]] = {}
@@ -151,22 +151,22 @@ class Recorder:
 
     @property
     def done(self) -> bool:
-        """Whether the recording has ended."""
+        """True if the recording has ended."""
         return self._ended
 
     @property
     def exit_status(self) -> int:
-        """The exit status of its node: 1 if the recording ended before its time."""
+        """Exit status of the node: 1 if the recording ended early."""
         return int(self.error is not None)
 
     @property
     def paths(self) -> list[Path]:
-        """The finished bags."""
+        """Paths of the finished bags."""
         return [] if self._files is None else list(self._files.paths)
 
     @property
     def path(self) -> Path:
-        """The bag: the last one, or the one that is being written."""
+        """Path of the open bag, or of the last one."""
         if self._files is None:
             raise RosminiError(
                 "nothing is recorded before the first /clock message, since /use_sim_time is true"
@@ -239,7 +239,7 @@ class Recorder:
         )
 
     def _keep_following(self) -> None:
-        """Subscribe to topics as they come up, at once: before their publisher can send anything."""
+        """Subscribe to new topics at once, before their publisher can send a message."""
         while not self._ended:
             self.node.wait_for_master(
                 lambda: self._ended or bool(self._wanted()), None, "new topics to record", lambda: ""
@@ -275,7 +275,7 @@ class Recorder:
             self._connections[key] = (
                 connection(0, topic, header),
                 header,
-            )  # held, so that its id stays its own
+            )  # kept alive, so that its id is not reused
         data = type(message)._encode(message)
         if self.options.repeat_latched and header.get("latching") == "1":
             self._latched[key] = data
@@ -298,7 +298,7 @@ class Recorder:
             self.dropped += 1
 
     def _drain(self) -> None:
-        """Write what is queued, once the file is open: the Master may take its time for each topic before that."""
+        """Write the queued messages once the file is open; the Master may take time for each topic before that."""
         self._draining = False
         if self._files is None or self._files.bag is None:
             return
@@ -328,7 +328,7 @@ class Recorder:
         bag.write_raw(number, time, data)
 
     def _keep_safe(self) -> None:
-        """Flush the file within a second of wall time; in simulated time at the next message after one."""
+        """Flush the file within a second of wall-clock time; in simulated time at the next message after a second."""
         scheduler, bag = self.node.scheduler, None if self._files is None else self._files.bag
         now = scheduler.now_ns()
         if bag is None or self._sync_due:
@@ -381,9 +381,9 @@ class Recorder:
         self.node.shutdown(f"the recording ended: {error}")
 
     def stop(self) -> list[Path]:
-        """End the recording, and its node; return the bags.
+        """Stop the recording and its node; return the bags.
 
-        Raises ``BagFull`` or ``OSError`` if the last one could not be written to its end.
+        Raises ``BagFull`` or ``OSError`` if the last bag could not be written completely.
         """
         error = self.error
         self.node.shutdown("the recording ended")
@@ -392,7 +392,7 @@ class Recorder:
         return self.paths
 
     def _finish(self) -> None:
-        """Write what is queued and close the bag."""
+        """Write the queued messages and close the bag."""
         if self._ended:
             return
         if self._queue:
@@ -416,7 +416,7 @@ class Recorder:
             self._queue.clear()
 
     def _told(self, error: BagFull | OSError) -> None:
-        """Note and log why the end of the recording is incomplete, unless an error was logged already."""
+        """Store and log why the end of the recording is missing, unless an error was logged already."""
         if self.error is None:
             self.error = error
             self.node.logerr(error)

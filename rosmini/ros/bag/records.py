@@ -1,10 +1,10 @@
 """The bytes of a ROS bag, version 2.0 (http://wiki.ros.org/Bags/Format/2.0): records, their headers, compression.
 
-A record is a header and data, each after its length. A header is a row of ``name=value`` fields, each after its length.
+A record is a header and data, each preceded by its length. A header is a list of ``name=value`` fields, each likewise.
 
-rosbags reads and writes bags, too, and the tests hold ours against it. It cannot be what stands here: it keeps of a
-connection header only the fields that it knows, opens no bag without an index, and writes a chunk's file only at the
-end of the chunk.
+The package rosbags also reads and writes bags, and the tests compare ours with it. It cannot replace this module: it
+keeps only the connection header fields that it knows, opens no bag without an index, and writes a chunk to the file
+only when it is complete.
 """
 
 from __future__ import annotations
@@ -31,31 +31,31 @@ if TYPE_CHECKING:
 
 MAGIC = b"#ROSBAG V2.0\n"
 HEADER_ROOM = 4096
-"""The length of header and padding of the first record, which is rewritten when the bag is closed [bytes]."""
+"""Length of header and padding of the first record, which is rewritten when the bag is closed [bytes]."""
 
 OP_MESSAGE, OP_BAG_HEADER, OP_INDEX, OP_CHUNK, OP_CHUNK_INFO, OP_CONNECTION = 2, 3, 4, 5, 6, 7
 MESSAGE_MARK = b"\x04\x00\x00\x00op=\x02"
 """The field that distinguishes a message's header from a connection's."""
 
 LONGEST_HEADER = 16 * 1024 * 1024
-"""The longest header of a record: a length beyond it is damage [bytes]."""
+"""Maximum length of a record header [bytes]; a greater length means damage."""
 LONGEST_CHUNK = 2**27
-"""The longest that a compressed chunk may be when unpacked [bytes]: a file of a few kilobytes may claim anything."""
+"""Maximum length of a decompressed chunk [bytes]; a file of a few kilobytes may claim any length."""
 TRUSTED_CHUNK = 2**24
-"""From this length on a chunk may be no longer than `RATIO` times its compressed form [bytes]."""
+"""Length from which a chunk may be at most `RATIO` times as long as its compressed form [bytes]."""
 RATIO = 2000
 FAR = 2**32
-"""From this position on the end of the file is checked first: systems refuse to seek too far beyond it."""
+"""Position from which the end of the file is checked first [bytes]; systems refuse to seek too far past it."""
 PIECE = 1024 * 1024
-"""The most that is asked of the disk, or of a decompressor, without knowing that it is there [bytes]."""
+"""Maximum read from the disk or a decompressor before it is known that so much data exists [bytes]."""
 
 NSECS = 1_000_000_000
 LATEST = 2**32 * NSECS - 1
-"""The last time that ROS can write [ns]."""
+"""Latest time that ROS can write [ns]."""
 
 
 class Compression:
-    """How chunks can be compressed."""
+    """Available compressions of chunks."""
 
     NONE = "none"
     BZ2 = "bz2"
@@ -75,7 +75,7 @@ class Truncated(ROSBagFormatException):
 
 
 class Record(NamedTuple):
-    """Where a record is and what its header says; the data is still in the file."""
+    """Position and header fields of a record; its data is still in the file."""
 
     position: int
     fields: dict[str, bytes]
@@ -84,17 +84,17 @@ class Record(NamedTuple):
 
     @property
     def op(self) -> int:
-        """What kind of record it is."""
+        """Kind of the record (op code)."""
         return self.fields["op"][0]
 
     @property
     def end(self) -> int:
-        """Where the next record begins."""
+        """Position of the next record."""
         return self.data_position + self.data_length
 
 
 def pack_fields(fields: Mapping[str, bytes]) -> bytes:
-    """Return the bytes of header fields, without a length before them."""
+    """Return the bytes of header fields, without a leading length."""
     parts = []
     for name, value in fields.items():
         entry = name.encode() + b"=" + value
@@ -103,7 +103,7 @@ def pack_fields(fields: Mapping[str, bytes]) -> bytes:
 
 
 def parse_fields(header: bytes, where: str) -> dict[str, bytes]:
-    """Return the fields of a header. Raises ``ROSBagFormatException``, which says ``where``, if it is none."""
+    """Return the fields of a header. Raises ``ROSBagFormatException``, which names ``where``, for an invalid header."""
     fields: dict[str, bytes] = {}
     at, end = 0, len(header)
     while at < end:
@@ -126,13 +126,13 @@ def pack_record(fields: Mapping[str, bytes], data: bytes = b"") -> bytes:
 
 
 def record_start(fields: Mapping[str, bytes], length: int) -> bytes:
-    """Return the bytes of a record up to its data, which have this length."""
+    """Return the bytes of a record up to its data, which has this length."""
     header = pack_fields(fields)
     return b"".join((u32.pack(len(header)), header, u32.pack(length)))
 
 
 def read_exactly(file: BinaryIO, length: int, what: str) -> bytes:
-    """Read ``length`` bytes. Raises ``Truncated`` if there are fewer, before memory is taken for them."""
+    """Read ``length`` bytes. Raises ``Truncated`` before allocating memory if there are fewer."""
     data = b"" if length > PIECE and length > _left(file) else file.read(length)
     if len(data) < length:
         raise Truncated(
@@ -142,7 +142,7 @@ def read_exactly(file: BinaryIO, length: int, what: str) -> bytes:
 
 
 def _left(file: BinaryIO) -> int:
-    """Return how many bytes the file has from here on."""
+    """Return the number of bytes from the current position to the end of the file."""
     here = file.tell()
     end = file.seek(0, os.SEEK_END)
     file.seek(here)
@@ -152,7 +152,7 @@ def _left(file: BinaryIO) -> int:
 def read_record(file: BinaryIO, position: int) -> Record | None:
     """Read the header of the record at ``position``; None at the end of the file.
 
-    Raises ``Truncated`` if the file ends in it, ``ROSBagFormatException`` if it is no record.
+    Raises ``Truncated`` if the file ends within it, ``ROSBagFormatException`` if it is not a record.
     """
     where = f"the record at byte {position}"
     if position > FAR and position >= file.seek(0, os.SEEK_END):
@@ -176,7 +176,7 @@ def read_record(file: BinaryIO, position: int) -> Record | None:
 
 
 def field(record: Record, name: str, layout: struct.Struct) -> int:
-    """Return a number in a record's header. Raises ``ROSBagFormatException`` if it is not there."""
+    """Return a number from a record's header. Raises ``ROSBagFormatException`` if it is missing."""
     value = record.fields.get(name)
     if value is None or len(value) != layout.size:
         raise ROSBagFormatException(
@@ -186,7 +186,7 @@ def field(record: Record, name: str, layout: struct.Struct) -> int:
 
 
 def time_field(record: Record, name: str) -> int:
-    """Return a time in a record's header [ns]. Raises ``ROSBagFormatException`` if it is none that ROS can write."""
+    """Return a time from a record's header [ns]. Raises ``ROSBagFormatException`` if ROS could not have written it."""
     packed = field(record, name, u64)
     time = (packed & 0xFFFFFFFF) * NSECS + (packed >> 32)
     if time > LATEST:
@@ -197,18 +197,18 @@ def time_field(record: Record, name: str) -> int:
 
 
 def pack_time(nanoseconds: int) -> bytes:
-    """Return a time as a bag holds it."""
+    """Return a time as stored in a bag."""
     return stamp.pack(*divmod(nanoseconds, NSECS))
 
 
 def compress(data: bytes, compression: str) -> bytes:
-    """Return a chunk's data as it is in the file."""
+    """Return a chunk's data as stored in the file."""
     if compression == Compression.BZ2:
         return bz2.compress(data)
     if compression == Compression.LZ4:
         import lz4.frame
 
-        # The one form that ROS's own reader takes: blocks that stand alone, with a sum over the content.
+        # The only form that ROS's reader accepts: independent blocks, with a checksum over the content.
         packed: bytes = lz4.frame.compress(
             data,
             block_size=lz4.frame.BLOCKSIZE_MAX4MB,
@@ -229,14 +229,14 @@ def _decompressor(compression: str) -> Any:
 
 
 def most_unpacked(packed: int) -> int:
-    """Return how many bytes may become of a compressed chunk of ``packed`` bytes."""
+    """Return the maximum decompressed size of a chunk of ``packed`` bytes."""
     return min(LONGEST_CHUNK, max(TRUSTED_CHUNK, RATIO * packed))
 
 
 def _unpack(data: bytes, compression: str, most: int, saved: io.BytesIO) -> None:
-    """Unpack data into ``saved`` and stop when it holds ``most`` bytes.
+    """Decompress data into ``saved`` and stop once it holds ``most`` bytes.
 
-    Raises what the decompressor raises at damage.
+    Raises the decompressor's errors on damage.
     """
     decompressor = _decompressor(compression)
     for start in range(0, len(data), PIECE):
@@ -249,7 +249,7 @@ def _unpack(data: bytes, compression: str, most: int, saved: io.BytesIO) -> None
 
 
 def check_unpacked(size: int, packed: int, compression: str, position: int) -> None:
-    """Raise ``ROSBagFormatException`` if a chunk of ``packed`` bytes claims to hold too many."""
+    """Raise ``ROSBagFormatException`` if a chunk of ``packed`` bytes claims an implausible size."""
     if size > most_unpacked(packed):
         raise ROSBagFormatException(
             f"the {compression} chunk at byte {position} has {packed:,} bytes and claims to hold {size:,}; at most "
@@ -258,10 +258,10 @@ def check_unpacked(size: int, packed: int, compression: str, position: int) -> N
 
 
 def decompress(data: bytes, compression: str, size: int, position: int) -> bytes:
-    """Return a chunk's data, of which no more than ``size`` bytes are unpacked.
+    """Return a chunk's data, decompressing at most ``size`` bytes.
 
-    Raises ``ROSBagFormatException`` if it is damaged or would be too large, ``ROSBagException`` if it is compressed in
-    an unknown way.
+    Raises ``ROSBagFormatException`` if it is damaged or would be too large, ``ROSBagException`` if the compression is
+    unknown.
     """
     if compression not in COMPRESSIONS:
         raise ROSBagException(
@@ -288,7 +288,7 @@ def decompress(data: bytes, compression: str, size: int, position: int) -> bytes
 
 
 def rescue(data: bytes, compression: str, most: int) -> bytes:
-    """Return what can be recovered of a chunk that was cut off, up to a number of bytes."""
+    """Return the data that can be recovered from a truncated chunk, up to a number of bytes."""
     if compression == Compression.NONE:
         return data[:most]
     if compression not in COMPRESSIONS:
@@ -302,14 +302,14 @@ def rescue(data: bytes, compression: str, most: int) -> bytes:
 
 
 def check_compression(compression: str) -> str:
-    """Return ``compression`` if there is such a one. Raises ``UnknownCompression`` otherwise."""
+    """Return ``compression`` if it exists. Raises ``UnknownCompression`` otherwise."""
     if compression not in COMPRESSIONS:
         raise UnknownCompression(f"no compression {shown(compression)}: use one of {', '.join(COMPRESSIONS)}")
     return compression
 
 
 def check_threshold(size: Any) -> int:
-    """Return ``size`` if it is a number of bytes. Raises ``ValueError`` otherwise."""
+    """Return ``size`` if it is a valid number of bytes. Raises ``ValueError`` otherwise."""
     if not isinstance(size, int) or size < 0:
         raise ValueError(f"chunk_threshold must be a number of bytes, not {shown(size)}")
     return size
@@ -318,8 +318,8 @@ def check_threshold(size: Any) -> int:
 def check_magic(file: BinaryIO, name: str) -> int:
     """Go to the first record and return the version of the format, 200 for 2.0.
 
-    As ROS's own reader, this takes a bag of any version 2 for one of 2.0. Raises ``ROSBagFormatException`` if ``file``
-    is no such bag.
+    Like ROS's reader, this treats a bag of any version 2 as 2.0. Raises ``ROSBagFormatException`` if ``file`` is not
+    such a bag.
     """
     file.seek(0)
     start = file.read(len(MAGIC))

@@ -1,4 +1,4 @@
-"""Reading a bag that has no index: from the front, record by record, as far as it goes."""
+"""Reading a bag without an index: record by record from the start, as far as possible."""
 
 from __future__ import annotations
 
@@ -40,17 +40,17 @@ if TYPE_CHECKING:
 
 _CHUNK_MARK = b"\x04\x00\x00\x00op=" + bytes([OP_CHUNK])
 _BEFORE_MARK = (4, *{8 + len(f"compression={name}") for name in COMPRESSIONS})
-"""How many bytes of a chunk's header precede the mark: its length, or the compression too."""
+"""Number of bytes of a chunk's header before the mark: its length, or the compression too."""
 
 MOST_RESCUED = 64 * 1024 * 1024
-"""How much of truncated chunks is kept in memory [bytes]: an aborted recording has one, of about a megabyte."""
+"""Maximum data of truncated chunks kept in memory [bytes]; an aborted recording has one chunk of about a megabyte."""
 
 
 @dataclass
 class Scan:
-    """What was found: an index of all that can be read, and what is wrong with the rest.
+    """Result of a scan: an index of all readable data, and the problems with the rest.
 
-    A chunk that was cut off is not in the index; ``tail`` has its messages: (connection, time [ns], data).
+    A truncated chunk is not in the index; ``tail`` has its messages: (connection, time [ns], data).
     """
 
     name: str
@@ -58,17 +58,17 @@ class Scan:
     tail: list[tuple[Connection, int, bytes]] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     end: int = 0
-    """Where the last whole chunk, with the index data behind it, ends."""
+    """End of the last whole chunk and its index data."""
     room: int = MOST_RESCUED
-    """How many more bytes of chunks that were cut off are taken."""
+    """Number of bytes of truncated chunks that may still be kept."""
     bare: Chunk | None = None
-    """The last whole chunk, if the index data behind it is not: then ``end`` is before that data."""
+    """The last whole chunk, if its index data is incomplete: then ``end`` is before that data."""
 
 
 def scan(file: BinaryIO, name: str) -> Scan:
     """Read all records of a bag.
 
-    Raises only if the file is no bag, is encrypted, or is damaged from its first record on.
+    Raises only if the file is not a bag, is encrypted, or is damaged from its first record on.
     """
     check_magic(file, name)
     found = Scan(name, end=len(MAGIC))
@@ -98,24 +98,24 @@ def scan(file: BinaryIO, name: str) -> Scan:
                     found.end, found.bare = record.end, chunk
                     found.problems.append(f"the file ends behind the chunk at byte {record.position}")
                 else:
-                    # A reader needs the index data: the messages are written again.
+                    # A reader needs the index data, so the messages are written again.
                     found.index.chunks.remove(chunk)
                     _rescue(read_data(file, record, "a chunk"), chunk.size, chunk.compression, found)
                     found.problems.append(f"no index data behind the chunk at byte {record.position}")
         except ROSBagFormatException as error:
             if here == len(MAGIC):
-                raise  # to go on from here would be to throw everything away
+                raise  # continuing here would discard everything
             found.problems.append(str(error))
             position = _next_chunk(file, here + 1)
     return found
 
 
 def _next_chunk(file: BinaryIO, position: int) -> int | None:
-    """Return where the next whole chunk begins from ``position`` on, behind damage; None if there is none."""
+    """Return the position of the next whole chunk at or after ``position``, past damage; None if not found."""
     size = file.seek(0, 2)
     for start in range(position, size, PIECE):
         file.seek(start)
-        piece = file.read(PIECE + len(_CHUNK_MARK) - 1)  # a mark may lie across two pieces
+        piece = file.read(PIECE + len(_CHUNK_MARK) - 1)  # a mark may span two pieces
         at = -1
         while (at := piece.find(_CHUNK_MARK, at + 1)) >= 0:
             for before in _BEFORE_MARK:
@@ -129,13 +129,13 @@ def _next_chunk(file: BinaryIO, position: int) -> int | None:
 
 
 def _is_open(file: BinaryIO, record: Record) -> bool:
-    """Return whether a chunk was never finished: its length is not filled in yet, or the file ends within it."""
+    """Return True if a chunk was never finished: its length is not filled in, or the file ends within it."""
     file.seek(0, 2)
     return record.end > file.tell() or record.data_length == 0
 
 
 def _after_index(file: BinaryIO, position: int) -> tuple[int, int]:
-    """Return where the index data behind a chunk ends, and of how many records it is, as far as it is whole."""
+    """Return the end of the index data after a chunk and its number of records, as far as it is whole."""
     file.seek(0, 2)
     size, records = file.tell(), 0
     while True:
@@ -149,7 +149,7 @@ def _after_index(file: BinaryIO, position: int) -> tuple[int, int]:
 
 
 def _take_chunk(file: BinaryIO, record: Record, found: Scan) -> Chunk | None:
-    """Take a whole chunk and return it; None if there is no message in it, or it is damaged."""
+    """Add a whole chunk and return it; None if it has no messages or is damaged."""
     compression = record.fields.get("compression", b"").decode("utf-8", "replace")
     chunk = Chunk(
         record.position,
@@ -183,7 +183,7 @@ def _take_chunk(file: BinaryIO, record: Record, found: Scan) -> Chunk | None:
 
 
 def _take_tail(file: BinaryIO, record: Record, found: Scan) -> None:
-    """Take what can be had of the chunk that was being written."""
+    """Take the recoverable messages of the chunk that was being written."""
     compression = record.fields.get("compression", b"").decode("utf-8", "replace")
     there = max(file.seek(0, 2) - record.data_position, 0)
     file.seek(record.data_position)
@@ -194,7 +194,7 @@ def _take_tail(file: BinaryIO, record: Record, found: Scan) -> None:
 
 
 def _rescue(packed: bytes, size: int, compression: str, found: Scan) -> None:
-    """Take the messages of a chunk that is not whole, as far as they go; ``size`` is 0 until a chunk is finished."""
+    """Take the messages of an incomplete chunk, as far as possible; ``size`` is 0 until a chunk is finished."""
     data = rescue(packed, compression, min(size or found.room, found.room))
     found.room -= len(data)
     found.tail += _tail_messages(data, found)
@@ -206,9 +206,9 @@ def _tail_messages(data: bytes, found: Scan) -> Iterator[tuple[Connection, int, 
 
 
 def _messages(data: bytes, found: Scan) -> Iterator[tuple[int, int, int, bytes]]:
-    """Yield (offset, connection, time [ns], message) of a chunk's data, up to where it is cut off.
+    """Yield (offset, connection, time [ns], message) from a chunk's data, up to where it is truncated.
 
-    Learn of connections.
+    Adds the connections found.
     """
     index = found.index
     at, size = 0, len(data)

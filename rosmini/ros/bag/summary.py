@@ -1,4 +1,4 @@
-"""A summary of a bag from its index, as ``rosbag.Bag`` gives it, and the tuples in which it answers."""
+"""Summary of a bag from its index, as ``rosbag.Bag`` provides it, and the tuples it returns."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class BagMessage(NamedTuple):
-    """What :meth:`Bag.read_messages` yields."""
+    """Item yielded by :meth:`Bag.read_messages`."""
 
     topic: str
     message: Any
@@ -32,7 +32,7 @@ class BagMessage(NamedTuple):
 
 
 class BagMessageWithConnectionHeader(NamedTuple):
-    """What :meth:`Bag.read_messages` yields with ``return_connection_header``; the header's values are bytes."""
+    """Item yielded by :meth:`Bag.read_messages` with ``return_connection_header``; the header's values are bytes."""
 
     topic: str
     message: Any
@@ -41,7 +41,7 @@ class BagMessageWithConnectionHeader(NamedTuple):
 
 
 class CompressionTuple(NamedTuple):
-    """How most chunks are compressed, and how many bytes all are without and with it."""
+    """Compression of most chunks, and the total number of bytes without and with compression."""
 
     compression: str
     uncompressed: int
@@ -49,7 +49,7 @@ class CompressionTuple(NamedTuple):
 
 
 class TopicTuple(NamedTuple):
-    """A topic of a bag; ``frequency`` is one over the median period [Hz], None if there is none."""
+    """Summary of a topic; ``frequency`` is one over the median period [Hz], or None if unknown."""
 
     msg_type: str
     message_count: int
@@ -65,7 +65,7 @@ class TypesAndTopicsTuple(NamedTuple):
 
 
 class Summaries(Protocol):
-    """The methods of a bag that only look into it or show it, and what they need of it."""
+    """Methods of a bag that only inspect or display it, and the attributes that they need."""
 
     _types: Types
 
@@ -73,15 +73,15 @@ class Summaries(Protocol):
     def _name(self) -> str: ...
     @property
     def filename(self) -> str | None:
-        """The file's path."""
+        """Path of the file."""
 
     @property
     def version(self) -> int:
-        """The version of the format, 200 for 2.0."""
+        """Version of the format: 200 for 2.0."""
 
     @property
     def size(self) -> int:
-        """How long the file is [bytes]."""
+        """Length of the file [bytes]."""
 
     @property
     def index(self) -> Index:
@@ -89,19 +89,19 @@ class Summaries(Protocol):
 
     @property
     def compression(self) -> str:
-        """How chunks are compressed that are written from now on."""
+        """Compression of the chunks written from now on."""
 
     def reader(self) -> Reader:
-        """Return what reads the bag's bytes."""
+        """Return the reader of the bag."""
 
     def connections(
         self,
         topics: str | Iterable[str] | None = None,
         connection_filter: ConnectionFilter | None = None,
     ) -> list[Connection]:
-        """Return the connections of one topic, some, or all.
+        """Return the connections of one, several or all topics.
 
-        ``connection_filter(topic, type, md5, definition, header)`` chooses among them.
+        ``connection_filter(topic, type, md5, definition, header)`` selects among them.
         """
         if isinstance(topics, str):
             topics = [topics]
@@ -137,21 +137,21 @@ class Summaries(Protocol):
         return ROSBagException(f"{self._name} has no topic {topic}: {hint}")
 
     def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
-        """Return how many messages there are, on one topic, some, or all."""
+        """Return the number of messages on one, several or all topics."""
         if topic_filters is None:
             return self.index.messages
         return sum(self.index.count(found.id) for found in self.connections(topic_filters))
 
     def get_start_time(self) -> float:
-        """Return when the first message was recorded [s]. Raises ``ROSBagException`` if there is none."""
+        """Return the time of the first message [s]. Raises ``ROSBagException`` for an empty bag."""
         return _time(self.index.start)
 
     def get_end_time(self) -> float:
-        """Return when the last message was recorded [s]. Raises ``ROSBagException`` if there is none."""
+        """Return the time of the last message [s]. Raises ``ROSBagException`` for an empty bag."""
         return _time(self.index.end)
 
     def get_compression_info(self) -> CompressionTuple:
-        """Return how most chunks are compressed, and their bytes without and with it."""
+        """Return the compression of most chunks, and the number of bytes without and with it."""
         chunks = self.index.chunks
         ranked = sorted(
             ((count, name) for name, count in Counter(chunk.compression for chunk in chunks).items()),
@@ -164,7 +164,7 @@ class Summaries(Protocol):
         )
 
     def get_type_and_topic_info(self, topic_filters: str | list[str] | None = None) -> TypesAndTopicsTuple:
-        """Return the types, and what there is of one topic, some, or all."""
+        """Return the types, and the summaries of one, several or all topics."""
         return TypesAndTopicsTuple(self.md5sums(), self.topics(topic_filters))
 
     def md5sums(self) -> dict[str, str]:
@@ -177,7 +177,7 @@ class Summaries(Protocol):
     def topics(
         self, topic_filters: str | list[str] | None = None, *, freq: bool = True
     ) -> dict[str, TopicTuple]:
-        """Return what there is of one topic, some, or all, by name; frequencies cost a look at all index data."""
+        """Return the summaries of one, several or all topics by name; frequencies require reading all index data."""
         reader = self.reader()
         topics = {}
         for topic in sorted({found.topic for found in self.connections(topic_filters)}):
@@ -189,27 +189,27 @@ class Summaries(Protocol):
         return topics
 
     def show(self, **options: Any) -> Any:
-        """Return a picture of what is in the bag over time, as the tool ``rqt_bag`` draws it.
+        """Return a picture of the bag's messages over time, like that of ``rqt_bag``.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             topics=None: only these topics; None: all
             gap=3.0: a pause is a gap if it is this many times the usual one, and a hundredth of the bag
             title=None: a caption under the picture, and the first words of its text form
-            width=660.0: of the picture [CSS px]
+            width=660.0: width of the picture [CSS px]
         """
         from rosmini.core.graph.show import show
 
         return show("bag", self, **options)
 
     def replay(self, **options: Any) -> Any:
-        """Return a player of what is in the bag, from above: robots, maps, plans, particles, scans, markers.
+        """Return a player that shows the bag from above: robots, maps, plans, particles, scans, markers.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             title=None: a caption under the player, and the first words of its text form
             names=None: a list with the run's name
             topics=None: only these topics; None: all that can be shown
-            frame=None: what everything is drawn in; None: map, odom or world, whichever there is first
-            robot=None: what robots look like from above: a model or its name; None: an arrow head
+            frame=None: frame in which everything is drawn; None: map, odom or world, the first that exists
+            robot=None: appearance of robots from above: a model or its name; None: an arrow head
         """
         from rosmini.core.graph.show import show
 
@@ -218,7 +218,7 @@ class Summaries(Protocol):
 
 def _frequency(reader: Reader, connections: Iterable[Connection]) -> float | None:
     """Return one over the median period [Hz]; None for fewer than two messages, or all at one time."""
-    # to_sec(), as in ROS: the last bit of a float shows where messages lie microseconds apart
+    # to_sec(), as in ROS: the last bit of a float shows if messages are microseconds apart
     stamps = sorted(Time.from_nsec(stamp).to_sec() for conn in connections for stamp in reader.times(conn.id))
     periods = sorted(after - before for before, after in pairwise(stamps))
     if not periods:

@@ -1,4 +1,4 @@
-"""A topic of a bag as a table: one row for each message, one column for each number or text in it."""
+"""A topic of a bag as a table: one row per message, one column per number or text in it."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ import numpy as np
 from rosmini.core.time import TVal
 
 TIME = "time"
-"""The column with the times at which messages were recorded [s]."""
+"""Name of the column with the recording times of messages [s]."""
 
 
 class Table(dict[str, Any]):
-    """Columns by name, all of one length, in the order of the fields: ``pandas.DataFrame(table)`` is a data frame.
+    """Columns by name, of equal length, in the order of the fields: ``pandas.DataFrame(table)`` is a data frame.
 
-    Columns of numbers are numpy arrays; those of texts and of arrays (``ranges`` of a scan) are lists with one entry
-    for each message.
+    Columns of numbers are numpy arrays; columns of texts and of arrays (``ranges`` of a scan) are lists with one entry
+    per message.
     """
 
     @property
     def rows(self) -> int:
-        """How many messages there are."""
+        """Number of messages."""
         return len(self[TIME]) if TIME in self else 0
 
     def __repr__(self) -> str:
@@ -30,10 +30,10 @@ class Table(dict[str, Any]):
 
 
 def table(cls: Any, messages: Iterable[tuple[str, Any, TVal]]) -> Table:
-    """Return messages of one class, as `Bag.read_messages` yields them, as columns.
+    """Return messages of one class, as yielded by `Bag.read_messages`, as columns.
 
-    Fields in fields are written with dots: ``pose.pose.position.x``; ``header.stamp`` and other times are seconds.
-    ``time`` is when the message was recorded [s]. A message array gives a list column of its messages.
+    Nested fields are written with dots: ``pose.pose.position.x``; ``header.stamp`` and other times are in seconds.
+    ``time`` is when the message was recorded [s]. An array of messages becomes a list column.
     """
     columns: dict[str, list[Any]] = {TIME: []}
     for name in _columns(cls, ""):
@@ -45,7 +45,7 @@ def table(cls: Any, messages: Iterable[tuple[str, Any, TVal]]) -> Table:
 
 
 def _columns(cls: Any, prefix: str) -> list[str]:
-    """Return the columns of a message class, so that a topic without messages has them, too."""
+    """Return the columns of a message class, so that a topic without messages has them too."""
     names: list[str] = []
     for field in cls._spec.fields:
         name = prefix + field.name
@@ -65,7 +65,7 @@ def _fill(columns: dict[str, list[Any]], message: Any, prefix: str) -> None:
 
 
 def _packed(values: list[Any]) -> Any:
-    """Return numbers as an array, anything else as the list that it is."""
+    """Return numbers as an array, anything else as a list."""
     if values and all(isinstance(value, bool | int | float) for value in values):
         return np.array(values)
     return values

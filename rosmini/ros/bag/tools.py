@@ -1,6 +1,6 @@
-"""What ``rosbag`` does to whole bags: filter, merge, compress, reindex, check.
+"""Operations of ``rosbag`` on whole bags: filter, merge, compress, reindex, check.
 
-Connections keep their headers to the byte.
+Connection headers are kept byte for byte.
 """
 
 from __future__ import annotations
@@ -26,21 +26,21 @@ if TYPE_CHECKING:
 
 
 class Copied(NamedTuple):
-    """How many messages were written, and of how many."""
+    """Number of messages written, and the total number."""
 
     written: int
     total: int
 
 
 class Reindexed(NamedTuple):
-    """How many messages a bag has after reindexing, and what was wrong with it."""
+    """Number of messages in a bag after reindexing, and its problems."""
 
     messages: int
     problems: list[str]
 
 
 class TypeChange(NamedTuple):
-    """A type whose md5 sum in the bag, ``md5sum``, is not that of this system, ``local`` (None: unknown here)."""
+    """A type whose md5 sum in the bag, ``md5sum``, differs from this system's, ``local`` (None: unknown here)."""
 
     type: str
     md5sum: str
@@ -60,7 +60,7 @@ def copy_messages(
     target: Bag,
     keep: Callable[[RawMessage], object] | None = None,
 ) -> Copied:
-    """Write messages of other bags into ``target``, those that ``keep`` accepts."""
+    """Write the messages of other bags that ``keep`` accepts into ``target``."""
     written = total = 0
     for message in messages:
         total += 1
@@ -71,7 +71,7 @@ def copy_messages(
 
 
 def two_files(source: PathLike, target: PathLike) -> None:
-    """Raise ``ROSBagException`` if a bag would be written over itself."""
+    """Raise ``ROSBagException`` if a bag would overwrite itself."""
     if Path(source).resolve() == Path(target).resolve():
         raise ROSBagException(f"Cannot use same file as input and output [{os.fspath(source)}]")
 
@@ -85,9 +85,9 @@ def filter_bag(
 ) -> Copied:
     """Write the messages of ``source`` for which an expression of ``topic``, ``m`` and ``t`` is true to ``target``.
 
-    The expression is text, confined as :mod:`rosmini.ros.bag.expressions` says, or a function. ``tell(kept, topic, m,
+    The expression is text, restricted as in :mod:`rosmini.ros.bag.expressions`, or a function. ``tell(kept, topic, m,
     t)``
-    hears of each. Raises ``FilterError`` for an expression that is not allowed or fails; ``target`` is not there then.
+    is called for each message. Raises ``FilterError``, without writing ``target``, for an expression that fails.
     """
     two_files(source, target)
     chosen = compile_expression(expression) if isinstance(expression, str) else expression
@@ -108,7 +108,7 @@ def filter_bag(
 def write_whole(
     target: PathLike, fill: Callable[[Bag], Copied], compression: str = Compression.NONE
 ) -> Copied:
-    """Return what ``fill`` says of a new bag. If it fails, there is no new bag."""
+    """Write a new bag with ``fill`` and return its result; remove the bag if it fails."""
     part = Path(f"{os.fspath(target)}.part")
     try:
         with Bag(part, "w", compression) as outbag:
@@ -120,7 +120,7 @@ def write_whole(
 
 
 def merge(sources: Iterable[PathLike], target: PathLike, *, compression: str = Compression.NONE) -> Copied:
-    """Write the messages of several bags to one, in the order of time. Connections with the same header become one."""
+    """Write the messages of several bags to one, in time order; connections with the same header become one."""
     from heapq import merge as merged
 
     sources = list(sources)
@@ -138,7 +138,7 @@ def merge(sources: Iterable[PathLike], target: PathLike, *, compression: str = C
 
 
 def recompress(source: PathLike, target: PathLike, compression: str = Compression.BZ2) -> Copied:
-    """Write the messages of ``source`` to ``target`` with another compression ("none": without)."""
+    """Write the messages of ``source`` to ``target`` with another compression ("none": uncompressed)."""
     two_files(source, target)
     with Bag(source) as inbag:
         return write_whole(target, lambda outbag: copy_messages(inbag.read_raw(), outbag), compression)
@@ -147,9 +147,9 @@ def recompress(source: PathLike, target: PathLike, compression: str = Compressio
 def reindex(path: PathLike) -> Reindexed:
     """Make a new index for a bag, in place.
 
-    What of it is cut off or damaged at its end is left out, everything else is kept.
+    Truncated or damaged data at its end is dropped, everything else is kept.
 
-    Raises ``ROSBagException`` if the file is no bag, or is encrypted.
+    Raises ``ROSBagException`` if the file is not a bag, or is encrypted.
     """
     with Bag(path, "a", allow_unindexed=True) as bag:
         problems = bag.problems
@@ -158,7 +158,7 @@ def reindex(path: PathLike) -> Reindexed:
 
 
 def changed_types(bag: Bag) -> list[TypeChange]:
-    """Return the types in a bag that are other ones here, sorted."""
+    """Return the types in a bag that differ from this system's, sorted."""
     return sorted(_changes(bag), key=lambda change: (change.type, change.md5sum))
 
 

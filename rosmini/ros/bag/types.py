@@ -1,4 +1,4 @@
-"""Message classes for a bag: this system's where it is the same, else one made from the bag's definition."""
+"""Message classes for a bag: this system's class if it is the same, otherwise one made from the bag's definition."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Types:
-    """Gives the connections of a bag their message classes; each is made once. ``name`` is the file's, for errors."""
+    """Provides the message class of each connection, made once; ``name`` is the file's name in errors."""
 
     def __init__(self, name: str) -> None:
         self._name = name
@@ -25,7 +25,7 @@ class Types:
     def of(self, connection: Connection) -> Any:
         """Return the class of a connection's messages.
 
-        Raises ``ROSBagFormatException`` if the type is not known here and the definition in the bag is broken.
+        Raises ``ROSBagFormatException`` if the type is unknown here and the definition in the bag is invalid.
         """
         key = (connection.type, connection.md5sum)
         found = self._made.get(key)
@@ -39,7 +39,7 @@ class Types:
 
 
 def local_class(connection: Connection) -> Any:
-    """Return the class of this name on this system, whatever its definition; None if there is none."""
+    """Return this system's class of this name, whatever its definition; None if the type is unknown."""
     try:
         return message_class(connection.type)
     except (UnknownType, UnknownPackage, DefinitionError):
@@ -47,7 +47,7 @@ def local_class(connection: Connection) -> Any:
 
 
 def recorded_class(connection: Connection) -> Any:
-    """Return the class that the definition in the bag describes. Raises ``ROSBagFormatException`` if that is broken."""
+    """Return a class made from the definition in the bag. Raises ``ROSBagFormatException`` if that is invalid."""
     try:
         return class_from(connection.type, connection.definition)
     except (UnknownType, UnknownPackage, DefinitionError) as error:
@@ -58,7 +58,7 @@ def recorded_class(connection: Connection) -> Any:
 
 
 def serialized(msg: Any) -> bytes:
-    """Return the bytes of a message, of ours or of real ROS."""
+    """Return the bytes of a message of rosmini or of real ROS."""
     if hasattr(type(msg), "_encode"):
         return type(msg)._encode(msg)  # type: ignore[no-any-return]
     buffer = BytesIO()

@@ -1,7 +1,7 @@
-"""Writing a bag: messages are gathered into chunks, each chunk is followed by its index data, the index comes last.
+"""Writing a bag: messages are collected in chunks, each followed by its index data; the index comes last.
 
-A bag is whole at each moment up to its last flush: if the power goes, ``rosbag reindex`` finds everything that was
-flushed. If the disk is full, as many of the messages at hand as fit are written, with an index, so that no bag is left
+A bag is always intact up to its last flush: after a power failure, ``rosbag reindex`` finds everything that was
+flushed. If the disk is full, as many pending messages as fit are written, with an index, so that no bag is left
 without one.
 """
 
@@ -37,10 +37,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 CHUNK_THRESHOLD = 768 * 1024
-"""From this size on a chunk is closed [bytes]."""
+"""Size at which a chunk is closed [bytes]."""
 
 LARGE = 64 * 1024
-"""Parts of a chunk from this size on are written as they are [bytes]."""
+"""Minimum size of parts of a chunk that are written without joining [bytes]."""
 
 Entry = tuple[int, int, bytes, bytes]
 """A record of an open chunk: connection (-1: it describes one), time [ns], and its bytes in two parts."""
@@ -49,13 +49,13 @@ FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 
 class Writer:
-    """Writes a bag into an open file, at its end.
+    """Writes a bag at the end of an open file.
 
     Args:
-        file: open for reading and writing; it stays the caller's to close.
-        name: the file's name, for messages.
-        index: what is in the bag already, in front of ``position``; a new bag without it.
-        position: where the writer goes on.
+        file: open for reading and writing; the caller closes it.
+        name: name of the file in messages.
+        index: contents of the bag before ``position``; omitted for a new bag.
+        position: where the writer continues.
 
     """
 
@@ -77,7 +77,7 @@ class Writer:
         self.closed = False
         self._prefixes: dict[int, bytes] = {}
         self._records: list[Entry] = []
-        """The open chunk."""
+        """Records of the open chunk."""
         self._size = 0
         self._end = 0
         self._described = set(self.index.connections)
@@ -91,7 +91,7 @@ class Writer:
     # -- messages --------------------------------------------------------------------------------------------------
 
     def add(self, connection: Connection) -> Connection:
-        """Learn of a connection, which gets the next number of this bag; return it with that number."""
+        """Add a connection, which gets the next number of this bag; return it with that number."""
         number = len(self.index.connections)
         while number in self.index.connections:
             number += 1
@@ -102,7 +102,7 @@ class Writer:
     def write(self, number: int, nanoseconds: int, data: bytes) -> None:
         """Write a message of the connection ``number``, recorded at a time [ns].
 
-        Raises ``BagFull`` when there is no more room; the bag is closed then, and has an index.
+        Raises ``BagFull`` when there is no more room; the bag is then closed and has an index.
         """
         if self.closed:
             raise ROSBagException(f"{self._name} is closed: no message can be written to it any more")
@@ -123,19 +123,19 @@ class Writer:
             self.flush()
 
     def _begin(self, number: int) -> bytes:
-        """Put a connection's record before its first message; return how the records of its messages begin."""
+        """Write a connection's record before its first message; return the start of its message records."""
         if number not in self._described:
             record = self._connection_record(self.index.connections[number])
             self._records.append((-1, 0, record, b""))
             self._size += len(record)
             self._described.add(number)
         whole = pack_record({"op": bytes([OP_MESSAGE]), "conn": u32.pack(number), "time": b"\0" * 8})
-        prefix = self._prefixes[number] = whole[:-12]  # without time and length of the data
+        prefix = self._prefixes[number] = whole[:-12]  # without the time and length of the data
         return prefix
 
     @property
     def size(self) -> int:
-        """How long the file will be, without the index and what compression saves [bytes]."""
+        """Future length of the file, without the index and before compression [bytes]."""
         return self._position + self._size
 
     # -- chunks ----------------------------------------------------------------------------------------------------
@@ -150,7 +150,7 @@ class Writer:
         return chunk
 
     def sync(self) -> Chunk | None:
-        """Write the open chunk, which stays open and will be written again: what is in it now survives a crash."""
+        """Write the open chunk, so that its messages survive a crash; it stays open and will be written again."""
         if not self._records:
             return None
         try:
@@ -179,7 +179,7 @@ class Writer:
         return chunk
 
     def _put(self, position: int, *parts: bytes) -> None:
-        """Write all parts, one after another, from a position on: a file without a buffer may take less at a time."""
+        """Write all parts in sequence from a position; an unbuffered file may accept less at a time."""
         self._file.seek(position)
         for part in parts:
             rest = memoryview(part)
@@ -193,10 +193,10 @@ class Writer:
         self._position = self._end
 
     def _salvage(self, records: list[Entry], error: OSError) -> BagFull:
-        """Write as many of the messages at hand as fit beside the index, and close the bag."""
+        """Write as many pending messages as fit besides the index, and close the bag."""
         total = self.index.messages + sum(record[0] >= 0 for record in records)
         indexed = self._finish_with_some(records)
-        while not indexed and self.index.chunks:  # there is no room for an index: the last chunk makes some
+        while not indexed and self.index.chunks:  # no room for an index: drop the last chunk
             chunk = self.index.chunks.pop()
             records = self._records_of(chunk)
             self._position = chunk.position
@@ -209,9 +209,9 @@ class Writer:
         )
 
     def _finish_with_some(self, records: list[Entry]) -> bool:
-        """Write half of some records, or a quarter of them and so on, and the index.
+        """Write half of the records, or a quarter and so on, and the index.
 
-        False if there is no room at all.
+        Return False if there is no room at all.
         """
         keep = len(records)
         while keep:
@@ -221,7 +221,7 @@ class Writer:
         return False
 
     def _finish_with(self, records: list[Entry]) -> bool:
-        """Write a last chunk and the index; False, and the file as long as before, if there is no room for them."""
+        """Write a last chunk and the index; if they do not fit, restore the file's length and return False."""
         at, chunks = self._position, len(self.index.chunks)
         self._file.truncate(at)
         try:
@@ -241,7 +241,7 @@ class Writer:
     # -- the end ---------------------------------------------------------------------------------------------------
 
     def close(self) -> None:
-        """Write the open chunk and the index. Raises ``BagFull`` as :meth:`write` does. Harmless when repeated."""
+        """Write the open chunk and the index; may be called repeatedly. Raises ``BagFull`` as :meth:`write` does."""
         if self.closed:
             return
         self.flush()
@@ -273,7 +273,7 @@ class Writer:
         return records
 
     def _write_end(self) -> None:
-        """Write the index behind the last chunk, then where it is into the first record."""
+        """Write the index after the last chunk, then its position into the first record."""
         index = self.index
         parts = [self._connection_record(connection) for connection in index.connections.values()]
         parts += [_chunk_info(chunk) for chunk in index.chunks]
@@ -292,7 +292,7 @@ class Writer:
 
 
 def _gathered(parts: Iterable[bytes]) -> list[bytes]:
-    """The same bytes in few parts: small ones are joined; copying large ones takes longer than a write."""
+    """Return the same bytes in fewer parts: small parts are joined; copying large ones costs more than a write."""
     gathered: list[bytes] = []
     small: list[bytes] = []
     for part in parts:
@@ -305,7 +305,7 @@ def _gathered(parts: Iterable[bytes]) -> list[bytes]:
 
 
 def _fill(chunk: Chunk, records: Iterable[Entry]) -> dict[int, bytes]:
-    """Note times and counts of a chunk's records, and return their packed entries."""
+    """Record times and counts of a chunk's records, and return their packed entries."""
     entries: dict[int, list[tuple[int, int]]] = {}
     packed: dict[int, bytes] = {}
     offset = 0

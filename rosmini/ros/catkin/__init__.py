@@ -1,8 +1,8 @@
-"""catkin, ROS's build system, for packages of scripts and messages (http://wiki.ros.org/catkin).
+"""catkin, ROS's build system, limited to packages of scripts and messages (http://wiki.ros.org/catkin).
 
-A workspace has its packages in ``src``. `create_package` and `init_workspace` make the files that catkin's own tools
-make; `make` reads the ``CMakeLists.txt`` of each package, checks it against the ``package.xml``, makes Python modules
-of messages, services and actions in ``devel``, and what a shell sources to find it all. It compiles no C++.
+A workspace has its packages in ``src``. `create_package` and `init_workspace` create the same files as catkin's
+tools; `make` reads the ``CMakeLists.txt`` of each package, checks it against the ``package.xml``, generates Python
+modules for messages, services and actions in ``devel``, and writes the setup files for shells. It compiles no C++.
 """
 
 from .build import Report, make

@@ -1,4 +1,4 @@
-"""``catkin_make``: checks the packages of a workspace and makes in ``devel`` what is needed to use them."""
+"""``catkin_make``: checks the packages of a workspace and generates the files in ``devel`` needed to use them."""
 
 from __future__ import annotations
 
@@ -25,39 +25,39 @@ from .setup_files import setup_files
 from .workspace import MARKER, TOOL, Workspace, package_folders, python_folder
 
 STATE = "rosmini.json"
-"""The file in the build space that knows what was made of what."""
+"""The file in the build space that records which outputs were made from which inputs."""
 
 RULE = "~" * 49
 
 
 @dataclass
 class Report:
-    """What ``make`` found and did."""
+    """Findings and results of ``make``."""
 
     order: tuple[str, ...] = ()
     built: list[str] = field(default_factory=list)
-    """Packages of which something was made."""
+    """Packages for which files were generated."""
     fresh: list[str] = field(default_factory=list)
-    """Packages of which all was made before, from the same files."""
+    """Packages that were up to date."""
     failed: list[str] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
 
     @property
     def status(self) -> int:
-        """The exit status: 1 if a package could not be built."""
+        """Exit status: 1 if a package could not be built."""
         return 1 if self.failed or any(each.is_error for each in self.findings) else 0
 
 
 @dataclass(frozen=True)
 class Source:
-    """A package of the workspace that can be read."""
+    """A readable package of the workspace."""
 
     package: Package
     project: Project | None
 
     @property
     def name(self) -> str:
-        """The package's."""
+        """Name of the package."""
         return self.package.name
 
 
@@ -69,10 +69,10 @@ def make(
     environ: Mapping[str, str] | None = None,
     say: Callable[[str], object] = print,
 ) -> Report:
-    """Build a workspace, or ``only`` some of its packages, perhaps with those of the workspace that they need.
+    """Build a workspace, or ``only`` some of its packages, optionally with the workspace packages that they need.
 
-    A package with errors is passed over and the others are built. What was made before of the same files is left as it
-    is. Raises `CatkinError` if the workspace as a whole cannot be built, and `OSError` if nothing can be written.
+    A package with errors is skipped and the others are built. Outputs that are up to date are left as they
+    are. Raises `CatkinError` if the workspace as a whole cannot be built, and `OSError` if nothing can be written.
     """
     environ = os.environ if environ is None else environ
     report = Report()
@@ -94,7 +94,7 @@ def make(
     )
     for source in order:
         builder.build(source)
-    for name in set(state["packages"]) - {each.name for each in sources}:  # gone from the workspace
+    for name in set(state["packages"]) - {each.name for each in sources}:  # removed from the workspace
         _remove(workspace.devel, state["packages"].pop(name).get("outputs", []))
     state["underlays"] = [str(each) for each in underlays]
     _write(workspace.build / STATE, json.dumps(state, indent=1, sort_keys=True))
@@ -102,7 +102,7 @@ def make(
 
 
 def _read(workspace: Workspace, report: Report) -> list[Source]:
-    """The packages of the workspace. Raises `CatkinError` if two have one name."""
+    """Return the packages of the workspace. Raises `CatkinError` if two have the same name."""
     folders, report.findings = workspace.packages()
     found: dict[str, Source] = {}
     for folder in folders:
@@ -122,7 +122,7 @@ def _read(workspace: Workspace, report: Report) -> list[Source]:
 
 
 def _wanted(sources: Sequence[Source], only: Iterable[str], *, with_dependencies: bool) -> set[str]:
-    """The names of the packages to build. Raises `CatkinError` for one that is not there."""
+    """Return the names of the packages to build. Raises `CatkinError` for an unknown one."""
     by_name = {each.name: each.package for each in sources}
     waiting = list(only)
     if not waiting:
@@ -141,7 +141,7 @@ def _wanted(sources: Sequence[Source], only: Iterable[str], *, with_dependencies
 
 
 def _ordered(sources: Sequence[Source], wanted: set[str]) -> list[Source]:
-    """The packages to build, each after those that it needs. Raises `CatkinError` if there is a circle."""
+    """Return the packages to build, each after those that it needs. Raises `CatkinError` if there is a cycle."""
     by_name = {each.name: each for each in sources if each.name in wanted}
     sorter = TopologicalSorter(
         {name: sorted({*each.package.depends} & {*by_name}) for name, each in by_name.items()}
@@ -160,7 +160,7 @@ def _ordered(sources: Sequence[Source], wanted: set[str]) -> list[Source]:
 
 
 def _lay_out(workspace: Workspace, underlays: Sequence[Path]) -> None:
-    """Make the folders, and what a shell sources."""
+    """Create the folders and the setup files for shells."""
     for folder in (workspace.build, workspace.devel):
         folder.mkdir(parents=True, exist_ok=True)
         _write(folder / ".built_by", TOOL)
@@ -172,7 +172,7 @@ def _lay_out(workspace: Workspace, underlays: Sequence[Path]) -> None:
 
 @dataclass
 class _Builder:
-    """Builds one package after another."""
+    """Builds packages one after another."""
 
     workspace: Workspace
     index: PackageIndex
@@ -182,7 +182,7 @@ class _Builder:
     _registry: Any = None
 
     def build(self, source: Source) -> None:
-        """Check a package and make what is not made yet."""
+        """Check a package and generate missing files."""
         name, project = source.name, source.project
         kind = "metapackage" if source.package.is_metapackage else "package"
         self.say(f"-- +++ processing catkin {kind}: '{name}'")
@@ -216,7 +216,7 @@ class _Builder:
     def _make(
         self, source: Source, packages: Mapping[str, Path], known: Mapping[str, Any], digest: str
     ) -> None:
-        """Write what is made of a package, and remove what was made and is no more."""
+        """Write the generated files of a package, and remove those that are no longer generated."""
         name, project = source.name, source.project
         assert project is not None  # noqa: S101 (checked by the caller)
         made: dict[Path, str] = {}
@@ -253,7 +253,7 @@ class _Builder:
         self.say(f"Built target {name}")
 
     def _messages(self) -> Any:
-        """The messages of the workspace and of all packages below it."""
+        """Return the message registry of the workspace and of all packages below it."""
         if self._registry is None:
             from rosmini.msgs.registry import Registry
             from rosmini.msgs.sources import PackageSource
@@ -269,7 +269,7 @@ class _Builder:
         return check_definitions(source.name, source.project, self._messages(), self.index)
 
     def _digest(self, source: Source, packages: Mapping[str, Path]) -> str:
-        """What all that is made of a package depends on."""
+        """Return a digest of all inputs of a package."""
         project = source.project
         assert project is not None  # noqa: S101 (checked by the caller)
         parts = hashlib.sha256(f"{__version__} {self.workspace.devel} {project.folder}".encode())
@@ -293,7 +293,7 @@ class _Builder:
 
 
 def _load(path: Path) -> dict[str, Any]:
-    """What was made before; nothing, if the file is not there or is not ours."""
+    """Return the recorded state; empty if the file is missing or not ours."""
     empty: dict[str, Any] = {"packages": {}, "underlays": []}
     try:
         found = json.loads(files.read(path))
@@ -310,7 +310,7 @@ def _load(path: Path) -> dict[str, Any]:
 
 
 def _write(path: Path, text: str, *, may_run: bool = False) -> None:
-    """Write a file unless it is there already with this text."""
+    """Write a file unless it already has this text."""
     data = text.encode(errors="surrogateescape")
     if (
         path.is_file()
@@ -327,7 +327,7 @@ def _write(path: Path, text: str, *, may_run: bool = False) -> None:
 
 
 def _remove(devel: Path, outputs: Iterable[str]) -> None:
-    """Remove files that were made in the devel space, and the folders that they leave empty."""
+    """Remove generated files from the devel space, and the folders that become empty."""
     top = devel.resolve()
     for each in outputs:
         path = devel / each

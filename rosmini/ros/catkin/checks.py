@@ -1,4 +1,4 @@
-"""What is wrong with a package: its ``package.xml``, its ``CMakeLists.txt``, and the two against each other."""
+"""Checks of a package: its ``package.xml``, its ``CMakeLists.txt``, and whether the two agree."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ EXPORT = (*RUN, "build_export_depend")
 
 
 def read(folder: Path) -> tuple[Package | None, Project | None, list[Finding]]:
-    """The package and the project in a folder, as far as they can be read, and what is wrong with the files."""
+    """Return the package and the project in a folder, as far as they are readable, and the problems found."""
     try:
         package = read_package(folder)
     except DefinitionError as error:
@@ -51,7 +51,7 @@ def _of(error: DefinitionError, file: Path) -> Finding:
 
 
 def check(package: Package, project: Project, index: PackageIndex) -> list[Finding]:
-    """All that is wrong with a package whose files can be read; ``index`` has the packages that it may use."""
+    """Return all problems of a package whose files are readable; ``index`` has the packages that it may use."""
     root = parse_file(package.manifest)
     found = [
         *_names(package, project, root),
@@ -69,12 +69,12 @@ def check(package: Package, project: Project, index: PackageIndex) -> list[Findi
 
 
 def _depends(root: Element, tags: Iterable[str]) -> dict[str, int]:
-    """The packages that a manifest names in these tags, and the line of each."""
+    """Return the packages that a manifest names in these tags, with the line of each."""
     return {child.text: child.line for child in root.all(*tags)}
 
 
 def _place(root: Element) -> int:
-    """The line of a manifest to which a dependency could be added."""
+    """Return the line of a manifest at which a dependency could be added."""
     lines = [child.line for child in root if child.tag.endswith("depend")]
     return max(lines, default=root.line)
 
@@ -98,7 +98,7 @@ def _names(package: Package, project: Project, root: Element) -> Iterator[Findin
 
 
 def _calls(package: Package, project: Project, root: Element) -> Iterator[Finding]:
-    """The calls without which there is no package for catkin."""
+    """Check for the calls that every catkin package needs."""
     if "catkin" not in _depends(root, ("buildtool_depend",)):
         message = "<buildtool_depend>catkin</buildtool_depend> is missing"
         yield warning(message, package.manifest, root.line)
@@ -112,7 +112,7 @@ def _calls(package: Package, project: Project, root: Element) -> Iterator[Findin
 
 
 def _components(project: Project, root: Element, index: PackageIndex) -> Iterator[Finding]:
-    """What CMake asks for is in the manifest, and exists."""
+    """Check that the components that CMake requires exist and are in the manifest."""
     manifest = Path(root.path)
     build, run = _depends(root, (*BUILD, "buildtool_depend", "test_depend")), _depends(root, EXPORT)
     known = {*index.names(), *BUILT_IN}
@@ -135,7 +135,7 @@ def _components(project: Project, root: Element, index: PackageIndex) -> Iterato
 
 
 def _messages(project: Project, root: Element) -> Iterator[Finding]:
-    """What has to be declared for messages to be generated."""
+    """Check the declarations needed to generate messages."""
     manifest, place = Path(root.path), _place(root)
     if project.definitions and project.generates is None:
         message = "generate_messages() is missing: nothing is made of the files that are added here"
@@ -168,7 +168,7 @@ def _messages(project: Project, root: Element) -> Iterator[Finding]:
 
 
 def _definition_files(project: Project) -> Iterator[Finding]:
-    """Each file that is added is there, and each that is there is added, in the folder where it belongs."""
+    """Check that each added file exists, and that each file is added, in the folder where it belongs."""
     there = _definitions_in(project.folder)
     added = {definition.path for definition in project.definitions}
     for definition in project.definitions:
@@ -198,7 +198,7 @@ def _definition_files(project: Project) -> Iterator[Finding]:
 
 
 def _definitions_in(folder: Path) -> list[str]:
-    """The .msg, .srv and .action files of a package, relative to it; links are not followed."""
+    """Return the .msg, .srv and .action files of a package, relative to it; links are not followed."""
     found: list[str] = []
     for parent, names, inside in os.walk(folder):
         names[:] = sorted(name for name in names if not name.startswith(".") and name != "node_modules")
@@ -208,14 +208,14 @@ def _definitions_in(folder: Path) -> list[str]:
 
 
 def _not_here(project: Project) -> Iterator[Finding]:
-    """What catkin does and rosmini does not."""
+    """Warn of features of catkin that rosmini does not support."""
     for word in project.compiled:
         message = f"{word.text} is C++, which rosmini does not compile; the rest of the package is built"
         yield warning(message, project.path, word.line)
 
 
 def nested(folder: Path) -> list[Finding]:
-    """Packages inside a package, which nobody finds."""
+    """Return a finding for each package nested in a package, where no tool finds it."""
     found = []
     for parent, names, inside in os.walk(folder):
         names[:] = sorted(name for name in names if not name.startswith("."))

@@ -1,4 +1,4 @@
-"""The language of ``CMakeLists.txt``, read into commands and blocks (https://cmake.org/cmake/help, cmake-language(7)).
+"""Parser for ``CMakeLists.txt``: reads commands and blocks (https://cmake.org/cmake/help, cmake-language(7)).
 
 Nothing is evaluated here: `rosmini.ros.catkin.evaluation` does that.
 """
@@ -12,10 +12,10 @@ from pathlib import Path
 from rosmini.core.errors import DefinitionError, shown
 
 LARGEST = 1_000_000
-"""Characters of a file; the largest in public are a hundredth of it."""
+"""Maximum number of characters in a file; the largest public ones have a hundredth of it."""
 
 DEEPEST = 50
-"""How many blocks may be inside one another."""
+"""Maximum nesting depth of blocks."""
 
 BLOCKS = {
     "if": "endif",
@@ -24,7 +24,7 @@ BLOCKS = {
     "function": "endfunction",
     "macro": "endmacro",
 }
-"""The commands that open a block, and those that close it."""
+"""Commands that open a block, with those that close it."""
 
 _TOKEN = re.compile(
     r"""
@@ -42,24 +42,24 @@ _NAME = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
 
 
 class CMakeError(DefinitionError):
-    """A ``CMakeLists.txt`` is broken at ``file``, line ``line``."""
+    """A ``CMakeLists.txt`` has a syntax error at ``file``, line ``line``."""
 
 
 @dataclass(frozen=True)
 class Argument:
-    """One argument of a command, as it is written: without its quotes, and with variables and escapes in it."""
+    """An argument of a command as written: without quotes, but with variables and escapes not replaced."""
 
     text: str
     line: int
     quoted: bool = False
-    """In quotes or brackets: such an argument is never split at semicolons."""
+    """True if in quotes or brackets: such an argument is never split at semicolons."""
     raw: bool = False
-    """In brackets: no variable and no escape in it means anything."""
+    """True if in brackets: variables and escapes in it are not replaced."""
 
 
 @dataclass(frozen=True)
 class Command:
-    """A command, its name in lower case, and its arguments; parentheses inside it are arguments of their own."""
+    """A command, its name in lower case, and its arguments; parentheses inside it are separate arguments."""
 
     name: str
     arguments: tuple[Argument, ...]
@@ -68,9 +68,9 @@ class Command:
 
 @dataclass(frozen=True)
 class Block:
-    """A block from the command that opens it to the one that closes it.
+    """A block from its opening to its closing command.
 
-    ``parts`` are the stretches between: one, but for an ``if``, where each begins with its ``elseif`` or ``else``.
+    ``parts`` are its sections: one, except for an ``if``, where each further one begins with ``elseif`` or ``else``.
     """
 
     parts: tuple[tuple[Command, tuple[Command | Block, ...]], ...]
@@ -83,13 +83,13 @@ class Block:
 
 @dataclass
 class _Open:
-    """A block that is being read."""
+    """A block that is being parsed."""
 
     parts: list[tuple[Command, list[Command | Block]]] = field(default_factory=list)
 
 
 def parse(text: str, path: str | Path = "CMakeLists.txt") -> tuple[Command | Block, ...]:
-    """What a file says. Raises `CMakeError` with the line that is wrong."""
+    """Return the commands and blocks of a file. Raises `CMakeError` with the invalid line."""
     if len(text) > LARGEST:
         raise CMakeError(f"this has more than {LARGEST} characters: no CMakeLists.txt has", path, 1)
     body: list[Command | Block] = []
@@ -123,10 +123,10 @@ def parse(text: str, path: str | Path = "CMakeLists.txt") -> tuple[Command | Blo
 
 
 def _commands(text: str, path: str | Path) -> list[Command]:
-    """The commands of a text, in order."""
+    """Return the commands of a text, in order."""
     found: list[Command] = []
     name: tuple[str, int] | None = (
-        None  # of the command whose "(" is to come, or whose arguments are being read
+        None  # the command whose "(" is still missing, or whose arguments are being read
     )
     depth = 0
     arguments: list[Argument] = []

@@ -1,4 +1,4 @@
-"""New packages and workspaces: what ``catkin_create_pkg`` and ``catkin_init_workspace`` write."""
+"""New packages and workspaces: the files that ``catkin_create_pkg`` and ``catkin_init_workspace`` write."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ VERSION = re.compile(r"\d{1,9}\.\d{1,9}\.\d{1,9}\Z")
 
 @dataclass(frozen=True)
 class NewPackage:
-    """What a new package is to be."""
+    """Description of a package to create."""
 
     name: str
     dependencies: tuple[str, ...] = ()
-    """The packages that it needs, to build and to run."""
+    """Packages needed to build and to run it."""
     description: str = ""
     licenses: tuple[str, ...] = ()
     authors: tuple[str, ...] = ()
@@ -38,9 +38,9 @@ class NewPackage:
 
 
 def create_package(new: NewPackage, where: Path, say: Callable[[str], object] = print) -> list[str]:
-    """Make a package in a folder of its own in ``where``, and return what is odd about it.
+    """Create a package in a new folder in ``where``, and return warnings about it.
 
-    Raises `CatkinError` if it cannot be made; nothing that is there is overwritten.
+    Raises `CatkinError` if it cannot be created; existing files are not overwritten.
     """
     for name in (new.name, *new.dependencies):
         if not NAME.match(name):
@@ -85,7 +85,7 @@ def _odd(new: NewPackage, where: Path) -> list[str]:
 
 
 def _needed(new: NewPackage) -> tuple[list[str], list[str], list[str]]:
-    """What is needed to build, to build against it, and to run it; ``message_generation`` is of no use at run time."""
+    """Return the dependencies to build, to export and to run; ``message_generation`` is not used at run time."""
     both = sorted({*new.dependencies} - {"message_generation", "message_runtime"})
     build = sorted([*both, *({*new.dependencies} & {"message_generation"})])
     run = sorted([*both, *({*new.dependencies} & {"message_runtime"})])
@@ -95,7 +95,7 @@ def _needed(new: NewPackage) -> tuple[list[str], list[str], list[str]]:
 
 
 def manifest(new: NewPackage) -> str:
-    """The text of its ``package.xml``, format 2."""
+    """Return the text of its ``package.xml``, format 2."""
     user = _user()
     build, build_export, run = _needed(new)
     tags = ["  <buildtool_depend>catkin</buildtool_depend>"]
@@ -122,7 +122,7 @@ def manifest(new: NewPackage) -> str:
 
 
 def cmake_lists(new: NewPackage) -> str:
-    """The text of its ``CMakeLists.txt``."""
+    """Return the text of its ``CMakeLists.txt``."""
     if new.is_metapackage:
         return METAPACKAGE_CMAKE.format(name=new.name)
     names = sorted(new.dependencies)
@@ -146,15 +146,15 @@ def cmake_lists(new: NewPackage) -> str:
 def _user() -> str:
     try:
         found = re.sub(r"[^A-Za-z0-9_.-]", "", getpass.getuser())
-    except (OSError, KeyError, ImportError):  # nobody has this user id
+    except (OSError, KeyError, ImportError):  # no such user id
         found = ""
     return found or "user"
 
 
 def init_workspace(source: Path) -> Path:
-    """Make a folder the source space of a workspace: write its ``CMakeLists.txt``, and return the path of that.
+    """Make a folder the source space of a workspace: write its ``CMakeLists.txt`` and return that path.
 
-    Raises `CatkinError` if it has one.
+    Raises `CatkinError` if it exists already.
     """
     path = source / CMAKE
     if path.exists() or path.is_symlink():

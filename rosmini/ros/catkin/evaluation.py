@@ -1,7 +1,7 @@
-"""What the commands of a ``CMakeLists.txt`` come to: variables, lists, conditions and loops are followed.
+"""Evaluation of the commands of a ``CMakeLists.txt``: variables, lists, conditions and loops.
 
-No program is run and no file is read; of the file system only the names in the package are looked at (``file(GLOB)``).
-Functions, macros and ``while`` are passed over, and that is told.
+No program is run and no file is read; only names of files in the package are looked up (``file(GLOB)``).
+Functions, macros and ``while`` are skipped and reported.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from typing import NamedTuple
 from .cmake import Argument, Block, CMakeError, Command
 
 LONGEST = 200_000
-"""Characters of a value."""
+"""Maximum number of characters in a value."""
 
 MOST = 50_000
-"""Commands that are followed, those in loops counted each time."""
+"""Maximum number of commands followed; those in loops are counted each time."""
 
 STEPS = 3_000_000
-"""The cost of all values: one for each character of a value that is read, split or stored, as often as that happens."""
+"""Maximum cost of all values: one for each character each time a value is read, split or stored."""
 
 OF_A_WORD = 20
-"""The cost of a word, in addition to its characters."""
+"""Cost of a word, in addition to its characters."""
 
 OF_A_GLOB = STEPS // 100
-"""The cost of a ``file(GLOB)`` pattern, which looks through the package."""
+"""Cost of a ``file(GLOB)`` pattern, which searches the package."""
 
 _REFERENCE = re.compile(r"\$(?:(ENV|CACHE))?\{([^${}]*)\}")
 _SEPARATOR = re.compile(r"(?<!\\);")
@@ -37,7 +37,7 @@ _TRUE = {"1", "ON", "YES", "TRUE", "Y"}
 
 
 class Word(NamedTuple):
-    """An argument after evaluation, and the line that it was written in."""
+    """An argument after evaluation, and the line where it is written."""
 
     text: str
     line: int
@@ -54,9 +54,9 @@ class Statement:
 
 @dataclass
 class Evaluation:
-    """Follows the commands of one file.
+    """Evaluates the commands of one file.
 
-    ``folder`` is the package's; ``passed_over`` collects what was not followed, with its line.
+    ``folder`` is the package's; ``passed_over`` collects the skipped commands with their lines.
     """
 
     folder: Path
@@ -69,7 +69,7 @@ class Evaluation:
     _own: dict[str, int] = field(default_factory=dict)
 
     def statements(self, body: Sequence[Command | Block]) -> Iterator[Statement]:
-        """The commands that are reached, in order. Raises `CMakeError`."""
+        """Yield the commands that are reached, in order. Raises `CMakeError`."""
         for each in body:
             if self._ended:
                 return
@@ -96,11 +96,11 @@ class Evaluation:
             yield Statement(each.name, words, each.line)
 
     def error(self, message: str, line: int) -> CMakeError:
-        """An error at a line, to be raised."""
+        """Return an error at a line."""
         return CMakeError(message, self.path, line)
 
     def spend(self, steps: int, line: int) -> None:
-        """Count the cost of values before they are computed. Raises `CMakeError` when it is too much."""
+        """Add the cost of values before they are computed. Raises `CMakeError` if the limit is exceeded."""
         self._spent += steps
         if self._spent > STEPS:
             raise self.error("the values cost too much: they are too long, or loops repeat too often", line)
@@ -129,7 +129,7 @@ class Evaluation:
                 self._own[name] = opening.line
 
     def _values(self, words: list[str], line: int) -> list[str]:
-        """What a ``foreach`` goes through."""
+        """Return the values that a ``foreach`` iterates over."""
         if words[:1] == ["RANGE"]:
             try:
                 numbers = [int(word) for word in words[1:4]]
@@ -173,7 +173,7 @@ class Evaluation:
                 yield Word(plain, each.line)
 
     def _filled_in(self, text: str, line: int) -> str:
-        """A text with the values of its variables, from the inside out."""
+        """Return a text with its variables replaced, innermost first."""
         for _ in range(20):
             self.spend(len(text), line)
             if "$" not in text:
@@ -189,7 +189,7 @@ class Evaluation:
     # ---- conditions ----
 
     def _holds(self, command: Command) -> bool:
-        """Whether the condition of an ``if`` or ``elseif`` holds; what cannot be known here does not."""
+        """Return True if the condition of an ``if`` or ``elseif`` holds; False if it cannot be evaluated here."""
         tokens = list(self._words(command.arguments))
         value, rest = self._any(tokens, 0)
         if rest != len(tokens):
@@ -197,7 +197,7 @@ class Evaluation:
         return value
 
     def _any(self, tokens: list[Word], at: int, depth: int = 0) -> tuple[bool, int]:
-        """Terms joined by AND and OR, which are of one rank and go from left to right."""
+        """Evaluate terms joined by AND and OR, which have equal precedence and go from left to right."""
         value, at = self._term(tokens, at, depth)
         while at < len(tokens) and tokens[at].text in ("AND", "OR"):
             joined = tokens[at].text
@@ -209,7 +209,7 @@ class Evaluation:
         if depth > 50:
             raise self.error("a condition nested too deeply", tokens[0].line)
         if at >= len(tokens):
-            return False, at  # an empty variable: if() of nothing does not hold
+            return False, at  # an empty variable: if() without a condition does not hold
         word = tokens[at].text
         following = tokens[at + 1].text if at + 1 < len(tokens) else ""
         if word == "NOT":
@@ -285,7 +285,7 @@ _UNKNOWN = {
 
 
 def _inside(folder: Path, name: str) -> Path | None:
-    """The file or folder of this name in a package, if there is one."""
+    """Return the file or folder of this name in a package, if it exists."""
     try:
         path = (folder / name).resolve()
         return path if path.is_relative_to(folder.resolve()) and path.exists() else None
@@ -341,7 +341,7 @@ def _list(self: Evaluation, words: list[str], line: int) -> None:
 
 
 def _file(self: Evaluation, words: list[str], line: int) -> None:
-    """``file(GLOB variable [RELATIVE folder] patterns...)``; other uses of ``file`` write or read, and do nothing."""
+    """``file(GLOB variable [RELATIVE folder] patterns...)``; other uses of ``file`` read or write, and are ignored."""
     if len(words) < 2 or words[0] not in ("GLOB", "GLOB_RECURSE"):
         return
     how, name, *rest = words

@@ -1,4 +1,4 @@
-"""What is wrong with a package or a workspace, and where."""
+"""Problems found in a package or a workspace, with their places."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from rosmini.core.errors import RosminiError
 
 
 class CatkinError(RosminiError):
-    """A workspace cannot be built, or a package cannot be made."""
+    """A workspace cannot be built, or a package cannot be created."""
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that is amiss: what, in which file and line, and what to do.
+    """A problem: its description, file and line, and how to fix it.
 
-    An error keeps its package from being built; a warning does not.
+    An error prevents its package from being built; a warning does not.
     """
 
     message: str
@@ -30,5 +30,5 @@ class Finding:
 
 
 def warning(message: str, file: Path, line: int | None = None) -> Finding:
-    """A finding that keeps nothing from being built."""
+    """Return a finding that does not prevent a build."""
     return Finding(message, file, line, is_error=False)

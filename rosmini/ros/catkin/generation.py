@@ -1,7 +1,7 @@
-"""Python modules of the messages, services and actions of a package, for rosmini and for real rospy.
+"""Generates Python modules for the messages, services and actions of a package, for rosmini and real rospy.
 
-A module does not repeat how a message is written to the wire: where rosmini runs the script it takes rosmini's class,
-and in a process of real ROS it has genpy make one from the text of the definition.
+A module does not contain the serialisation code: in rosmini it uses rosmini's class, and in a
+process of real ROS it lets genpy generate one from the text of the definition.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def __getattr__(name):
 
 
 def modules(name: str, project: Project, registry: Registry) -> dict[str, str]:
-    """The text of each file of the Python package ``name``, by its path in it; the definitions are sound."""
+    """Return the text of each file of the Python package ``name``, by its path; the definitions must be valid."""
     made: dict[str, str] = {}
     names: dict[str, list[str]] = {"msg": [], "srv": []}
     for definition in project.definitions:
@@ -137,7 +137,7 @@ def _service(name: str, registry: Registry) -> str:
 
 
 def check_definitions(name: str, project: Project, registry: Registry, index: PackageIndex) -> list[Finding]:
-    """What is wrong in definitions, and what they use without declaring it."""
+    """Return errors in definitions, and undeclared packages that they use."""
     allowed = _closure((word.text for word in project.message_packages), index)
     own = {
         definition.name + suffix
@@ -187,7 +187,7 @@ def _check_definition(
 
 
 def _closure(names: Iterable[str], index: PackageIndex) -> set[str]:
-    """These packages, and all that they need."""
+    """Return these packages and all their dependencies."""
     found: set[str] = set()
     waiting = list(names)
     while waiting:

@@ -1,4 +1,4 @@
-"""What the ``CMakeLists.txt`` of a package declares to catkin."""
+"""Declarations to catkin in the ``CMakeLists.txt`` of a package."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ CATKIN_VARIABLES = {
 
 @dataclass(frozen=True)
 class Definition:
-    """A message, service or action file that is to be generated; ``path`` is relative to the package."""
+    """A message, service or action file to generate; ``path`` is relative to the package."""
 
     kind: str
     path: str
@@ -47,13 +47,13 @@ class Definition:
 
     @property
     def name(self) -> str:
-        """The name of the type, without its package."""
+        """Name of the type, without its package."""
         return Path(self.path).stem
 
 
 @dataclass
 class Project:
-    """What a ``CMakeLists.txt`` declares. Lines are None for what it does not."""
+    """Declarations of a ``CMakeLists.txt``; the line of a missing declaration is None."""
 
     path: Path
     name: Word | None = None
@@ -63,14 +63,14 @@ class Project:
     generates: int | None = None
     message_packages: list[Word] = field(default_factory=list)
     exports: int | None = None
-    """The line of ``catkin_package``."""
+    """Line of ``catkin_package``."""
     exported: list[Word] = field(default_factory=list)
     """Its ``CATKIN_DEPENDS``."""
     python_setup: int | None = None
     scripts: list[tuple[Word, str]] = field(default_factory=list)
-    """Each Python script that is installed, and where to."""
+    """Each Python script to install, and its destination."""
     programs: list[Word] = field(default_factory=list)
-    """Other programs that are installed."""
+    """Other programs to install."""
     reconfigurable: list[Word] = field(default_factory=list)
     """The ``.cfg`` files."""
     compiled: list[Word] = field(default_factory=list)
@@ -80,12 +80,12 @@ class Project:
 
     @property
     def folder(self) -> Path:
-        """The package's."""
+        """Folder of the package."""
         return self.path.parent
 
 
 def read_project(folder: Path) -> Project:
-    """The project in a folder. Raises `CMakeError` with the line that is wrong."""
+    """Return the project in a folder. Raises `CMakeError` with the invalid line."""
     path = folder / CMAKE
     try:
         data = files.read(path, LARGEST)
@@ -115,12 +115,12 @@ def read_project(folder: Path) -> Project:
 
 
 def _destinations(name: str) -> dict[str, str]:
-    """The variables of catkin that say where the things of a project are installed."""
+    """Return the variables of catkin that hold a project's installation paths."""
     return {key: value.format(name=name) for key, value in CATKIN_VARIABLES.items()}
 
 
 def _declare(project: Project, statement: Statement, evaluation: Evaluation) -> None:
-    """Note what one command declares."""
+    """Record the declarations of one command."""
     words, line = statement.words, statement.line
     name = statement.name
     if name == "project" and words:
@@ -222,7 +222,7 @@ def _install(project: Project, words: Sequence[Word], *, scripts: bool) -> None:
 
 
 def _after(words: Iterable[Word], starts: Sequence[str], others: Sequence[str]) -> list[Word]:
-    """The words after one of ``starts``, up to another keyword."""
+    """Return the words after one of ``starts``, up to another keyword."""
     found: list[Word] = []
     inside = False
     for word in words:

@@ -10,7 +10,7 @@ from rosmini.core import files
 from .findings import Finding, warning
 
 LARGEST = 1_000_000
-"""Bytes of a ``setup.py``."""
+"""Maximum size of a ``setup.py`` [bytes]."""
 
 RELAY = """
 from pathlib import Path
@@ -20,13 +20,13 @@ _code = Path({folder!r}, "__init__.py")
 if _code.is_file():
     exec(compile(_code.read_text(encoding="utf-8"), str(_code), "exec"))
 """
-"""What the package in ``devel`` is: the one in the source space, and beside it the messages that are made."""
+"""Text of the package in ``devel``: it imports the one in the source space and adds the generated messages."""
 
 
 def python_packages(folder: Path) -> tuple[dict[str, Path], list[Finding]]:
-    """The folder of each Python package that ``setup.py`` in a ROS package declares, and what is wrong with it.
+    """Return the folder of each Python package declared in a ROS package's ``setup.py``, and the problems found.
 
-    It has to be written as the tutorials do: ``packages=[...]`` and ``package_dir={...}`` with the names themselves.
+    It must be written as in the tutorials: ``packages=[...]`` and ``package_dir={...}`` with literal names.
     """
     path = folder / "setup.py"
     if not files.is_file(path):
@@ -68,7 +68,7 @@ def python_packages(folder: Path) -> tuple[dict[str, Path], list[Finding]]:
 
 
 def _folder_of(name: str, folders: dict[str, str]) -> str:
-    """Where a package is, as distutils says: ``package_dir`` has its folder, or that of all under the empty name."""
+    """Return the folder of a package as distutils does: its entry in ``package_dir``, or one below that of ""."""
     if name in folders:
         return folders[name]
     return str(Path(folders.get("", ""), *name.split(".")))

@@ -1,4 +1,4 @@
-"""Python modules of ``.cfg`` files: ``from my_package.cfg import NameConfig``."""
+"""Generates Python modules for ``.cfg`` files: ``from my_package.cfg import NameConfig``."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PACKAGE = "dynamic_reconfigure"
 
 
 def check_reconfigurable(project: Project) -> Iterator[Finding]:
-    """What is wrong with the ``.cfg`` files of a package."""
+    """Yield the problems of the ``.cfg`` files of a package."""
     if not project.reconfigurable:
         return
     from rosmini.core.dynamic_reconfigure.cfg_file import read_cfg
@@ -58,7 +58,7 @@ def check_reconfigurable(project: Project) -> Iterator[Finding]:
 
 
 def module(path: Path) -> tuple[str, str]:
-    """The name and the text of the module of a ``.cfg`` file that is sound."""
+    """Return the name and text of the module for a valid ``.cfg`` file."""
     from rosmini.core.dynamic_reconfigure.cfg_file import read_cfg
     from rosmini.core.dynamic_reconfigure.description import Description
 
@@ -78,5 +78,5 @@ def module(path: Path) -> tuple[str, str]:
         tables["all_level"] |= each.level
     tables |= {f"{found.name}_{name}": value for name, value in found.constants.items()}
     lines = [f"{name} = {pformat(value, width=110, sort_dicts=False)}\n" for name, value in tables.items()]
-    source = MADE.format(source=repr(str(path))[1:-1])  # one line, whatever the name of the folder is
+    source = MADE.format(source=repr(str(path))[1:-1])  # one line, even for unusual folder names
     return f"{found.name}Config", f'{source}\ninf = float("inf")\n\n{"".join(lines)}'

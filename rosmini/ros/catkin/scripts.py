@@ -1,4 +1,4 @@
-"""The scripts of a package: whether they can be run, and the files in ``devel`` that run them."""
+"""Scripts of a package: checks that they can run, and the wrappers in ``devel`` that run them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .project import Project
 
 FOLDERS = ("scripts", "nodes")
 LARGEST = 4_000_000
-"""Bytes of a script."""
+"""Maximum size of a script [bytes]."""
 
 WRAPPER = """#!/usr/bin/env python3
 # Made by rosmini's catkin_make: runs the script in the source space, so that a changed script needs no build.
@@ -30,7 +30,7 @@ exec(code)
 
 
 def check_scripts(project: Project) -> Iterator[Finding]:
-    """What keeps the scripts that are installed, or are in ``scripts`` or ``nodes``, from being run."""
+    """Yield the reasons why installed scripts, or those in ``scripts`` or ``nodes``, cannot run."""
     listed: dict[Path, int | None] = {}
     for word in (*(word for word, _ in project.scripts), *project.programs):
         path = project.folder / word.text
@@ -51,7 +51,7 @@ def check_scripts(project: Project) -> Iterator[Finding]:
 
 
 def check_script(path: Path) -> Iterator[Finding]:
-    """What keeps one script from being run."""
+    """Yield the reasons why a script cannot run."""
     try:
         data = files.read(path, LARGEST)
     except OSError as error:
@@ -103,5 +103,5 @@ def _check_first_line(first: bytes, path: Path) -> Iterator[Finding]:
 
 
 def wrapper(path: Path) -> str:
-    """The file in ``devel`` that runs a script."""
+    """Return the text of the file in ``devel`` that runs a script."""
     return WRAPPER.format(path=str(path))

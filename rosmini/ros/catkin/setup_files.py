@@ -1,6 +1,6 @@
-"""What a shell sources to use a workspace: ``devel/setup.sh``, ``.bash``, ``.zsh`` and ``.ps1``, and ``env.sh``.
+"""Setup files of a workspace for shells: ``devel/setup.sh``, ``.bash``, ``.zsh`` and ``.ps1``, and ``env.sh``.
 
-Unlike catkin's own, they take nothing out of the environment: another workspace that was in use comes after this one.
+Unlike catkin's, they remove nothing from the environment: a workspace that was already in use follows this one.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ Remove-Item Function:Set-RosminiFirst
 
 
 def setup_files(workspace: Workspace, underlays: Sequence[Path]) -> dict[Path, str]:
-    """The text of each file. ``underlays`` are the spaces below this one, the first to be searched first."""
+    """Return the text of each file. ``underlays`` are the spaces below this one, in search order."""
     entries: list[tuple[str, Path]] = []
     for prefix in reversed([workspace.devel, *underlays]):
         sources = [workspace.source] if prefix == workspace.devel else package_folders(prefix)
@@ -78,9 +78,9 @@ def setup_files(workspace: Workspace, underlays: Sequence[Path]) -> dict[Path, s
 
 
 def folders_in(setup_file: Path) -> list[tuple[str, Path]] | None:
-    """Return what a setup file made here puts first in which lists of the environment, in this order.
+    """Return the (variable, folder) pairs that a setup file made here prepends, in order.
 
-    None if it is another file. Raises ``OSError`` if it cannot be read.
+    Return None for any other file. Raises ``OSError`` if it cannot be read.
     """
     if not files.read(setup_file).decode("utf-8", "replace").startswith((MADE, f"#!/usr/bin/env sh\n{MADE}")):
         return None
@@ -90,5 +90,5 @@ def folders_in(setup_file: Path) -> list[tuple[str, Path]] | None:
 
 
 def _quoted(path: Path) -> str:
-    """A path for PowerShell."""
+    """Return a path quoted for PowerShell."""
     return "'" + str(path).replace("'", "''") + "'"

@@ -1,4 +1,4 @@
-"""The files of a new package and of a new workspace."""
+"""Templates for the files of a new package and of a new workspace."""
 
 MANIFEST_XML = """<?xml version="1.0"?>
 <package format="2">

@@ -1,4 +1,4 @@
-"""A catkin workspace: a folder with the packages in ``src``, and what is made of them in ``build`` and ``devel``."""
+"""A catkin workspace: a folder with packages in ``src``, and files generated from them in ``build`` and ``devel``."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from .findings import CatkinError, Finding
 from .project import CMAKE
 
 TOOL = "rosmini catkin_make"
-"""What is in ``.built_by``: the original tools refuse folders that another tool built, and so does ours."""
+"""Content of ``.built_by``: the original tools refuse folders built by another tool, and so does ours."""
 
 MARKER = DEVEL_MARKER
-"""The file by which a devel space is known; it names the source space."""
+"""The file that marks a devel space; it names the source space."""
 
 
 @dataclass(frozen=True)
 class Workspace:
-    """The folders of a workspace, all absolute."""
+    """Folders of a workspace, all absolute."""
 
     base: Path
     source: Path
@@ -32,7 +32,7 @@ class Workspace:
 
     @classmethod
     def at(cls, base: Path, source: Path | None = None, build: Path | None = None) -> Workspace:
-        """The workspace in a folder. Raises `CatkinError` if it has no source space, with what is probably wrong."""
+        """Return the workspace in a folder. Raises `CatkinError`, with the likely cause, if it has no source space."""
         base = Path(os.path.abspath(base))  # noqa: PTH100 (links stay as the user knows them)
         source_space = base / (source or "src")
         found = cls(base, source_space, base / (build or "build"), base / "devel")
@@ -67,7 +67,7 @@ class Workspace:
         return [self.base / name for name in files.names_in(self.base)]
 
     def _check(self) -> None:
-        """Refuse what cannot be a workspace, or is another tool's."""
+        """Raise an error for a folder that cannot be a workspace, or belongs to another tool."""
         if os.pathsep in str(self.base):
             raise CatkinError(
                 f"the path of the workspace has a {os.pathsep!r}, which separates paths in lists: {self.base}"
@@ -84,7 +84,7 @@ class Workspace:
                 )
 
     def packages(self) -> tuple[list[Path], list[Finding]]:
-        """The folders of the packages of catkin in the source space, and what is wrong with how they lie."""
+        """Return the folders of the catkin packages in the source space, and problems with their location."""
         found, findings = [], []
         for each in crawl(self.source):
             if each.manifest != MANIFEST:
@@ -100,13 +100,13 @@ class Workspace:
         return sorted(found), findings
 
     def underlays(self, environ: Mapping[str, str]) -> list[Path]:
-        """The devel and install spaces that are in use, other than this one, the first to be searched first."""
+        """Return the other devel and install spaces in use, in search order."""
         parts = environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
         return [Path(part) for part in parts if part and Path(part) != self.devel and Path(part).is_dir()]
 
 
 def package_folders(prefix: Path) -> list[Path]:
-    """Where the packages of a devel or install space are."""
+    """Return the folders with the packages of a devel or install space."""
     mark = prefix / MARKER
     if mark.is_file():
         text = files.read(mark, 100_000).decode(errors="replace")
@@ -115,5 +115,5 @@ def package_folders(prefix: Path) -> list[Path]:
 
 
 def python_folder(prefix: Path) -> Path:
-    """Where the Python modules of a devel or install space are."""
+    """Return the folder with the Python modules of a devel or install space."""
     return prefix / "lib" / "python3" / "dist-packages"

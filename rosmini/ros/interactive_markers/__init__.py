@@ -1,7 +1,7 @@
-"""Markers that the user of RViz can move and click (http://wiki.ros.org/interactive_markers).
+"""Markers that the user can move and click in RViz (http://wiki.ros.org/interactive_markers).
 
-The object API, on a :class:`rosmini.core.graph.Node`. What scripts import as ``interactive_markers`` is the same in
-rospy's style, :mod:`rosmini.ros.rospy.aliases.interactive_markers`.
+This is the object API, based on :class:`rosmini.core.graph.Node`. The module that scripts import as
+``interactive_markers`` wraps it in rospy's style: :mod:`rosmini.ros.rospy.aliases.interactive_markers`.
 """
 
 from __future__ import annotations

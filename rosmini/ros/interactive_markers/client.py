@@ -1,6 +1,6 @@
-"""The client: knows the markers of servers from what they publish, as RViz does.
+"""The client: collects the markers of servers from their messages, as RViz does.
 
-It takes messages and times and has no node, so whoever subscribes feeds it.
+It takes messages and times and has no node; its user subscribes and passes the messages on.
 """
 
 from __future__ import annotations
@@ -13,28 +13,28 @@ from rosmini.msgs import message_class
 InteractiveMarkerUpdate = message_class("visualization_msgs/InteractiveMarkerUpdate")
 
 SILENT = 2.0
-"""A server from which nothing comes for so long [s] may be dead."""
+"""Time without updates after which a server may be dead [s]."""
 MOST_WAITING = 100
 MOST_SERVERS = 100
 
 
 @dataclass
 class ServerState:
-    """What is known of one server."""
+    """State of one server as the client knows it."""
 
     markers: dict[str, Any] = field(default_factory=dict)
-    """Its markers by name, each a ``visualization_msgs/InteractiveMarker``."""
+    """Markers by name, each a ``visualization_msgs/InteractiveMarker``."""
     seq_num: int | None = None
-    """The number of the last update that they contain; None before the first full message."""
+    """Number of the last update included in the markers; None before the first full message."""
     heard_ns: int | None = None
-    """When the last update came [ns], also one without changes."""
+    """Time of the last update [ns], including updates without changes."""
     problem: str = ""
-    """Why the server's markers were forgotten, in words; empty if all is well."""
+    """Why the server's markers were discarded; empty if all is well."""
     waiting: dict[int, Any] = field(default_factory=dict)
-    """Updates that came before the first full message, by number."""
+    """Updates received before the first full message, by number."""
 
     def text(self, now_ns: int) -> tuple[bool, str]:
-        """Whether all is well, and how it is doing, in RViz's words."""
+        """Return True if all is well, and the state of the server in RViz's words."""
         if self.problem:
             return False, self.problem
         if self.seq_num is None:
@@ -46,16 +46,16 @@ class ServerState:
 
 
 class InteractiveMarkerClient:
-    """The markers of all servers that publish on one pair of topics, by the servers' ids.
+    """Markers of all servers that publish on one pair of topics, by server id.
 
-    Updates are numbered. After a gap a server's markers are forgotten until its next full message.
+    Updates are numbered; after a gap the markers of a server are discarded until its next full message.
     """
 
     def __init__(self) -> None:
         self.servers: dict[str, ServerState] = {}
 
     def init(self, message: Any, now_ns: int) -> set[str]:
-        """Take a ``visualization_msgs/InteractiveMarkerInit``, and return the names of the markers that are new."""
+        """Process a ``visualization_msgs/InteractiveMarkerInit``; return the names of new markers."""
         state = self._state(message.server_id)
         if state is None or state.seq_num is not None:
             return set()
@@ -69,7 +69,7 @@ class InteractiveMarkerClient:
         return changed
 
     def update(self, message: Any, now_ns: int) -> set[str]:
-        """Take a ``visualization_msgs/InteractiveMarkerUpdate``, and return the names of the markers that changed."""
+        """Process a ``visualization_msgs/InteractiveMarkerUpdate``; return the names of changed markers."""
         state = self._state(message.server_id)
         if state is None:
             return set()

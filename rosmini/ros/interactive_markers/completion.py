@@ -1,7 +1,7 @@
-"""What RViz fills in where an interactive marker leaves something out: handles, sizes, orientations, names.
+"""Defaults that RViz adds to incomplete interactive markers: handles, sizes, orientations, names.
 
-The default handles are arrows along the axis of a control, and rings around it; they are as wide as the marker's
-``scale``, and red, green or blue as the axis is nearest to x, y or z (http://wiki.ros.org/rviz/Tutorials, "Interactive
+The default handles are arrows along the axis of a control and rings around it. They are as wide as the marker's
+``scale``, and red, green or blue for an axis nearest to x, y or z (http://wiki.ros.org/rviz/Tutorials, "Interactive
 Markers: Getting Started").
 """
 
@@ -23,9 +23,9 @@ Vector3 = message_class("geometry_msgs/Vector3")
 
 _STEPS = 36
 _INNER, _OUTER = 0.5, 0.65
-"""Radii of a ring, as shares of the marker's scale."""
+"""Inner and outer radius of a ring, as fractions of the marker's scale."""
 _SHADE = 0.6
-"""How much darker every second part of a ring is that turns its marker."""
+"""Brightness factor of every second segment of a ring that rotates its marker."""
 _RINGS = (
     InteractiveMarkerControl.MOVE_PLANE,
     InteractiveMarkerControl.ROTATE_AXIS,
@@ -34,11 +34,11 @@ _RINGS = (
 
 
 def auto_complete(marker: Any, *, transparent: bool = True) -> None:
-    """Fill in what a ``visualization_msgs/InteractiveMarker`` leaves out, in place, as RViz does before it draws it.
+    """Complete a ``visualization_msgs/InteractiveMarker`` in place, as RViz does before drawing it.
 
-    A scale of 0 becomes 1 m; a quaternion of zeros becomes no rotation, others get length 1; controls without markers
-    get the handles of their interaction mode; sizes of 0 become 1 m; controls of one name get names of their own. A
-    marker without controls is left alone: it shows nothing. Handles are half transparent, or, without ``transparent``,
+    A scale of 0 becomes 1 m; a zero quaternion becomes no rotation, others are normalised; controls without markers
+    get the handles of their interaction mode; sizes of 0 become 1 m; controls with the same name are renamed. A
+    marker without controls is not changed: it shows nothing. Handles are half transparent, or, without ``transparent``,
     opaque.
     """
     if not marker.controls:
@@ -88,7 +88,7 @@ def _complete_control(marker: Any, control: Any, numbers: itertools.count[int], 
 
 
 def _orientation(quaternion: Any, *, normalise: bool = True) -> Any:
-    """Return a quaternion of length 1; no rotation for zeros."""
+    """Return a normalised quaternion; no rotation for zeros."""
     values = (quaternion.x, quaternion.y, quaternion.z, quaternion.w)
     length = math.hypot(*values)
     if length == 0:
@@ -97,7 +97,7 @@ def _orientation(quaternion: Any, *, normalise: bool = True) -> Any:
 
 
 def _color(control: Any, alpha: float) -> Any:
-    """Return the colour by the axis: x is red, y green, z blue."""
+    """Return the colour for the axis: x is red, y green, z blue."""
     q = _orientation(control.orientation)
     axis = [abs(float(value)) for value in rotate(rigid((0, 0, 0), (q.x, q.y, q.z, q.w)), (1.0, 0.0, 0.0))]
     longest = max(axis)
@@ -113,7 +113,7 @@ def _arrow(scale: float, control: Any, alpha: float, direction: float) -> Any:
 
 
 def _ring(scale: float, control: Any, alpha: float) -> Any:
-    """Return a ring around the x axis: plain to move, striped to turn, toothed for both."""
+    """Return a ring around the x axis: plain to move, striped to rotate, toothed for both."""
     base = _color(control, alpha)
     ring = Marker(type=Marker.TRIANGLE_LIST, color=base, scale=Vector3(scale, scale, scale))
     ring.pose.orientation = control.orientation

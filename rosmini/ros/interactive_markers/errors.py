@@ -1,4 +1,4 @@
-"""What goes wrong with interactive markers."""
+"""Errors about interactive markers."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from rosmini.core.errors import RosminiError
 
 
 class InteractiveMarkerException(RosminiError):
-    """What a program asks for of a marker or a menu is not possible."""
+    """A request about a marker or a menu cannot be fulfilled."""

@@ -1,4 +1,4 @@
-"""Context menus of interactive markers: a tree of entries, and what each of them calls."""
+"""Context menus of interactive markers: a tree of entries with callbacks."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ InteractiveMarkerFeedback = message_class("visualization_msgs/InteractiveMarkerF
 
 _NO_CHECKBOX, _CHECKED, _UNCHECKED = 0, 1, 2
 _BOXES = {_NO_CHECKBOX: "", _CHECKED: "[x] ", _UNCHECKED: "[ ] "}
-"""How an entry's title begins by its check state; RViz draws a box there."""
+"""Prefix of an entry's title for each check state; RViz draws a box there."""
 
 
 @dataclass
@@ -32,7 +32,7 @@ class _Entry:
 
 
 class MenuHandler:
-    """A menu that is given to any number of interactive markers; its entries are numbered from 1, their handles."""
+    """A menu for any number of interactive markers; entries are numbered from 1 (their handles)."""
 
     NO_CHECKBOX = _NO_CHECKBOX
     CHECKED = _CHECKED
@@ -50,7 +50,7 @@ class MenuHandler:
         command: str = "",
         callback: Callable[[Any], object] | None = None,
     ) -> int | None:
-        """Add an entry, below the entry ``parent`` if one is given, and return its handle.
+        """Add an entry, below ``parent`` if given, and return its handle.
 
         ``callback(feedback)`` is called when it is chosen. Raises ``InteractiveMarkerException`` if there is no such
         parent.
@@ -66,11 +66,11 @@ class MenuHandler:
         return handle
 
     def setVisible(self, handle: int, visible: bool) -> bool:
-        """Show an entry and those below it, or hide them; return whether there is such an entry."""
+        """Show or hide an entry and those below it; return True if the entry exists."""
         return self._set(handle, visible=visible)
 
     def setCheckState(self, handle: int, check_state: int) -> bool:
-        """Give an entry a box: ``CHECKED``, ``UNCHECKED`` or ``NO_CHECKBOX``; return whether there is such an entry."""
+        """Set an entry's box to ``CHECKED``, ``UNCHECKED`` or ``NO_CHECKBOX``; return True if the entry exists."""
         return self._set(handle, check_state=check_state)
 
     def _set(self, handle: int, **values: Any) -> bool:
@@ -80,19 +80,19 @@ class MenuHandler:
         return entry is not None
 
     def getCheckState(self, handle: int) -> int | None:
-        """Return the check state of an entry, or None if there is no such entry."""
+        """Return the check state of an entry, or None if it does not exist."""
         entry = self._entries.get(handle)
         return None if entry is None else entry.check_state
 
     def getTitle(self, handle: int) -> str | None:
-        """Return the title of an entry without its box, or None if there is no such entry."""
+        """Return the title of an entry without its box, or None if it does not exist."""
         entry = self._entries.get(handle)
         return None if entry is None else entry.title
 
     def apply(self, server: InteractiveMarkerServer, marker_name: str) -> bool:
-        """Give a marker of ``server`` the menu as it is now, and take what is chosen in it.
+        """Attach the current menu to a marker of ``server`` and handle the user's choices.
 
-        Clients see it after the server's `applyChanges`. Return whether there is such a marker.
+        Clients see it after the server's `applyChanges`. Return True if the marker exists.
         """
         marker = server.get(marker_name)
         if marker is None:
@@ -105,18 +105,18 @@ class MenuHandler:
         return True
 
     def reApply(self, server: InteractiveMarkerServer) -> bool:
-        """Apply the menu again to all markers that have it; return whether all of them are still there."""
+        """Apply the menu again to all markers that have it; return True if all of them still exist."""
         found = [self.apply(server, name) for name in list(self._markers)]
         return all(found)
 
     def processFeedback(self, feedback: Any) -> None:
-        """Call what was set for the entry that was chosen."""
+        """Call the callback of the chosen entry."""
         entry = self._entries.get(feedback.menu_entry_id)
         if entry is not None and entry.callback is not None:
             entry.callback(feedback)
 
     def _messages(self, handles: list[int]) -> list[Any]:
-        """Return the entries that are visible, each before those below it."""
+        """Return the visible entries, each before those below it."""
         found = []
         for handle in handles:
             entry = self._entries[handle]

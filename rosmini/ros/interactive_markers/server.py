@@ -1,8 +1,8 @@
-"""The server: keeps a node's interactive markers, publishes their changes, and calls back what the user does.
+"""The server: manages a node's interactive markers, publishes their changes, and calls back on user actions.
 
-Topics of the server ``NAME`` (http://wiki.ros.org/rviz/DisplayTypes/InteractiveMarker): ``NAME/update`` has changes,
-numbered, and twice a second a sign of life; ``NAME/update_full`` is latched and has all markers as of a number;
-``NAME/feedback`` is where RViz says what the user does.
+Topics of the server ``NAME`` (http://wiki.ros.org/rviz/DisplayTypes/InteractiveMarker): ``NAME/update`` has numbered
+changes and a keep-alive twice a second; ``NAME/update_full`` is latched and has all markers up to a number;
+``NAME/feedback`` reports the user's actions from RViz.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ FeedbackCallback = Callable[[Any], object]
 _KEEP_ALIVE = 0.5
 _IN_USE = 1.0
 _AS_BEFORE = -1
-"""The callback of a marker is not changed: what the real server takes for it, too."""
+"""Leaves the callback of a marker unchanged; the real server uses the same value."""
 
 
 @dataclass
 class _Callbacks:
-    """What is called for a marker: by the type of feedback, else the default one."""
+    """Callbacks of a marker: by the type of feedback, otherwise the default one."""
 
     default: FeedbackCallback | None = None
     by_type: dict[int, FeedbackCallback] = field(default_factory=dict)
@@ -67,7 +67,7 @@ class _Kind(Enum):
 
 @dataclass
 class _Change:
-    """What `applyChanges` is to do to one marker."""
+    """A pending change of one marker, applied by `applyChanges`."""
 
     kind: _Kind
     marker: Any = field(default_factory=InteractiveMarker)
@@ -75,15 +75,15 @@ class _Change:
 
 
 class InteractiveMarkerServer:
-    """Shows interactive markers under the name ``topic_ns`` and calls back what users do with them.
+    """Shows interactive markers under the name ``topic_ns`` and calls back on user actions.
 
-    ``server_id`` is needed only where one node has several servers of one name; ``q_size`` bounds the feedback that
-    waits. What `insert`, `setPose`, `erase` and `clear` change is not seen before `applyChanges`. Names, and what is
-    returned, are those of the Python server of ROS's ``interactive_markers`` 1.12.
+    ``server_id`` is needed only if one node has several servers with the same name; ``q_size`` is the length of the
+    feedback queue. Changes by `insert`, `setPose`, `erase` and `clear` take effect at `applyChanges`. Names and return
+    values are those of the Python server of ROS's ``interactive_markers`` 1.12.
     """
 
     DEFAULT_FEEDBACK_CB = 255
-    """The type of feedback under which `setCallback` sets what is called where there is no callback of its type."""
+    """Type of feedback with which `setCallback` sets the default callback."""
 
     def __init__(self, node: Node, topic_ns: str, server_id: str = "", q_size: int = 100) -> None:
         self.node = node
@@ -113,9 +113,9 @@ class InteractiveMarkerServer:
         feedback_cb: FeedbackCallback | int | None = _AS_BEFORE,
         feedback_type: int = DEFAULT_FEEDBACK_CB,
     ) -> None:
-        """Add the ``visualization_msgs/InteractiveMarker``, or replace that of the same name.
+        """Add the ``visualization_msgs/InteractiveMarker``, or replace the one of the same name.
 
-        ``feedback_cb(feedback)`` is called for feedback of ``feedback_type``, or for all; -1 leaves what was set.
+        ``feedback_cb(feedback)`` is called for feedback of ``feedback_type``, or for all; -1 keeps the callbacks.
         """
         change = self._pending.setdefault(marker.name, _Change(_Kind.FULL))
         change.kind, change.marker = _Kind.FULL, marker
@@ -123,9 +123,9 @@ class InteractiveMarkerServer:
             self.setCallback(marker.name, feedback_cb, feedback_type)
 
     def setPose(self, name: str, pose: Any, header: Any = None) -> bool:
-        """Move a marker to the ``geometry_msgs/Pose``, in the frame of ``header`` if that names one, else as before.
+        """Move a marker to the ``geometry_msgs/Pose``, in the frame of ``header`` if it names one, else as before.
 
-        Return whether there is such a marker; one that was inserted since the last `applyChanges` is not moved.
+        Return True if the marker exists; a marker inserted since the last `applyChanges` is not moved.
         """
         state, change = self._states.get(name), self._pending.get(name)
         if state is None or (change is not None and change.kind is _Kind.FULL):
@@ -134,7 +134,7 @@ class InteractiveMarkerServer:
         return True
 
     def erase(self, name: str) -> bool:
-        """Take a marker away; return whether there is one of this name."""
+        """Remove a marker; return True if it existed."""
         change = self._pending.get(name)
         if change is not None:
             change.kind = _Kind.ERASE
@@ -145,15 +145,15 @@ class InteractiveMarkerServer:
         return True
 
     def clear(self) -> None:
-        """Take all markers away, and forget what was to change."""
+        """Remove all markers and discard pending changes."""
         self._pending = {name: _Change(_Kind.ERASE) for name in self._states}
 
     def setCallback(
         self, name: str, feedback_cb: FeedbackCallback | None, feedback_type: int = DEFAULT_FEEDBACK_CB
     ) -> bool:
-        """Call ``feedback_cb(feedback)`` from now on for feedback of this type, or for all.
+        """Set ``feedback_cb(feedback)`` as the callback for feedback of this type, or for all.
 
-        None calls nothing. Return whether there is a marker of this name.
+        None removes the callback. Return True if the marker exists.
         """
         kind = None if feedback_type == self.DEFAULT_FEEDBACK_CB else feedback_type
         found = [one for one in (self._states.get(name), self._pending.get(name)) if one is not None]
@@ -162,7 +162,7 @@ class InteractiveMarkerServer:
         return bool(found)
 
     def applyChanges(self) -> None:
-        """Publish what has changed since the last call, with the next sequence number; nothing if nothing has."""
+        """Publish the changes since the last call, if any, with the next sequence number."""
         if not self._pending:
             return
         pending, self._pending = self._pending, {}
@@ -190,7 +190,7 @@ class InteractiveMarkerServer:
     def get(self, name: str) -> Any:
         """Return the marker of this name as it will be after `applyChanges`, or None.
 
-        It is the server's own: change it and `insert` it again.
+        It is the server's own object: change it and `insert` it again.
         """
         state, change = self._states.get(name), self._pending.get(name)
         if change is None:
@@ -203,9 +203,9 @@ class InteractiveMarkerServer:
         return state.marker
 
     def processFeedback(self, feedback: Any) -> None:
-        """Take a ``visualization_msgs/InteractiveMarkerFeedback``: move the marker, and call what was set for it.
+        """Process a ``visualization_msgs/InteractiveMarkerFeedback``: move the marker and call its callback.
 
-        While one client has hold of a marker (its last feedback is less than 1 s old), that of others is ignored.
+        While one client controls a marker (its last feedback is less than 1 s old), feedback from others is ignored.
         """
         name = feedback.marker_name
         state = self._states.get(name)
@@ -227,11 +227,11 @@ class InteractiveMarkerServer:
             callback(feedback)
 
     def keepAlive(self, event: Any = None) -> None:  # noqa: ARG002 - called by a timer
-        """Publish an update without changes, which tells clients that the server lives."""
+        """Publish an update without changes, as a sign of life for clients."""
         self._publish(InteractiveMarkerUpdate(type=InteractiveMarkerUpdate.KEEP_ALIVE))
 
     def publishInit(self) -> None:
-        """Publish all markers, for clients that come later."""
+        """Publish all markers, so that late clients receive them."""
         markers = [state.marker for state in list(self._states.values())]
         self.init_pub.publish(
             InteractiveMarkerInit(server_id=self.server_id, seq_num=self.seq_num, markers=markers)

@@ -1,6 +1,6 @@
-"""What is in a graph, asked of the Master and of the nodes: what ``rosnode`` and ``rostopic`` find out.
+"""Inspection of a graph through the Master and the nodes: the functions behind ``rosnode`` and ``rostopic``.
 
-Nothing here knows whether the Master and the nodes are in this process or elsewhere: it asks
-``Peers``, which a ``Graph`` is. The modules are imported one by one:
-a tool that asks a question or two starts without the rest of rosmini.
+The code does not depend on whether the Master and the nodes are in this process or elsewhere: it uses
+``Peers``, which a ``Graph`` implements. Import the modules individually:
+a tool with one or two queries then starts without the rest of rosmini.
 """

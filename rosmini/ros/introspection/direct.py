@@ -1,8 +1,8 @@
-"""The Master and nodes elsewhere, asked one question after another by a program that does nothing else.
+"""Direct blocking calls to a Master and nodes in other processes, for tools that do nothing else.
 
-A tool such as ``rostopic list`` asks two questions and ends. A graph with its scheduler and I/O thread would take
-longer to start than the answers take to come, so this asks by itself: :mod:`xmlrpc.client` over plain HTTP, with
-time-outs, bounded answers, and no document types in the XML.
+A tool such as ``rostopic list`` makes two calls and exits. Starting a graph with its scheduler and I/O thread would
+take longer than the calls, so this module calls directly: :mod:`xmlrpc.client` over plain HTTP, with
+timeouts, limited answers, and no document types in the XML.
 """
 
 from __future__ import annotations
@@ -25,23 +25,23 @@ if TYPE_CHECKING:
     from rosmini.core.peers import Triple
 
 MASTER_S = 10.0
-"""How long an answer of the Master may take [s]."""
+"""Timeout for an answer of the Master [s]."""
 
 NODE_S = 3.0
-"""How long an answer of a node may take [s]: what ``rosnode ping`` says."""
+"""Timeout for an answer of a node [s], the same as in ``rosnode ping``."""
 
 LONGEST = 64 * 1024 * 1024
-"""How many bytes an answer may have."""
+"""Maximum size of an answer [bytes]."""
 
 _PIECE = 65536
 
 
 class RefusedXml(xmlrpc.client.ResponseError):
-    """The answer is XML that no ROS program sends."""
+    """The answer contains XML that no ROS program sends."""
 
 
 class _Parser(xmlrpc.client.ExpatParser):
-    """The standard library's parser; entities, which can grow without bounds, are refused where they are declared."""
+    """The standard library's parser, but it refuses entity declarations, since entities can grow without limit."""
 
     def __init__(self, target: Any) -> None:
         super().__init__(target)
@@ -54,7 +54,7 @@ class _Parser(xmlrpc.client.ExpatParser):
 
 
 class _Transport(xmlrpc.client.Transport):
-    """The standard library's transport, with a time-out and a bound."""
+    """The standard library's transport, with a timeout and a size limit."""
 
     user_agent = "rosmini"
     accept_gzip_encoding = False
@@ -72,12 +72,12 @@ class _Transport(xmlrpc.client.Transport):
         return connection
 
     def getparser(self) -> tuple[Any, Any]:
-        """Return a parser and what gathers its results."""
+        """Return a parser and its target, which collects the results."""
         target = xmlrpc.client.Unmarshaller(use_builtin_types=True)
         return _Parser(target), target
 
     def parse_response(self, response: Any) -> Any:
-        """Return the values in an answer. Raises ``ResponseError`` for one that is too long."""
+        """Return the values in an answer. Raises ``ResponseError`` if it is too long."""
         parser, target = self.getparser()
         size = 0
         while data := response.read(_PIECE):
@@ -111,20 +111,20 @@ class DirectWire:
 
     @property
     def transport(self) -> DirectWire:
-        """The way to the nodes."""
+        """The transport to the nodes."""
         return self
 
     @property
     def scheduler(self) -> WallClock:
-        """The clock on the wall."""
+        """The wall clock."""
         return WallClock()
 
     def ask_as(self, caller_id: str) -> DirectMaster:
-        """Return the Master as a caller of this name sees it."""
+        """Return the Master as called by this name."""
         return DirectMaster(self, caller_id)
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a Master or of a node. Raises ``TransportException``, which says why nobody answered."""
+        """Call a method of a Master or node. Raises ``TransportException`` with the cause if there is no answer."""
         try:
             server = self._servers.get(uri)
             if server is None:
@@ -140,7 +140,7 @@ class DirectWire:
         return answer
 
     def probe_service(self, uri: str, header: dict[str, str]) -> dict[str, str]:
-        """Return the header with which a service's server answers. Raises ``TransportException``."""
+        """Return the header with which a service's server replies. Raises ``TransportException``."""
         from rosmini.core.graph.headers import HEADER_LIMIT, decode_fields, encode_header
 
         try:
@@ -159,7 +159,7 @@ class DirectWire:
 
 
 class DirectMaster:
-    """The Master, asked in the name of ``caller_id``; see :class:`~rosmini.core.peers.Asker`."""
+    """The Master, called in the name of ``caller_id``; see :class:`~rosmini.core.peers.Asker`."""
 
     def __init__(self, wire: DirectWire, caller_id: str) -> None:
         self._wire = wire
@@ -187,10 +187,10 @@ class DirectMaster:
 
 
 class WallClock:
-    """The clock on the wall; see :class:`~rosmini.core.peers.Clock`."""
+    """The wall clock; see :class:`~rosmini.core.peers.Clock`."""
 
     def now_ns(self) -> int:
-        """Return the time in nanoseconds; only differences mean something."""
+        """Return the time in nanoseconds; only differences are meaningful."""
         return time.perf_counter_ns()
 
     def sleep_until(self, when_ns: int, reason: str | None = None) -> None:  # noqa: ARG002 - the protocol's
@@ -199,7 +199,7 @@ class WallClock:
 
 
 def _complaint(uri: str, cause: BaseException) -> str:
-    """Return why there is no answer of a Master, and what to do about that."""
+    """Return why a Master does not answer, and what to do about it."""
     silent = f"the Master at {uri} does not answer: "
     another = "set ROS_MASTER_URI to the address of one that runs"
     if isinstance(cause, socket.gaierror):

@@ -1,4 +1,4 @@
-"""Messages that queues have dropped, as nodes count them (``getBusStats``, http://wiki.ros.org/ROS/Slave_API)."""
+"""Messages dropped by queues, as counted by nodes (``getBusStats``, http://wiki.ros.org/ROS/Slave_API)."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ if TYPE_CHECKING:
 
 
 class Flow(NamedTuple):
-    """One end of a topic connection: whom it connects, and how many messages the queue at this end has dropped."""
+    """One end of a topic connection: the peers, and the number of messages dropped by the queue at this end."""
 
     topic: str
     publisher: str
     subscriber: str
     side: str
-    """Whose queue it is: "publisher" or "subscriber"."""
+    """Owner of the queue: "publisher" or "subscriber"."""
     dropped: int
 
     def __str__(self) -> str:
@@ -28,9 +28,9 @@ class Flow(NamedTuple):
 
 
 def flows(peers: Peers, caller: str, name: str, uri: str, names: Mapping[str, str]) -> tuple[Flow, ...]:
-    """Ask a node what it has dropped; nothing of clients that do not count drops, or that answer in another form.
+    """Ask a node for its dropped messages; empty for clients that do not count them or use another format.
 
-    ``names`` has the names of nodes by their addresses. Raises ``TransportException`` when the node does not answer.
+    ``names`` maps addresses to names of nodes. Raises ``TransportException`` if the node does not answer.
     """
     stats, rows = (peers.transport.call(uri, method, caller) for method in ("getBusStats", "getBusInfo"))
     try:
@@ -44,7 +44,7 @@ def _flows(stats: Any, rows: Any, name: str, names: Mapping[str, str]) -> Iterat
     others = {row[0]: names.get(row[1], str(row[1])) for row in rows[2]}
     for topic, _, links in published:
         for row in links:
-            if len(row) > 4 and row[0] in others:  # rosmini's own addition
+            if len(row) > 4 and row[0] in others:  # rosmini's addition
                 yield Flow(topic, name, others[row[0]], "publisher", int(row[4]))
     for topic, links in subscribed:
         for row in links:

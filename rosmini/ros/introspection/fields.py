@@ -1,4 +1,4 @@
-"""Fields of messages by their paths, as ``rostopic`` writes them: ``/pose/pose/position/x``, ``/ranges[0:3]``."""
+"""Fields of messages by path, as ``rostopic`` writes them: ``/pose/pose/position/x``, ``/ranges[0:3]``."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ TIME_FIELDS = ("secs", "nsecs")
 
 
 class FieldError(RosminiError):
-    """A path names no field of a message, or is no path."""
+    """A path is invalid, or names no field of a message."""
 
 
 def class_of(kind: str) -> Any:
-    """Return the class of a message type, or None if it is not known here."""
+    """Return the class of a message type, or None if it is unknown."""
     try:
         return message_class(kind)
     except (UnknownType, UnknownPackage, DefinitionError, IllegalName):
@@ -39,7 +39,7 @@ def class_of(kind: str) -> Any:
 
 
 def service_class_of(kind: str) -> Any:
-    """Return the class of a service type, or None if it is not known here."""
+    """Return the class of a service type, or None if it is unknown."""
     try:
         return service_class(kind)
     except (UnknownType, UnknownPackage, DefinitionError, IllegalName):
@@ -47,7 +47,7 @@ def service_class_of(kind: str) -> Any:
 
 
 def field_type(kind: str, path: str) -> str | None:
-    """Return the type of the field at a path without indices; None if messages of the type have no such field."""
+    """Return the type of the field at a path without indices, or None if the message type has no such field."""
     for name in filter(None, path.split("/")):
         base = kind.partition("[")[0]
         if base in ("time", "duration"):
@@ -69,7 +69,7 @@ Index = int | slice | None
 def reader(path: str) -> Callable[[Any], Any]:
     """Return a function that returns the field at a path of a message.
 
-    Raises ``FieldError`` for what is no path; the function does so when a message has no such field or element.
+    Raises ``FieldError`` for an invalid path; the function raises it if a message has no such field or element.
     """
     steps = [_step(part) for part in path.split("/") if part]
 
@@ -83,7 +83,7 @@ def reader(path: str) -> Callable[[Any], Any]:
                 value = value[index]
             except (IndexError, TypeError) as error:
                 raise FieldError(f"{error}: {path}") from error
-            if isinstance(value, list):  # of messages: the rest of the path is in each
+            if isinstance(value, list):  # of messages: the rest of the path applies to each
                 return [read(one, number + 1) for one in value]
         return value
 
@@ -126,7 +126,7 @@ def _step(part: str) -> tuple[str, Index]:
 
 
 class Shown:
-    """A message as it is shown: some of its values are replaced by texts that stand for them."""
+    """A message for display: some of its values are replaced by texts."""
 
     _spec: Any = None
 
@@ -136,7 +136,7 @@ class Shown:
 
 
 def without(value: Any, kind: str | None, *, strings: bool, arrays: bool) -> Any:
-    """Return a field's value, of a type if it is known, with texts in the place of strings or arrays."""
+    """Return a field's value, whose type may be known, with strings or arrays replaced by texts."""
     if kind is not None:
         text = _stand_in(value, kind, strings=strings, arrays=arrays)
         if text is not None:
@@ -176,7 +176,7 @@ def chosen(*, strings: bool, arrays: bool) -> Callable[[Any], Iterable[str]]:
 
 
 def columns(value: Any, name: str, choose: Choose) -> list[str]:
-    """Return the titles of the columns of a value: one for each number, text and time in it."""
+    """Return the column titles of a value: one for each number, text and time in it."""
     if isinstance(value, Message):
         parts = [(getattr(value, field), f"{name}.{field}") for field in choose(value)]
     elif isinstance(value, list | tuple):
@@ -189,13 +189,13 @@ def columns(value: Any, name: str, choose: Choose) -> list[str]:
 def title_line(value: Any, choose: Choose) -> str:
     """Return the first line of ``rostopic echo -p``: the titles of the time and of the columns of a value."""
     titles = columns(value, "field", choose)
-    # A message without columns leaves the comma, an empty array does not: as the real tool has it.
+    # As in the real tool: the comma remains for a message without columns, but not for an empty array.
     comma = "," if titles or isinstance(value, Message) else ""
     return f"%time{comma}{','.join(titles)}"
 
 
 def cells(value: Any, choose: Choose) -> list[str]:
-    """Return what stands in the columns of a value."""
+    """Return the contents of the columns of a value."""
     if isinstance(value, Message):
         return [cell for field in choose(value) for cell in cells(getattr(value, field), choose)]
     if isinstance(value, list | tuple):

@@ -1,8 +1,8 @@
-"""Expressions on messages, confined: ``m.pose.position.x > 0``, ``topic == '/scan' and t.secs > 5``.
+"""Restricted expressions on messages: ``m.pose.position.x > 0``, ``topic == '/scan' and t.secs > 5``.
 
-ROS's tools hand them to Python's ``eval``. Here they are :mod:`rosmini.core.expressions`, which know what is listed and
-nothing else: of a message its fields and constants (and ``_type``), of a time its two numbers and what makes one
-number of it.
+ROS's tools pass them to Python's ``eval``. Here they use :mod:`rosmini.core.expressions`, which allow only these
+names: the fields and constants of a message (and ``_type``), the two numbers of a time and its conversions to one
+number.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _METHODS: dict[type, tuple[str, ...]] = {TVal: ("to_sec", "to_nsec", "is_zero")}
 
 
 def message_expression(text: str, names: Collection[str]) -> Expression:
-    """Return an expression of messages and times under some names. Raises ``ExpressionError``."""
+    """Return an expression on messages and times with these names. Raises ``ExpressionError``."""
     return Expression(text, names=names, functions=_FUNCTIONS, fields=_field, methods=_METHODS)
 
 
@@ -58,7 +58,7 @@ def _field(value: Any, name: str) -> Any:
 
 @cache
 def _names(cls: Any) -> frozenset[str]:
-    """What an expression may read of a message."""
+    """Return the attributes of a message that an expression may read."""
     return frozenset(
         {"_type"} | {each.name for each in cls._spec.fields} | {each.name for each in cls._spec.constants}
     )

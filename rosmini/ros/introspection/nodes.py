@@ -1,7 +1,7 @@
-"""What ``rosnode`` does: which nodes there are, where, what each does, whether it answers; and ending nodes.
+"""Functions of ``rosnode``: list, describe, ping and shut down nodes.
 
-The Master knows nodes by what they have registered (http://wiki.ros.org/ROS/Master_API); whether one is alive only it
-can say itself (http://wiki.ros.org/ROS/Slave_API).
+The Master knows nodes by their registrations (http://wiki.ros.org/ROS/Master_API); only a node itself can
+show that it is alive (http://wiki.ros.org/ROS/Slave_API).
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ if TYPE_CHECKING:
     from rosmini.core.peers import Asker, Peers
 
 ID = "/rosnode"
-"""In whose name the Master and the nodes are asked."""
+"""Caller name for calls to the Master and the nodes."""
 
 _PORTS = re.compile(r"\w+ connection on port (\d+) to \[(.*) on socket (\d+)\]")
-"""How clients describe a TCP connection."""
+"""Format in which clients describe a TCP connection."""
 
 
 def namespace_of(name: str) -> str:
-    """Return a global name as the start of the names in it: with slashes at both ends."""
+    """Return a global name as a namespace prefix: with slashes at both ends."""
     return f"/{name.strip('/')}/" if name.strip("/") else "/"
 
 
 def names(peers: Peers, namespace: str | None = None) -> list[str]:
-    """Return the names of all nodes, sorted; with a namespace, of those in it or of this name."""
+    """Return the names of all nodes, sorted; with a namespace, those in it or with this name."""
     state = peers.ask_as(ID).ask("getSystemState")
     found = {name for part in state for _, holders in part for name in holders}
     if namespace:
@@ -52,7 +52,7 @@ def uri_of(peers: Peers, name: str) -> str | None:
 
 @dataclass(frozen=True)
 class Description:
-    """What the Master knows of a node: topics with their types, and services, sorted."""
+    """Registrations of a node at the Master: topics with their types, and services, sorted."""
 
     name: str
     publications: tuple[tuple[str, str], ...]
@@ -72,7 +72,7 @@ class Description:
 
 
 def describe(peers: Peers, name: str) -> Description:
-    """Return what the Master knows of a node; of an unknown one, nothing."""
+    """Return the registrations of a node; empty for an unknown node."""
     master = peers.ask_as(ID)
     state = master.ask("getSystemState")
     kinds = dict(master.ask("getPublishedTopics", "/"))
@@ -88,7 +88,7 @@ def describe(peers: Peers, name: str) -> Description:
 
 @dataclass(frozen=True)
 class Link:
-    """One connection of a node: topic, whom it leads to, ``inbound`` or ``outbound``, by what, and its TCP ports."""
+    """A connection of a node: topic, peer, ``inbound`` or ``outbound``, transport, and its TCP ports."""
 
     topic: str
     to: str
@@ -105,7 +105,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Contact:
-    """What a node says itself: its process id and its connections."""
+    """A node's own information: its process id and its connections."""
 
     pid: int
     links: tuple[Link, ...]
@@ -117,7 +117,7 @@ class Contact:
 
 
 def contact(peers: Peers, uri: str) -> Contact:
-    """Ask a node for its process and its connections. Raises ``TransportException`` when it does not answer."""
+    """Ask a node for its process id and connections. Raises ``TransportException`` if it does not answer."""
     master = peers.ask_as(ID)
     state = master.ask("getSystemState")
     pid = succeed(peers.transport.call(uri, "getPid", ID))
@@ -126,7 +126,7 @@ def contact(peers: Peers, uri: str) -> Contact:
     links = tuple(
         _link(row, _name_at(master, state, row[4], row[1], addresses))
         for row in rows
-        if len(row) <= 5 or row[5]  # older clients do not say whether it is connected
+        if len(row) <= 5 or row[5]  # older clients do not report whether it is connected
     )
     return Contact(pid, links, bool(rows))
 
@@ -147,7 +147,7 @@ def _link(row: Sequence[Any], to: str) -> Link:
 
 
 def _name_at(master: Asker, state: Any, topic: str, uri: str, addresses: dict[str, str | None]) -> str:
-    """Return name and address of the node on a topic that has an address; what was given, if it is none's."""
+    """Return name and address of the node with an address on a topic; the given address if no node matches."""
     for part in state[:2]:
         for name in next((holders for item, holders in part if item == topic), ()):
             if name not in addresses:
@@ -158,7 +158,7 @@ def _name_at(master: Asker, state: Any, topic: str, uri: str, addresses: dict[st
 
 
 def ping(peers: Peers, uri: str) -> float:
-    """Return how long a node took to answer [ms]. Raises ``TransportException`` when it does not."""
+    """Return how long a node took to answer [ms]. Raises ``TransportException`` if it does not."""
     clock = peers.scheduler
     start = clock.now_ns()
     succeed(peers.transport.call(uri, "getPid", ID))
@@ -166,7 +166,7 @@ def ping(peers: Peers, uri: str) -> float:
 
 
 def why_silent(error: TransportException, name: str, uri: str) -> str:
-    """Return what ``rosnode ping`` prints of a node that did not answer."""
+    """Return the message of ``rosnode ping`` about a node that did not answer."""
     cause = error.__cause__
     if isinstance(cause, TimeoutError):
         return f"connection to [{name}] timed out"
@@ -186,7 +186,7 @@ def machines(peers: Peers) -> list[str]:
 
 
 def nodes_on(peers: Peers, machine: str) -> list[str] | None:
-    """Return the nodes on a machine, sorted; None if the name of the machine has no address and no node is there."""
+    """Return the nodes on a machine, sorted; None if the machine's name does not resolve and it has no nodes."""
     hosts = _hosts(peers)
     here = _resolved(machine)
     if not here and machine not in {host for _, host in hosts}:
@@ -211,9 +211,9 @@ def _resolved(host: str) -> set[str]:
 
 
 def kill(peers: Peers, wanted: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Ask nodes to shut down; return those that were asked, and those that the Master does not know.
+    """Ask nodes to shut down; return the nodes that were asked and those unknown to the Master.
 
-    A node may end before it has answered: that it does not answer is no failure.
+    A node may end before it has answered, so a missing answer is not a failure.
     """
     asked: list[str] = []
     unknown: list[str] = []
@@ -230,7 +230,7 @@ def kill(peers: Peers, wanted: Iterable[str]) -> tuple[list[str], list[str]]:
 
 
 def silent(peers: Peers, among: Iterable[str]) -> dict[str, str]:
-    """Return which nodes do not answer, with what ``rosnode ping`` prints of each."""
+    """Return the nodes that do not answer, each with the message of ``rosnode ping``."""
     found: dict[str, str] = {}
     for name in among:
         uri = uri_of(peers, name)
@@ -245,7 +245,7 @@ def silent(peers: Peers, among: Iterable[str]) -> dict[str, str]:
 
 
 def forget(peers: Peers, gone: Iterable[str]) -> None:
-    """Take all registrations of nodes back in their names: what they would have done themselves."""
+    """Unregister everything of dead nodes in their name, as they would have done themselves."""
     published, subscribed, services = peers.ask_as(ID).ask("getSystemState")
     for name in gone:
         master = peers.ask_as(name)

@@ -1,4 +1,4 @@
-"""How often messages come, how late, and how much they weigh: the sums behind ``rostopic hz``, ``delay`` and ``bw``."""
+"""Statistics of message rate, delay and size, for ``rostopic hz``, ``delay`` and ``bw``."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
 LARGEST_WINDOW = 50_000
-"""How many messages a window has that is not bounded."""
+"""Number of messages in a window without a limit."""
 
 
 class Statistics(NamedTuple):
-    """Mean, smallest, largest and standard deviation of some seconds, and the number of messages behind them."""
+    """Mean, minimum, maximum and standard deviation of some durations [s], and the number of messages."""
 
     mean: float
     smallest: float
@@ -24,12 +24,12 @@ class Statistics(NamedTuple):
 
     @property
     def rate(self) -> float:
-        """The messages a second, where the seconds are those between messages."""
+        """Messages per second, if the durations are those between messages."""
         return 1 / self.mean if self.mean > 0 else 0.0
 
 
 class Samples:
-    """The last of some durations [ns]; ``window`` is the number of messages that count (negative: very many)."""
+    """The last of some durations [ns]; ``window`` is the maximum number of messages (negative: very many)."""
 
     def __init__(self, window: int) -> None:
         size = LARGEST_WINDOW if window < 0 else window
@@ -38,9 +38,9 @@ class Samples:
         self._told: int | None = None
 
     def tick(self, now_ns: int) -> int | None:
-        """Note that a message came; return the time since the last one, None for the first and where time jumps back.
+        """Record a message's arrival; return the time since the last one, None for the first and if time jumps back.
 
-        Then what was noted before is forgotten. At time zero, which says that there is no time yet, nothing counts.
+        A jump back discards earlier samples. At time zero, which means that no time is known yet, nothing counts.
         """
         last, self._last = self._last, now_ns or None
         if last is None or now_ns < last:
@@ -49,7 +49,7 @@ class Samples:
         return now_ns - last
 
     def statistics(self) -> Statistics | None:
-        """Return the sums; None if no message came since they were asked for."""
+        """Return the statistics; None if no message came since the last call."""
         if not self.values or self._last == self._told:
             return None
         self._told = self._last
@@ -61,26 +61,26 @@ class Samples:
 
 
 class Arrivals(Samples):
-    """The times between messages."""
+    """Times between messages."""
 
     def heard(self, now_ns: int) -> None:
-        """Note that a message came at a time."""
+        """Record the arrival of a message at a time."""
         span = self.tick(now_ns)
         if span is not None:
             self.values.append(span)
 
 
 class Delays(Samples):
-    """The times from the stamps of messages to their arrival."""
+    """Delays between the stamps of messages and their arrival."""
 
     def heard(self, now_ns: int, stamp_ns: int) -> None:
-        """Note that a message with a stamp came at a time."""
+        """Record the arrival of a message with a stamp at a time."""
         if self.tick(now_ns) is not None:
             self.values.append(now_ns - stamp_ns)
 
 
 class Weight(NamedTuple):
-    """Bytes a second, and the mean, smallest and largest size of the messages [B], of which there are ``window``."""
+    """Bytes per second, and the mean, smallest and largest size [B] of ``window`` messages."""
 
     rate: float
     mean: float
@@ -98,17 +98,17 @@ class Weight(NamedTuple):
 
 
 class Sizes:
-    """The sizes of the last messages, and when they came."""
+    """Sizes and arrival times of the last messages."""
 
     def __init__(self, window: int) -> None:
         self._heard: deque[tuple[float, int]] = deque(maxlen=window)
 
     def heard(self, now: float, size: int) -> None:
-        """Note that a message of a size [B] came at a time [s]."""
+        """Record the arrival of a message of a size [B] at a time [s]."""
         self._heard.append((now, size))
 
     def weight(self, now: float) -> Weight | None:
-        """Return the sums at a time; None before the second message."""
+        """Return the statistics at a time; None before the second message."""
         sizes = [size for _, size in self._heard]
         if len(sizes) < 2 or now <= self._heard[0][0]:
             return None
@@ -119,12 +119,12 @@ class Sizes:
 
 
 def rate_text(found: Statistics) -> str:
-    """Return what ``rostopic hz`` prints of one topic."""
+    """Return the output of ``rostopic hz`` for one topic."""
     return f"average rate: {found.rate:.3f}\n\t{_spread(found)}"
 
 
 def delay_text(found: Statistics) -> str:
-    """Return what ``rostopic delay`` prints."""
+    """Return the output of ``rostopic delay``."""
     return f"average delay: {found.mean:.3f}\n\t{_spread(found)}"
 
 
@@ -134,7 +134,7 @@ def _spread(found: Statistics) -> str:
 
 
 def rate_table(found: Mapping[str, Statistics]) -> str:
-    """Return the table that ``rostopic hz`` prints of several topics."""
+    """Return the table of ``rostopic hz`` for several topics."""
     header = ("topic", "rate", "min_delta", "max_delta", "std_dev", "window")
     rows = [
         (

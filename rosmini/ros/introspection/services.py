@@ -1,7 +1,7 @@
-"""What ``rosservice`` finds out: which services there are, who offers them, where, and of which types.
+"""Functions of ``rosservice``: list services, and find their nodes, addresses and types.
 
-The Master knows a service's name, node and address; its type only its server tells, to a connection that asks for
-nothing else (http://wiki.ros.org/ROS/TCPROS).
+The Master knows a service's name, node and address; only its server knows the type, and reports it to a probe
+connection (http://wiki.ros.org/ROS/TCPROS).
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from rosmini.core.peers import Peers
 
 ID = "/rosservice"
-"""In whose name the Master and the servers are asked."""
+"""Caller name for calls to the Master and the servers."""
 
 
 class Service(NamedTuple):
-    """A service and the nodes that offer it: as a rule one."""
+    """A service and the nodes that offer it, normally one."""
 
     name: str
     nodes: tuple[str, ...]
 
 
 def services(peers: Peers, namespace: str | None = None) -> list[Service]:
-    """Return all services as the Master lists them; with a namespace, those in it or of this name."""
+    """Return all services in the Master's order; with a namespace, those in it or with this name."""
     found = [Service(name, tuple(nodes)) for name, nodes in peers.ask_as(ID).ask("getSystemState")[2]]
     if not namespace:
         return found
@@ -41,13 +41,13 @@ def node_of(peers: Peers, name: str) -> str | None:
 
 
 def uri_of(peers: Peers, name: str) -> str | None:
-    """Return the address of a service, ``rosrpc://host:port``, or None if nobody offers it."""
+    """Return the address of a service, ``rosrpc://host:port``, or None if no node offers it."""
     found: str | None = peers.ask_as(ID).find("lookupService", name)
     return found
 
 
 def type_of(peers: Peers, name: str) -> str | None:
-    """Return the type of a service; None if nobody offers it, or its server does not say.
+    """Return the type of a service; None if no node offers it, or its server does not report it.
 
     Raises ``TransportException`` if the server does not answer.
     """
@@ -58,12 +58,12 @@ def type_of(peers: Peers, name: str) -> str | None:
 
 
 def headers(peers: Peers, name: str, uri: str) -> dict[str, str]:
-    """Return what the server of a service says of itself. Raises ``TransportException`` if it does not answer."""
+    """Return the header that a service's server sends. Raises ``TransportException`` if it does not answer."""
     return peers.transport.probe_service(uri, {"probe": "1", "md5sum": "*", "callerid": ID, "service": name})
 
 
 def by_type(peers: Peers, kind: str) -> list[str]:
-    """Return the services of a type; those whose servers do not answer are left out."""
+    """Return the services of a type; those whose servers do not answer are omitted."""
     found: list[str] = []
     for service in services(peers):
         try:
@@ -75,6 +75,6 @@ def by_type(peers: Peers, kind: str) -> list[str]:
 
 
 def what_next(peers: Peers, name: str) -> str:
-    """Return a sentence for a name of no service: what resembles it, or how to see which there are."""
+    """Return a hint about an unknown service: similar names, or how to list the services."""
     known = [service.name for service in services(peers)]
     return nearest(name, known) or "`rosservice list` lists the services that there are."

@@ -1,4 +1,4 @@
-"""What ``rostopic`` finds out: which topics there are, of which types, and what a name with fields behind it means."""
+"""Functions of ``rostopic``: list topics and their types, and resolve a name followed by fields."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from rosmini.core.peers import Peers
 
 ID = "/rostopic"
-"""In whose name the Master is asked."""
+"""Caller name for calls to the Master."""
 
 UNKNOWN = "unknown type"
 ANY_TYPE = "*"
 
 
 class Topic(NamedTuple):
-    """One side of a topic: its name, its type, and the nodes that publish it, or that subscribe to it."""
+    """One side of a topic: its name, its type, and its publishers or its subscribers."""
 
     name: str
     type: str
@@ -31,7 +31,7 @@ class Topic(NamedTuple):
 
 
 class Topics(NamedTuple):
-    """The topics that are published, and those that are subscribed to."""
+    """Published topics, and topics with subscribers."""
 
     published: tuple[Topic, ...]
     subscribed: tuple[Topic, ...]
@@ -43,12 +43,12 @@ class Topics(NamedTuple):
         return Topics(*map(tuple, sides))
 
     def names(self) -> list[str]:
-        """Return the names of all, sorted."""
+        """Return all names, sorted."""
         return sorted({each.name for side in self for each in side})
 
 
 def types(peers: Peers) -> list[tuple[str, str]]:
-    """Return the topics whose type is known, with their types, as the Master lists them."""
+    """Return the topics with a known type, and their types, in the Master's order."""
     return [(name, kind) for name, kind in peers.ask_as(ID).ask("getTopicTypes")]
 
 
@@ -83,7 +83,7 @@ def by_host(peers: Peers, found: Topics) -> dict[str, Topics]:
 
 
 class Found(NamedTuple):
-    """A topic that a name stands for, its type, and what is behind the topic's name: ``/pose/position/x`` or empty."""
+    """The topic that a name refers to, its type, and the rest of the name: ``/pose/position/x`` or empty."""
 
     topic: str
     type: str
@@ -91,7 +91,7 @@ class Found(NamedTuple):
 
 
 def look_up(peers: Peers, name: str) -> Found | None:
-    """Return the topic of a name, which may go on with fields of its messages; None if there is none."""
+    """Return the topic of a name, which may continue with fields of its messages; None if not found."""
     known = types(peers)
     for topic, kind in known:
         if topic == name:
@@ -105,16 +105,16 @@ def look_up(peers: Peers, name: str) -> Found | None:
 
 
 def _may_have(kind: str, path: str) -> bool:
-    """Return whether messages of a type have a field, as far as it can be known: up to the first array."""
+    """Return True if messages of a type may have a field; checked up to the first array."""
     from .fields import class_of, field_type
 
     if class_of(kind) is None:
-        return True  # it is said later that the type is unknown
+        return True  # the unknown type is reported later
     return field_type(kind, path.rstrip("/").partition("[")[0]) is not None
 
 
 def what_next(peers: Peers, name: str) -> str:
-    """Return a sentence for a name of no topic: what resembles it, or which field a topic does not have."""
+    """Return a hint about an unknown topic: similar names, or the field that the topic lacks."""
     from rosmini.core.errors import nearest
 
     for topic, kind in sorted(types(peers), reverse=True):
@@ -135,19 +135,19 @@ def what_next(peers: Peers, name: str) -> str:
 
 
 def addresses(peers: Peers, nodes: Iterable[str]) -> dict[str, str]:
-    """Return the addresses of nodes; of those that the Master does not know, a text that says so."""
+    """Return the addresses of nodes; for a node unknown to the Master, a text that says so."""
     master = peers.ask_as(ID)
     return {node: master.find("lookupNode", node) or f"unknown address {node}" for node in nodes}
 
 
 class About(NamedTuple):
-    """A topic's type, and who publishes it and subscribes to it: names with addresses."""
+    """A topic's type, its publishers and its subscribers: names with addresses."""
 
     type: str
     publishers: dict[str, str]
     subscribers: dict[str, str]
     flows: tuple[Flow, ...] | None = None
-    """The connections with the numbers of messages that were dropped, if these were asked for."""
+    """Connections with their numbers of dropped messages, if requested."""
 
     def __str__(self) -> str:
         text = f"Type: {self.type}\n\n"
@@ -161,7 +161,7 @@ class About(NamedTuple):
 
 
 def about(peers: Peers, name: str, *, count_drops: bool = False) -> About | None:
-    """Return who is on a topic; None if nobody is. ``count_drops``: also ask its nodes which messages were dropped."""
+    """Return the nodes on a topic; None if there are none. ``count_drops``: also ask them for dropped messages."""
     found = topics(peers)
     sides = [[each for each in side if each.name == name] for side in found]
     if not any(sides):
@@ -172,7 +172,7 @@ def about(peers: Peers, name: str, *, count_drops: bool = False) -> About | None
 
 
 def _flows(peers: Peers, topic: str, uris: dict[str, str]) -> tuple[Flow, ...]:
-    """Return the connections on a topic; nodes that do not answer are left out."""
+    """Return the connections on a topic; nodes that do not answer are omitted."""
     names = {uri: node for node, uri in uris.items()}
     found: list[Flow] = []
     for node, uri in sorted(uris.items()):

@@ -1,6 +1,6 @@
-"""Types of messages and services: which packages define which, and their definitions as ``rosmsg`` shows them.
+"""Types of messages and services: the packages that define them, and their definitions as in ``rosmsg``.
 
-Nothing here asks a Master: definitions are files of packages (http://wiki.ros.org/rosmsg).
+The Master is not needed: definitions are files of packages (http://wiki.ros.org/rosmsg).
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 
 class Kind(NamedTuple):
-    """What a type defines: ``message`` or ``service``, and the ending of the files with such definitions."""
+    """Kind of a type: ``message`` or ``service``, with the suffix of its definition files."""
 
     name: str
     ending: str
 
     def names(self, package: str) -> list[str]:
-        """Return the names of the types that a package defines, those from actions included, sorted."""
+        """Return the names of the types that a package defines, including those from actions, sorted."""
         known = registry()
         return known.messages(package) if self is MESSAGE else known.services(package)
 
@@ -36,7 +36,7 @@ class Kind(NamedTuple):
         if not registry().source.has_package(package):
             from rosmini.core.packages import PackageIndex
 
-            PackageIndex().path(package)  # raises if there is no such package at all
+            PackageIndex().path(package)  # raises for an unknown package
         return [f"{package}/{name}" for name in self.names(package)]
 
     def all(self) -> list[str]:
@@ -44,7 +44,7 @@ class Kind(NamedTuple):
         return [kind for package in self.packages() for kind in self.of_package(package)]
 
     def search(self, short: str) -> list[str]:
-        """Return the types of a name, whatever their package."""
+        """Return the types with this name in any package."""
         return [f"{package}/{short}" for package in self.packages() if short in self.names(package)]
 
     def md5(self, kind: str) -> str:
@@ -54,7 +54,7 @@ class Kind(NamedTuple):
         return found
 
     def text(self, kind: str, *, raw: bool = False) -> str:
-        """Return the definition of a type: all fields, those of nested messages indented; or ``raw``, as in its file.
+        """Return the definition of a type with the fields of nested messages indented, or ``raw``, as in its file.
 
         Raises ``UnknownType``, ``UnknownPackage`` or ``DefinitionError``.
         """
@@ -71,7 +71,7 @@ class Kind(NamedTuple):
         return "---\n".join(tree(half, known.definition) for half in halves)
 
     def what_next(self, short: str) -> str:
-        """Return a sentence for a name of no type: what resembles it."""
+        """Return a hint about an unknown type: similar names."""
         names = sorted({name for package in self.packages() for name in self.names(package)})
         return nearest(short, names) or f"`ros{self.ending} list` lists the {self.name} types that there are."
 
@@ -81,7 +81,7 @@ SERVICE = Kind("service", "srv")
 
 
 def tree(spec: MessageSpec, definition: Callable[[str], MessageSpec]) -> str:
-    """Return constants and fields of a message, a line each, with those of nested messages below, indented.
+    """Return constants and fields of a message, one per line, with those of nested messages indented below.
 
     ``definition`` returns the definition of a nested type.
     """

@@ -1,7 +1,7 @@
-"""Why something happened: the chain of causes that a graph has recorded, told and drawn.
+"""Explains why something happened: the recorded chain of causes, as text and as a picture.
 
-The scheduler runs one thing at a time, so it knows what each acts on: a callback on a message, a handler on a request.
-A program's own loop acts on nothing that could be recorded; of it is told what its node had heard by then.
+The scheduler runs one task at a time, so it knows its cause: a callback has a message, a handler a request.
+The loop of a program has no recorded cause; for it the messages that its node had received by then are listed.
 """
 
 from __future__ import annotations
@@ -16,32 +16,32 @@ if TYPE_CHECKING:
     from rosmini.core.graph.history import Event, History
 
 DEPTH = 12
-"""How many causes are told if nobody says how many."""
+"""Default number of causes shown."""
 
 HEARD = 3
-"""How many topics are named that a node had heard when it acted by itself."""
+"""Number of topics listed that a node had received when it acted without a cause."""
 
 
 class NothingRecorded(RosminiError):
-    """The graph has recorded nothing of what was asked about."""
+    """The graph has no record of the requested name."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """A link of the chain: what happened, and the line of whose program that was."""
+    """A link of the chain: what happened, and the line of the program responsible."""
 
     what: str
     time: float
-    """The graph's time [s]."""
+    """Graph time [s]."""
     where: str = ""
 
 
 @dataclass(frozen=True)
 class Why:
-    """Why something happened: the steps from there back to the first cause that is known.
+    """Why something happened: the steps back to the first known cause.
 
-    ``heard`` are the last messages that the node of the last step had got, if it acted by itself. They may have had a
-    part in it, and need not.
+    ``heard`` are the last messages received by the node of the last step, if it acted without a cause. They may or may
+    not have influenced it.
     """
 
     steps: tuple[Step, ...]
@@ -51,7 +51,7 @@ class Why:
 
     @property
     def text(self) -> str:
-        """The chain in words, one step below the other."""
+        """Return the chain as text, one step below the other."""
         lines = []
         for index, step in enumerate(self.steps):
             lines.append(f"{'because ' if index else ''}{step.what}, at {step.time:.3f} s")
@@ -62,14 +62,14 @@ class Why:
 
     @property
     def before(self) -> list[str]:
-        """What the node had heard, a line for each topic."""
+        """Return the messages that the node had received, one line per topic."""
         return [f"before that: {step.what}, at {step.time:.3f} s" for step in self.heard]
 
     def __str__(self) -> str:
         return self.text
 
     def show(self, **options: Any) -> Any:
-        """Return a picture of the chain, the first cause above.
+        """Return a picture of the chain, the first cause at the top.
 
         Options, with their defaults:
             title=None: a caption under the picture
@@ -78,9 +78,9 @@ class Why:
 
 
 def explain(history: History, name: str, count: int = 1, depth: int = DEPTH) -> list[Why]:
-    """Return why the last messages on a topic were published, or a service called; of a node, what it did last.
+    """Return why the last messages on a topic were published, a service was called, or a node last acted.
 
-    The last one comes last. ``depth`` is how many causes are told. Raises ``NothingRecorded``, with the nearest names.
+    The latest one comes last. ``depth`` is the maximum number of causes. Raises ``NothingRecorded`` with similar names.
     """
     events = history.last(name, count)
     if not events:
@@ -133,7 +133,7 @@ def _where(event: Event) -> str:
 
 
 def _end(event: Event) -> str:
-    """Return why nothing is known that came before an event."""
+    """Return why no cause of an event is known."""
     if event.kind == "delivery":
         return f"and {event.who} published that before recording began, or it came over a wire"
     if not event.lane:

@@ -1,11 +1,11 @@
-"""roslaunch: from launch files to a plan that can be looked at, and from the plan to running nodes.
+"""roslaunch: reads launch files into a plan that can be inspected, and starts the nodes of a plan.
 
 >>> from rosmini.ros.launch import read
 >>> plan = read(text='<launch><group ns="robot1"><node pkg="tf" type="tf_monitor" name="monitor"/></group></launch>')
 >>> [node.full_name for node in plan.nodes]
 ['/robot1/monitor']
 
-What is here is loaded when it is first asked for: scripts that import ``roslaunch`` start as quickly as others.
+Names are imported on first use, so that scripts that import ``roslaunch`` start as quickly as others.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""`roslaunch` (http://wiki.ros.org/roslaunch) as a function, for notebooks and programs."""
+"""`roslaunch` (http://wiki.ros.org/roslaunch) as a function, to be used in notebooks and programs."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ if TYPE_CHECKING:
 
 
 def plan_of(*words: str | os.PathLike[str], lenient: bool = False, **args: Any) -> Plan:
-    """Return what launch files mean, without running anything.
+    """Return the plan of launch files without running anything.
 
     Args:
         words: a package and a launch file in it, or paths; and ``name:=value`` for arguments.
-        lenient: go on over what is missing, see `rosmini.ros.launch.read`.
-        args: further arguments, by name.
+        lenient: continue if something is missing, see `rosmini.ros.launch.read`.
+        args: further arguments as keyword arguments.
 
     Raises:
-        LaunchError: a file is not there or is wrong, with file and line; or something is missing.
+        LaunchError: a file is missing or invalid, with file and line; or something else is missing.
 
     """
     texts = [os.fspath(word) for word in words]
@@ -46,17 +46,17 @@ def roslaunch(
     console: dict[str, Any] | None = None,
     **args: Any,
 ) -> Launch:
-    """Start all nodes of launch files in one graph, and return at once; they run while the graph is driven.
+    """Start all nodes of launch files in one graph and return at once; they run while the graph is driven.
 
     Args:
         words: as for `plan_of`.
-        graph: where to run; if not given, the graph that runs the caller, else the default one.
+        graph: where to run; by default the graph that runs the caller, or else the default graph.
         console: ``stdin``, ``stdout``, ``stderr``, ``prefix`` and ``capture_output`` of
             :class:`~rosmini.ros.scripts.Console`.
-        args: arguments of the launch file, by name.
+        args: arguments of the launch file as keyword arguments.
 
     Raises:
-        LaunchError: as `plan_of` does.
+        LaunchError: as for `plan_of`.
 
     """
     plan = plan_of(*words, **args)

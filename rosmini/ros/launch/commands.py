@@ -1,7 +1,7 @@
-"""``command="..."`` of ``<param>``: what it prints becomes the parameter.
+"""``command="..."`` of ``<param>``: the output of the command becomes the parameter.
 
-ROS runs any program there. Here no program is run and there is no shell: what launch files need in practice is done by
-functions of our own, and another command is refused with what to do instead.
+ROS runs any program there. Here no program or shell is run: the commands that launch files need in practice are
+functions of rosmini, and any other command is refused with a suggestion.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ if TYPE_CHECKING:
     from rosmini.core.packages import PackageIndex
 
 LARGEST = 16_000_000
-"""Bytes that ``cat`` reads."""
+"""Maximum number of bytes that ``cat`` reads."""
 
 PYTHONS = ("python", "python3", "python2")
 
 
 class NotAllowed(RosminiError):
-    """A command that rosmini does not do."""
+    """A command that rosmini does not support."""
 
 
 def output_of(command: str, packages: PackageIndex) -> str:
-    """Return what a command prints.
+    """Return the output of a command.
 
-    There are ``xacro`` (also by its path, with ``rosrun xacro`` or ``python`` before it), ``cat``, ``echo`` and
-    ``rospack find``. Raises ``NotAllowed`` for any other, ``OSError`` for a file, and what xacro raises.
+    Supported are ``xacro`` (also by its path, or after ``rosrun xacro`` or ``python``), ``cat``, ``echo`` and
+    ``rospack find``. Raises ``NotAllowed`` for any other, ``OSError`` for a file, and the errors of xacro.
     """
     try:
         words = shlex.split(command)

@@ -1,4 +1,4 @@
-"""What can be wrong with a launch file."""
+"""Errors of launch files."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from pathlib import Path
 from rosmini.core.markup import MarkupError
 
 MOST_SHOWN = 50
-"""How many missing things an error lists."""
+"""Maximum number of missing things that an error lists."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where something is written: a file, and a line counted from 1."""
+    """A position in a file: its path, and a line counted from 1."""
 
     file: str
     line: int
@@ -25,7 +25,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Missing:
-    """Something that a launch file needs and that is not there: a package, a file, an argument, an executable."""
+    """A missing package, file, argument or executable that a launch file needs."""
 
     kind: str
     name: str
@@ -37,7 +37,7 @@ class Missing:
 
 
 class LaunchError(MarkupError):
-    """A launch file is wrong, at ``file``, line ``line``; ``missing`` is what was not found, if that is so."""
+    """A launch file is invalid at ``file``, line ``line``; ``missing`` lists what was not found, if anything."""
 
     def __init__(
         self,
@@ -51,7 +51,7 @@ class LaunchError(MarkupError):
 
 
 def not_there(missing: Sequence[Missing]) -> LaunchError:
-    """Return the error that names all that is missing, each with its place."""
+    """Return the error that lists all missing things with their places."""
     if len(missing) == 1:
         (only,) = missing
         return LaunchError(str(only), only.place.file, only.place.line, missing)

@@ -1,4 +1,4 @@
-"""Which program a node is, in a process of its own: ours first, then what a ROS on this computer has."""
+"""Finds the program that runs a node in a separate process: rosmini's first, then that of an installed ROS."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ if TYPE_CHECKING:
     from .plan import NodePlan, Plan
 
 INSTALLED = ("/opt/ros/noetic", "/opt/ros/melodic", "/usr")
-"""Where a ROS is installed."""
+"""Folders in which ROS may be installed."""
 
 ROSRUN = (sys.executable, "-m", "rosmini", "rosrun")
 
 
 class Program(NamedTuple):
-    """How a node is started: the first words of its command line, and the folder of its executable."""
+    """How to start a node: the first words of its command line, and the folder of its executable."""
 
     words: tuple[str, ...]
     folder: str
 
 
 def program(node: NodePlan, packages: PackageIndex, environ: Mapping[str, str]) -> Program:
-    """Return how a node is started in a process of its own. Raises as `program_of` does."""
+    """Return how to start a node in a separate process. Raises the errors of `program_of`."""
     return program_of(node.package, node.type, packages, environ)
 
 
 def program_of(package: str, name: str, packages: PackageIndex, environ: Mapping[str, str]) -> Program:
-    """Return how ``package/name`` is started in a process of its own.
+    """Return how to start ``package/name`` in a separate process.
 
-    Built-in nodes and Python scripts are run by `rosmini rosrun`, other files of packages by themselves, and so are the
-    executables of a ROS that is installed. Raises ``UnknownPackage`` or ``ScriptError`` if there is none.
+    Built-in nodes and Python scripts are run by `rosmini rosrun`; other files of packages run directly, and so do the
+    executables of an installed ROS. Raises ``UnknownPackage`` or ``ScriptError`` if it is not found.
     """
     try:
         found = packages.find_executable(package, name)
@@ -58,7 +58,7 @@ def program_of(package: str, name: str, packages: PackageIndex, environ: Mapping
 
 
 def is_python(executable: Executable) -> bool:
-    """Return whether a file is a script for Python, by its name or its first line."""
+    """Return True if a file is a Python script, judged by its name or first line."""
     if executable.path is None or executable.path.suffix == ".py":
         return executable.path is not None
     with executable.path.open("rb") as file:
@@ -87,7 +87,7 @@ def _prefixes(environ: Mapping[str, str]) -> Iterator[str]:
 
 
 def missing_programs(plan: Plan, packages: PackageIndex, environ: Mapping[str, str]) -> list[Missing]:
-    """Return the packages and executables of a plan's nodes that are not there, each once."""
+    """Return the missing packages and executables of a plan's nodes, without duplicates."""
     found: dict[tuple[str, str], Missing] = {}
     for node in plan.all_nodes():
         try:

@@ -1,7 +1,7 @@
-"""Ends the nodes of a launcher that was killed. A program of its own, which imports nothing of rosmini.
+"""Ends the nodes of a launcher that was killed; a separate program that imports nothing from rosmini.
 
-The launcher writes ``+PID`` and ``-PID`` for each process that it starts and that ends. When its end of the pipe is
-closed, whatever closed it, the processes that are left get SIGINT, SIGTERM and SIGKILL in turn.
+The launcher writes ``+PID`` and ``-PID`` for each process that starts or ends. When its end of the pipe is
+closed for any reason, the remaining processes get SIGINT, SIGTERM and SIGKILL in turn.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ import time
 from contextlib import suppress
 
 GRACE_S = (5.0, 2.0, 0.0)
-"""How long to wait after each of the signals [s]."""
+"""Waiting time after each of the signals [s]."""
 
 
 def is_there(group: int) -> bool:
-    """Return whether a process of a group still runs."""
+    """Return True if a process of a group is still running."""
     try:
         os.killpg(group, 0)
     except (ProcessLookupError, PermissionError):
@@ -26,7 +26,7 @@ def is_there(group: int) -> bool:
 
 
 def end(groups: set[int]) -> None:
-    """End groups of processes."""
+    """End process groups."""
     for number, grace in zip((signal.SIGINT, signal.SIGTERM, signal.SIGKILL), GRACE_S, strict=True):
         groups = {group for group in groups if is_there(group)}
         for group in groups:
@@ -38,7 +38,7 @@ def end(groups: set[int]) -> None:
 
 
 def main() -> None:
-    """Read until the launcher has gone; then end what it left."""
+    """Read until the launcher has gone, then end the remaining processes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     groups: set[int] = set()
     for line in sys.stdin:

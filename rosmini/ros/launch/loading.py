@@ -1,4 +1,4 @@
-"""What reading a launch file needs everywhere: attributes, warnings, what is missing, and the plan as it grows."""
+"""Shared parts of the launch file reader: attributes, warnings, missing things, and the plan being built."""
 
 from __future__ import annotations
 
@@ -24,26 +24,26 @@ if TYPE_CHECKING:
 CONDITIONS = ("if", "unless")
 
 MOST_SETTINGS = 100_000
-"""How many parameters may be set."""
+"""Maximum number of parameters set."""
 
 MOST_OVERRODE = 20
-"""How many settings that it overrode a parameter remembers: the last ones."""
+"""Maximum number of overridden settings that a parameter remembers: the last ones."""
 
 MOST_WARNINGS = 100
-"""How many warnings are listed; of the others there is a count."""
+"""Maximum number of warnings listed; the others are counted."""
 
 MOST_MISSING = 200
-"""How many things may be missing before reading ends."""
+"""Number of missing things at which reading stops."""
 
 MOST_COPIES = 200_000
-"""How many remappings and environment variables all nodes may have together."""
+"""Maximum number of remappings and environment variables of all nodes together."""
 
 LONGEST_NAME = 4096
-"""How many characters the name of a parameter may have."""
+"""Maximum number of characters in a parameter name."""
 
 
 class Loading:
-    """One plan that is being read. ``at`` is the file that is read just now."""
+    """A plan that is being read; ``at`` is the current file."""
 
     def __init__(
         self, packages: PackageIndex, environ: Mapping[str, str], anonymous: Callable[[str], str]
@@ -67,12 +67,12 @@ class Loading:
         return self._substitution.resolve(text, scope, element)
 
     def optional(self, element: Element, scope: Scope, name: str) -> str | None:
-        """Return an attribute, None where it is missing. Raises ``LaunchError``."""
+        """Return an attribute, or None if it is missing. Raises ``LaunchError``."""
         text = element.attributes.get(name)
         return None if text is None else self.resolve(text, scope, element)
 
     def required(self, element: Element, scope: Scope, name: str) -> str:
-        """Return an attribute that must be there. Raises ``LaunchError``."""
+        """Return a mandatory attribute. Raises ``LaunchError``."""
         text = self.optional(element, scope, name)
         if text is None:
             hint = nearest(name, element.attributes)
@@ -83,13 +83,13 @@ class Loading:
         return text
 
     def check_attributes(self, element: Element, known: Collection[str]) -> None:
-        """Warn of attributes that mean nothing here; reading goes on without them, as in ROS."""
+        """Warn of unknown attributes; they are ignored, as in ROS."""
         for name in element.attributes:
             if name not in known and name not in CONDITIONS:
                 self.warn(element, f"unknown <{element.tag}> attribute '{name}'", name, known)
 
     def applies(self, element: Element, scope: Scope) -> bool:
-        """Return whether ``if`` and ``unless`` let an element count. Raises ``LaunchError``."""
+        """Return True if ``if`` and ``unless`` enable an element. Raises ``LaunchError``."""
         given = [name for name in CONDITIONS if name in element.attributes]
         if not given:
             return True
@@ -104,7 +104,7 @@ class Loading:
         return truth == (given[0] == "if")
 
     def scope_inside(self, element: Element, scope: Scope, node: str | None = None) -> Scope:
-        """Return the scope in an element with ``ns`` and ``clear_params``. Raises ``LaunchError``."""
+        """Return the scope inside an element with ``ns`` and ``clear_params``. Raises ``LaunchError``."""
         space = self.space(element, scope)
         inside = scope.child(space)
         self.clear(
@@ -123,7 +123,7 @@ class Loading:
         return space
 
     def clear(self, element: Element, scope: Scope, space: str, *, named: bool) -> None:
-        """Note a namespace whose parameters are to be cleared. Raises ``LaunchError``."""
+        """Record a namespace whose parameters are to be cleared. Raises ``LaunchError``."""
         if not flag(element, "clear_params", self.optional(element, scope, "clear_params") or None):
             return
         if not named:
@@ -134,7 +134,7 @@ class Loading:
     # -- what is found -------------------------------------------------------------------------------------------
 
     def warn(self, element: Element, message: str, name: str = "", known: Iterable[str] = ()) -> None:
-        """Note what is odd. ``name`` may be one of the ``known`` names, mistyped."""
+        """Add a warning; ``name`` may be a misspelling of one of the ``known`` names."""
         if self._may_warn():
             hint = nearest(name, known)
             self.plan.warnings.append(
@@ -142,18 +142,18 @@ class Loading:
             )
 
     def _may_warn(self) -> bool:
-        """Return whether one more warning is listed, and count it if it is not."""
+        """Return True if another warning may be listed; otherwise count it."""
         listed = len(self.plan.warnings) < MOST_WARNINGS
         self._more_warnings += not listed
         return listed
 
     def count_warnings(self) -> None:
-        """Note how many warnings were not listed."""
+        """Add the number of warnings that were not listed."""
         if self._more_warnings:
             self.plan.warnings.append(f"... and {self._more_warnings} more warnings")
 
     def lacks(self, missing: Missing) -> None:
-        """Note what is not there, once for each."""
+        """Record a missing thing, once."""
         if (missing.kind, missing.name) not in self._told:
             self._told.add((missing.kind, missing.name))
             self.plan.missing.append(missing)
@@ -161,7 +161,7 @@ class Loading:
                 raise not_there(self.plan.missing)
 
     def lacks_file(self, element: Element, kind: str, path: str, reason: str) -> None:
-        """Note a file that cannot be read, unless something in its name is missing already."""
+        """Record an unreadable file, unless something in its name is missing already."""
         if not self.is_incomplete(path) and ("file", path) not in self._told:
             folder, name = os.path.split(path)
             hint = nearest(name, _names_in(folder))
@@ -169,7 +169,7 @@ class Loading:
             self.lacks(Missing("file", path, Place(element.path, element.line), message))
 
     def set(self, name: str, value: Any, place: Place, origin: str = "") -> None:
-        """Set a parameter; the last setting wins. Raises ``ParameterError`` for what cannot be stored."""
+        """Set a parameter; the last setting wins. Raises ``ParameterError`` for a value that cannot be stored."""
         self._settings += 1
         if self._settings > MOST_SETTINGS:
             raise ParameterError(f"more than {MOST_SETTINGS} parameters are set")
@@ -190,7 +190,7 @@ class Loading:
         self.at.settings.append(setting)
 
     def count_copies(self, element: Element, count: int) -> None:
-        """Count what a node gets from the scope around it. Raises ``LaunchError`` if all nodes get too much."""
+        """Count the copies that a node gets from its scope. Raises ``LaunchError`` if all nodes have too many."""
         self._copies += count
         if self._copies > MOST_COPIES:
             raise element.error(
@@ -198,19 +198,19 @@ class Loading:
             )
 
     def machine_needed(self, element: Element, name: str) -> None:
-        """Note that a machine of this name must be declared somewhere."""
+        """Record that a machine of this name must be declared somewhere."""
         self.wanted_machines.append((name, element))
 
 
 def source(element: Element) -> str:
-    """Return the opening tag of an element, in one line."""
+    """Return the opening tag of an element, on one line."""
     own = type(element)(element.tag, element.attributes)
     text = own.source()
     return text if len(text) <= 300 else text[:297] + "..."
 
 
 def global_name(name: str) -> str:
-    """Return a name with a slash before it."""
+    """Return a name with a leading slash."""
     return canonicalize("/" + name)
 
 

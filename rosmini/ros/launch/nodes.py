@@ -1,4 +1,4 @@
-"""``<node>``, ``<test>``, ``<machine>``: from their attributes to the plan."""
+"""Reads ``<node>``, ``<test>`` and ``<machine>`` elements into the plan."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ OLD_MACHINE = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname")
 
 
 def read_node(loading: Loading, element: Element, scope: Scope) -> NodePlan | TestPlan:
-    """Return what a ``<node>`` or ``<test>`` means; its parameters are set. Raises ``LaunchError``."""
+    """Return the plan of a ``<node>`` or ``<test>``, and set its parameters. Raises ``LaunchError``."""
     is_test = element.tag == "test"
     loading.check_attributes(element, TEST if is_test else NODE)
     for_test = _test_options(loading, element, scope) if is_test else {}
@@ -79,7 +79,7 @@ def read_node(loading: Loading, element: Element, scope: Scope) -> NodePlan | Te
 
 
 def _children(loading: Loading, element: Element, scope: Scope, inside: Scope, name: str) -> None:
-    """Read what is in a node: remappings and environment into the scope ``inside``, and its parameters."""
+    """Read the children of a node: remappings and environment into the scope ``inside``, and its parameters."""
     own = inside.child(name)
     own.private = {}
     for child in element.children:
@@ -100,7 +100,7 @@ def _children(loading: Loading, element: Element, scope: Scope, inside: Scope, n
 
 
 def _test_options(loading: Loading, element: Element, scope: Scope) -> dict[str, Any]:
-    """Return what a ``<test>`` has beside a node."""
+    """Return the options that a ``<test>`` has in addition to those of a node."""
     for name in ("respawn", "respawn_delay", "output"):
         if name in element.attributes:
             raise element.error(f"<test> tags cannot have '{name}' attribute")
@@ -158,7 +158,7 @@ def _options(loading: Loading, element: Element, scope: Scope) -> dict[str, Any]
 
 
 def read_machine(loading: Loading, element: Element, scope: Scope) -> Machine:
-    """Return what a ``<machine>`` says. Raises ``LaunchError``."""
+    """Return the machine that a ``<machine>`` declares. Raises ``LaunchError``."""
     old = [name for name in OLD_MACHINE if name in element.attributes]
     if old:
         raise element.error(

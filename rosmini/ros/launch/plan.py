@@ -1,4 +1,4 @@
-"""What a launch file means: the nodes, parameters, machines and tests, before anything runs."""
+"""The plan of a launch: the nodes, parameters, machines and tests of launch files, before anything runs."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from rosmini.core.rosparam import dumps
 from .errors import LaunchError, Missing, Place
 
 TIME_LIMIT_S = 60.0
-"""How long a test may take by itself [s]."""
+"""Default time limit of a test [s]."""
 
 WIDEST = 20
-"""How many characters of a value the summary shows, as roslaunch's."""
+"""Maximum number of characters of a value in the summary, as in roslaunch."""
 
 
 @dataclass(frozen=True)
 class Setting:
-    """A parameter that is set: where, and what it overrode.
+    """A parameter setting, with its place and the setting it overrode.
 
-    ``source`` is the file or the command from which the value came, if it is not written in the launch file.
+    ``source`` is the file or the command that gave the value, if it is not written in the launch file.
     """
 
     name: str
@@ -57,16 +57,16 @@ class NodePlan:
 
     @property
     def full_name(self) -> str:
-        """The node's global name."""
+        """Global name of the node."""
         return join(self.namespace, self.name)
 
     @property
     def executable(self) -> str:
-        """``package/type``."""
+        """Executable as ``package/type``."""
         return f"{self.package}/{self.type}"
 
     def words(self, *, with_namespace: bool = False) -> tuple[str, ...]:
-        """Return its arguments: its own, the remappings, its name; and its namespace, for want of ``ROS_NAMESPACE``."""
+        """Return its command line: arguments, remappings, name and, if asked for, the namespace."""
         own = shlex.split(self.args)
         remaps = [f"{source}:={target}" for source, target in self.remappings]
         space = [f"__ns:={self.namespace.rstrip('/') or '/'}"] if with_namespace else []
@@ -75,7 +75,7 @@ class NodePlan:
 
 @dataclass(frozen=True)
 class TestPlan(NodePlan):
-    """A ``<test>`` (http://wiki.ros.org/roslaunch/XML/test): a node that ends, and tells by its results."""
+    """A ``<test>`` (http://wiki.ros.org/roslaunch/XML/test): a node that ends and writes its results."""
 
     __test__ = False  # not one of pytest's
 
@@ -86,7 +86,7 @@ class TestPlan(NodePlan):
 
 @dataclass(frozen=True)
 class Machine:
-    """A ``<machine>`` (http://wiki.ros.org/roslaunch/XML/machine). ``password`` is known and never shown."""
+    """A ``<machine>`` (http://wiki.ros.org/roslaunch/XML/machine); its ``password`` is never shown."""
 
     name: str
     address: str
@@ -99,12 +99,12 @@ class Machine:
     is_default: bool = False
 
     def same_as(self, other: Machine) -> bool:
-        """Return whether another one is declared alike."""
+        """Return True if another machine has the same declaration."""
         return replace(self, place=other.place, is_default=other.is_default) == other
 
     @property
     def is_local(self) -> bool:
-        """Whether it is this machine, by its address."""
+        """True if its address is this machine's."""
         import socket
 
         return self.address in (
@@ -118,7 +118,7 @@ class Machine:
 
 @dataclass(frozen=True)
 class Argument:
-    """An ``<arg>`` of the file that is launched: ``default`` is None where it must be given."""
+    """An ``<arg>`` of the launched file: ``default`` is None if a value is required."""
 
     name: str
     default: str | None
@@ -128,7 +128,7 @@ class Argument:
 
 @dataclass(frozen=True)
 class Verb:
-    """A ``<rosparam command="dump">`` or ``"delete"``, which is done before the nodes start."""
+    """A ``<rosparam command="dump">`` or ``"delete"``, which is executed before the nodes start."""
 
     command: str
     name: str
@@ -138,7 +138,7 @@ class Verb:
 
 @dataclass
 class LaunchFile:
-    """A file that was read: what it includes, and what itself says. ``place`` is where it is included."""
+    """A launch file that was read: its includes and its own contents; ``place`` is where it is included."""
 
     path: str
     namespace: str = "/"
@@ -149,7 +149,7 @@ class LaunchFile:
     settings: list[Setting] = field(default_factory=list)
 
     def walk(self) -> Iterator[LaunchFile]:
-        """Yield this file and all that it includes, in the order of reading."""
+        """Yield this file and all files that it includes, in reading order."""
         yield self
         for file in self.includes:
             yield from file.walk()
@@ -157,7 +157,7 @@ class LaunchFile:
 
 @dataclass
 class Plan:
-    """All that launch files mean; the last setting of a parameter wins."""
+    """The complete contents of launch files; the last setting of a parameter wins."""
 
     roots: list[LaunchFile] = field(default_factory=list)
     nodes: list[NodePlan] = field(default_factory=list)
@@ -169,7 +169,7 @@ class Plan:
     verbs: list[Verb] = field(default_factory=list)
     arguments: dict[str, Argument] = field(default_factory=dict)
     warnings: list[str] = field(default_factory=list)
-    """What is odd, and does not keep anybody from launching; each begins with its place."""
+    """Problems that do not prevent a launch; each begins with its place."""
     missing: list[Missing] = field(default_factory=list)
 
     def __str__(self) -> str:
@@ -179,7 +179,7 @@ class Plan:
 
     @property
     def parameters(self) -> dict[str, Any]:
-        """The values of all parameters, by name."""
+        """Values of all parameters, by name."""
         return {name: setting.value for name, setting in self.settings.items()}
 
     def all_nodes(self) -> list[NodePlan]:
@@ -187,11 +187,11 @@ class Plan:
         return [*self.nodes, *self.tests]
 
     def files(self) -> list[str]:
-        """Return the files that were read, in the order of reading."""
+        """Return the files that were read, in reading order."""
         return [file.path for root in self.roots for file in root.walk()]
 
     def node(self, name: str) -> NodePlan:
-        """Return the node or test of a name; a relative one is in the root. Raises ``LaunchError``."""
+        """Return the node or test of a name; a relative name is taken from the root. Raises ``LaunchError``."""
         wanted = canonicalize("/" + name)
         for node in self.all_nodes():
             if node.full_name == wanted:
@@ -205,17 +205,17 @@ class Plan:
         )
 
     def overridden(self) -> list[Setting]:
-        """Return the settings that overrode others with another value."""
+        """Return the settings that overrode another value."""
         return [
             each for each in self.settings.values() if any(old.value != each.value for old in each.overrode)
         ]
 
     def dump(self) -> str:
-        """Return the parameters as `roslaunch --dump-params` prints them."""
+        """Return the output of `roslaunch --dump-params`."""
         return dumps(self.parameters)
 
     def ros_args(self) -> str:
-        """Return the arguments as `roslaunch --ros-args` prints them."""
+        """Return the output of `roslaunch --ros-args`."""
         if not self.arguments:
             return "No arguments."
         lines = []
@@ -233,7 +233,7 @@ class Plan:
         return "\n".join(lines)
 
     def summary(self, more: Mapping[str, Any] | None = None) -> str:
-        """Return what roslaunch prints before it starts; ``more`` are parameters that are set besides."""
+        """Return the summary that roslaunch prints before it starts; ``more`` are additional parameters."""
         lines = ["SUMMARY", "========"]
         if self.cleared:
             lines += ["", "CLEAR PARAMETERS", *sorted(f" * {name}" for name in self.cleared)]
@@ -255,7 +255,7 @@ class Plan:
         return "\n".join(lines)
 
     def text(self) -> str:
-        """Return all of it: files, nodes with their remappings, parameters with what they overrode, warnings."""
+        """Return the whole plan as text: files, nodes with remappings, parameters with overridden values, warnings."""
         counts = ((len(self.nodes), "node"), (len(self.settings), "parameter"), (len(self.files()), "file"))
         lines = [", ".join(_many(count, noun) for count, noun in counts)]
         for root in self.roots:
@@ -288,12 +288,12 @@ class Plan:
 
 
 def base(place: Place) -> str:
-    """Return a place by the last part of its path."""
+    """Return a place with only the last part of its path."""
     return f"{place.file.replace(os.sep, '/').rpartition('/')[2]}:{place.line}"
 
 
 def shortened(value: Any, widest: int = WIDEST) -> str:
-    """Return a value as roslaunch's summary shows it: short, and in one line."""
+    """Return a value as in roslaunch's summary: short, and on one line."""
     text = str(value)
     if len(text) > widest:
         text = text[: widest - 3] + "..."

@@ -1,4 +1,4 @@
-"""Processes as handles: started, awaited, respawned and ended as scripts and built-in nodes of a graph are."""
+"""Processes as handles: started, awaited, respawned and ended like scripts and built-in nodes of a graph."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Graph
 
 POLL_NS = 50_000_000
-"""How often a process is asked whether it has ended [ns]."""
+"""Period at which a process is polled for its end [ns]."""
 
 ON_POSIX = os.name == "posix"
 
 
 class Guard:
-    """Sees to it that no process outlives this one, however this one ends; on POSIX."""
+    """Ensures that no process outlives this one, however this one ends; on POSIX."""
 
     def __init__(self) -> None:
         self._process: Any = None
@@ -41,15 +41,15 @@ class Guard:
             )
 
     def started(self, pid: int) -> None:
-        """Note a process that was started and leads a group."""
+        """Record a process that was started and leads a process group."""
         self._tell(f"+{pid}\n")
 
     def ended(self, pid: int) -> None:
-        """Note that it has ended."""
+        """Record that a process has ended."""
         self._tell(f"-{pid}\n")
 
     def close(self) -> None:
-        """End what is left, and the guard."""
+        """End the remaining processes and the guard."""
         if self._process is not None:
             with suppress(OSError):
                 self._process.stdin.close()
@@ -64,7 +64,7 @@ class Guard:
 
 @dataclass(frozen=True)
 class ProcessSpec:
-    """A program to run: its command line, environment and folder; ``output`` is a file for what it prints."""
+    """A program to run: its command line, environment and folder; ``output`` is a file for its output."""
 
     name: str
     words: tuple[str, ...]
@@ -74,9 +74,9 @@ class ProcessSpec:
 
 
 class ProcessHandle(LaneHandle):
-    """A process, which leads a group of its own; see :class:`~rosmini.ros.scripts.handle.Handle`.
+    """A process that leads its own process group; see :class:`~rosmini.ros.scripts.handle.Handle`.
 
-    Its times are those of `graph`, which is in wall time. Raises ``ScriptError`` if it cannot be started.
+    Times are those of `graph`, which must be in wall-clock time. Raises ``ScriptError`` if it cannot be started.
     """
 
     def __init__(self, graph: Graph, spec: ProcessSpec, guard: Guard) -> None:
@@ -88,12 +88,12 @@ class ProcessHandle(LaneHandle):
 
     @property
     def name(self) -> str:
-        """What messages call it."""
+        """Name of the process in messages."""
         return self.spec.name
 
     @property
     def pid(self) -> int | None:
-        """The number of the process, of the latest start."""
+        """Id of the process that was started last."""
         return None if self._process is None else self._process.pid
 
     def _launch(self) -> None:
@@ -137,7 +137,7 @@ class ProcessHandle(LaneHandle):
                 process.send_signal(getattr(signal, "CTRL_BREAK_EVENT", signal.SIGTERM))
 
     def end_now(self, returncode: int) -> None:
-        """End it without asking."""
+        """Kill the process."""
         process = self._process
         if process is not None:
             with suppress(ProcessLookupError):
@@ -151,7 +151,7 @@ class ProcessHandle(LaneHandle):
 
 
 def _spawn(spec: ProcessSpec, output: IO[bytes] | None) -> subprocess.Popen[bytes]:
-    """Start a process that leads a session of its own; its errors go where ours do, as in roslaunch."""
+    """Start a process in a new session; its standard error is that of this process, as in roslaunch."""
     options: dict[str, Any] = {"start_new_session": True}
     if not ON_POSIX:
         options = {"creationflags": getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)}
@@ -163,5 +163,5 @@ def _spawn(spec: ProcessSpec, output: IO[bytes] | None) -> subprocess.Popen[byte
 def environment(
     environ: Mapping[str, str], more: Sequence[tuple[str, str]], namespace: str
 ) -> dict[str, str]:
-    """Return the environment of a node: what it is given goes before the launcher's own."""
+    """Return the environment of a node: its settings take precedence over the launcher's."""
     return {**environ, "ROS_NAMESPACE": namespace.rstrip("/") or "/", **dict(more)}

@@ -23,16 +23,16 @@ if TYPE_CHECKING:
     from rosmini.core.markup import Element
 
 DEEPEST = 60
-"""How deep files may include one another."""
+"""Maximum depth of includes."""
 
 MOST_FILES = 2000
-"""How many files may be read for one launch."""
+"""Maximum number of files read for one launch."""
 
 MOST_NODES = 10_000
-"""How many nodes a launch may have."""
+"""Maximum number of nodes in a launch."""
 
 TEXT = "<text>"
-"""What a launch file is called that is not read from a file."""
+"""Name of a launch file that is not read from a file."""
 
 
 def read(
@@ -45,20 +45,20 @@ def read(
     anonymous: Callable[[str], str] | None = None,
     lenient: bool = False,
 ) -> Plan:
-    """Read launch files, one after the other, into one plan. Nothing is run.
+    """Read launch files in order into one plan, without running anything.
 
     Args:
-        files: their paths.
-        args: values of arguments, as ``name:=value`` gives them on a command line.
+        files: paths of the files.
+        args: values of arguments, like ``name:=value`` on a command line.
         text: a further launch file, as text.
-        namespace: where everything is, as ``ROS_NAMESPACE`` says.
-        packages: where packages are; by default `PackageIndex()`.
-        environ: what ``$(env ...)`` reads; by default ``os.environ``.
-        anonymous: makes names for ``$(anon name)``; by default ``name_1``, ``name_2``.
-        lenient: read on over what is missing; it is in ``plan.missing`` then.
+        namespace: namespace of everything, like ``ROS_NAMESPACE``.
+        packages: the packages; by default `PackageIndex()`.
+        environ: variables for ``$(env ...)``; by default ``os.environ``.
+        anonymous: creates names for ``$(anon name)``; by default ``name_1``, ``name_2``.
+        lenient: continue if something is missing, and list it in ``plan.missing``.
 
     Raises:
-        LaunchError: a file is wrong, with file and line, or something is missing: one error names all of that.
+        LaunchError: a file is invalid, with file and line, or something is missing: one error lists everything.
 
     """
     reader = Reader(
@@ -74,7 +74,7 @@ def read(
             reader.read_root(TEXT, text, namespace, given)
         plan = reader.finish(given)
     except LaunchError as error:
-        if reader.is_incomplete(str(error)):  # it comes from what is missing
+        if reader.is_incomplete(str(error)):  # caused by something missing
             raise not_there(reader.plan.missing) from error
         raise
     if plan.missing and not lenient:
@@ -83,7 +83,7 @@ def read(
 
 
 def _counted() -> Callable[[str], str]:
-    """Return what makes anonymous names that are the same on each run."""
+    """Return a function that creates anonymous names, the same on each run."""
     made = 0
 
     def make(name: str) -> str:
@@ -107,7 +107,7 @@ class Reader(Loading):
         self._declared: set[str] = set()
 
     def read_root(self, path: str, text: str | None, namespace: str, args: Mapping[str, str]) -> None:
-        """Read a file that was named on the command line, or a text. Raises ``LaunchError``."""
+        """Read a file named on the command line, or a text. Raises ``LaunchError``."""
         scope = Scope(path, args=dict(args))
         scope.namespace = scope.inside(namespace)
         file = LaunchFile(path, scope.namespace, args=dict(args))
@@ -118,7 +118,7 @@ class Reader(Loading):
         self._declared |= scope.declared
 
     def finish(self, args: Mapping[str, str]) -> Plan:
-        """Return the plan, once all files are read. Raises ``LaunchError``."""
+        """Return the plan once all files are read. Raises ``LaunchError``."""
         self.count_warnings()
         for name in args:
             if name not in self._declared:
@@ -146,7 +146,7 @@ class Reader(Loading):
         return element
 
     def _inside(self, file: LaunchFile, root: Element, scope: Scope) -> None:
-        """Read what is in a file."""
+        """Read the contents of a file."""
         before, self.at = self.at, file
         self._open.append(file)
         try:
@@ -199,7 +199,7 @@ class Reader(Loading):
         if "value" in element.attributes and "default" in element.attributes:
             raise element.error("<arg> tag must have one and only one of value/default")
         value, doc = (self.optional(element, scope, each) for each in ("value", "doc"))
-        # ROS asks for what the default needs also where a value is given
+        # like ROS, resolve the default even if a value is given
         default = (
             element.attributes.get("default") if name in known else self.optional(element, scope, "default")
         )
@@ -300,7 +300,7 @@ class Reader(Loading):
             self.default_machine = made.name
 
     def master(self, element: Element, scope: Scope) -> None:  # noqa: ARG002 - alike
-        """Pass over what old files have."""
+        """Ignore an element of old files."""
         self.warn(element, "ignoring defunct <master /> tag")
 
 
@@ -320,9 +320,9 @@ TAGS: Mapping[str, Callable[[Reader, Element, Scope], None]] = {
 
 
 def find_file(words: Sequence[str], packages: PackageIndex | None = None) -> list[str]:
-    """Return the launch files that a command line names: ``PACKAGE FILE`` or paths; ``-`` stays.
+    """Return the launch files that a command line names: ``PACKAGE FILE`` or paths; ``-`` is kept.
 
-    Raises ``LaunchError``, which knows when the second word is an executable, to be run by rosrun.
+    Raises ``LaunchError``, with a hint if the second word is an executable to be run by rosrun.
     """
     index = packages if packages is not None else PackageIndex()
     if not words:
@@ -342,7 +342,7 @@ def find_file(words: Sequence[str], packages: PackageIndex | None = None) -> lis
 
 
 def files_named(index: PackageIndex, package: str, name: str) -> list[str]:
-    """Return the files of this name anywhere in a package; of a path, the file at that path."""
+    """Return the files of this name anywhere in a package; for a path, the file at that path."""
     folder = os.fspath(index.path(package))
     if os.path.basename(name) != name:  # noqa: PTH119 - a text
         path = os.path.normpath(os.path.join(folder, name))  # noqa: PTH118
@@ -375,7 +375,7 @@ def _all_there(words: Sequence[str]) -> list[str]:
 
 
 def _is_executable(index: PackageIndex, package: str, name: str) -> bool:
-    """Return whether a package has this executable, which is no launch file."""
+    """Return True if a package has this executable, and it is not a launch file."""
     return not name.endswith((".launch", ".xml", ".test")) and name in index.executables(package)
 
 
@@ -400,6 +400,6 @@ def _no_file(words: Sequence[str], index: PackageIndex) -> str:
 
 
 def _as_executable(package: str, name: str) -> str:
-    """Return what to write if an executable was meant: of a name that is not that of a launch file."""
+    """Return a hint if the name is not that of a launch file and may be an executable."""
     is_launch_file = name.endswith((".launch", ".xml", ".test"))
     return "" if is_launch_file else f"an executable is started by: rosrun {package} {name}"

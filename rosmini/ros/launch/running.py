@@ -1,4 +1,4 @@
-"""A plan that runs: its nodes are started in order, respawned or required as it says, and ended together."""
+"""A running plan: nodes are started in order, respawned or required as the plan says, and ended together."""
 
 from __future__ import annotations
 
@@ -29,25 +29,25 @@ Say = Callable[[str], object]
 
 @dataclass
 class Running:
-    """A node of a launch: ``name`` is what roslaunch calls its process, ``robot1/talker-2``."""
+    """A node of a launch; ``name`` is roslaunch's name for its process, ``robot1/talker-2``."""
 
     name: str
     node: NodePlan
     handle: LaneHandle
     log: str = ""
-    """Where its log files are, if it has any."""
+    """Path of its log files, if it has any."""
     asked_to_end: bool = False
 
 
 class Launch:
-    """The nodes of a plan in one graph, or in processes beside it.
+    """The nodes of a plan in one graph, or in separate processes.
 
     Args:
-        plan: what to run.
-        graph: the graph; it is driven by whoever waits for something.
-        make: makes the handle of a node, given the name of its process. Raises ``RosminiError`` if it cannot be run.
-        say: prints what goes on, `warn` what is amiss.
-        first: the number of the first process.
+        plan: the plan to run.
+        graph: the graph; code that waits for something drives it.
+        make: creates the handle of a node, given the name of its process. Raises ``RosminiError`` if it cannot run.
+        say: prints progress, `warn` prints problems.
+        first: number of the first process.
 
     """
 
@@ -66,10 +66,10 @@ class Launch:
         self.plan, self.graph = plan, graph
         self.running: list[Running] = []
         self.failed: list[NodePlan] = []
-        """The nodes that could not be started."""
+        """Nodes that could not be started."""
         self.ending = False
         self.required_ended: Running | None = None
-        """The required node whose end ended all."""
+        """The required node whose end ended the launch."""
         self._make, self._say, self._warn = make, say, warn
         self._timeouts = sigint_timeout, sigterm_timeout
         self._next = first
@@ -79,7 +79,7 @@ class Launch:
         return f"<Launch: {alive} of {len(self.running)} nodes run>"
 
     def __getitem__(self, name: str) -> LaneHandle:
-        """Return the handle of a node, by its name. Raises ``LaunchError`` for an unknown one."""
+        """Return the handle of a node by name. Raises ``LaunchError`` for an unknown one."""
         node = self.plan.node(name)
         for each in self.running:
             if each.node is node:
@@ -97,7 +97,7 @@ class Launch:
             self.start_node(node)
 
     def start_node(self, node: NodePlan) -> Running | None:
-        """Start one node; None if it could not be."""
+        """Start one node; return None if that fails."""
         name = f"{node.full_name.lstrip('/')}-{self._next}"
         self._next += 1
         try:
@@ -123,7 +123,7 @@ class Launch:
         self._say(f"process[{made.name}]: started" + (f" with pid [{pid}]" if pid is not None else ""))
 
     def _ended(self, made: Running, returncode: int) -> None:
-        """Do what is to be done when a node has ended."""
+        """Handle the end of a node."""
         if self.ending or made.asked_to_end or self.graph.closing:
             return
         said = self._how_it_ended(made, returncode)
@@ -150,7 +150,7 @@ class Launch:
         return f"process has died [{what}exit code {returncode}, cmd {command}].{log}"
 
     def _shut_down(self) -> None:
-        """Ask all nodes to end, the last one first, without waiting."""
+        """Ask all nodes to end, last to first, without waiting."""
         if self.ending:
             return
         self.ending = True
@@ -160,20 +160,20 @@ class Launch:
                 made.handle.terminate(*self._timeouts)
 
     def over(self) -> bool:
-        """Return whether no node runs, and none will be respawned."""
+        """Return True if no node runs and none will be respawned."""
         return all(made.handle.poll() is not None for made in self.running)
 
     def wait(self, timeout: float | None = None) -> RunState:
-        """Let the graph go on until all nodes have ended, or for some seconds of its time.
+        """Run the graph until all nodes have ended, or for some seconds of its time.
 
-        Nothing is ended: what runs goes on with the graph. Returns how it stands.
+        No node is ended by this; running nodes continue with the graph. Return the state of all nodes.
         """
         if not self.over():
             self.graph.run(timeout, until=self.over)
         return self.state()
 
     def stop(self) -> RunState:
-        """End all nodes: SIGINT, after a while SIGTERM, in the end SIGKILL; return how they ended."""
+        """End all nodes with SIGINT, later SIGTERM, finally SIGKILL; return how they ended."""
         self._shut_down()
         for made in self.running:
             if made.handle.poll() is None:
@@ -183,13 +183,13 @@ class Launch:
         return self.state()
 
     def kill(self) -> None:
-        """End all nodes without asking."""
+        """Kill all nodes."""
         self.ending = True
         for made in self.running:
             made.handle.kill()
 
     def state(self) -> RunState:
-        """Return how all nodes stand."""
+        """Return the state of all nodes."""
         return RunState(
             tuple((made.node.full_name, made.handle.poll()) for made in self.running), len(self.failed)
         )
@@ -197,14 +197,14 @@ class Launch:
 
 @dataclass(frozen=True)
 class RunState:
-    """The return code of each node that was started, None while it runs, and how many could not be."""
+    """Return code of each started node, None while it runs, and the number of nodes that could not be started."""
 
     codes: tuple[tuple[str, int | None], ...]
     failed: int = 0
 
     @property
     def status(self) -> int:
-        """An exit status: that of the first node that failed, 1 if one could not be started, else 0."""
+        """Exit status: that of the first node that failed, 1 if one could not be started, otherwise 0."""
         found = next((code for _, code in self.codes if code), 0) or 0
         return shell_status(found) or int(self.failed > 0)
 
@@ -215,7 +215,7 @@ class RunState:
 
 
 def set_parameters(plan: Plan, graph: Graph) -> None:
-    """Do what a plan asks for with the Parameter Server. Raises ``RosminiError`` if a file cannot be written."""
+    """Set, delete and dump the parameters of a plan. Raises ``RosminiError`` if a file cannot be written."""
     client = ParamClient(graph)
     for verb in plan.verbs:
         with suppress(ParameterNotSet):
@@ -234,7 +234,7 @@ def set_parameters(plan: Plan, graph: Graph) -> None:
 def in_graph(
     graph: Graph, packages: PackageIndex | None = None, *, to_log: bool = False, **console: Any
 ) -> Callable[[NodePlan, str], Running]:
-    """Return a function that makes the handles of nodes, which all run in one graph.
+    """Return a function that creates the handles of nodes, which all run in one graph.
 
     With `to_log` only their standard error appears. `console` has the arguments of `Console`.
     """
@@ -260,7 +260,7 @@ def in_graph(
 
 
 def differences(plan: Plan) -> Iterator[str]:
-    """Yield what one process cannot do of a plan."""
+    """Yield the parts of a plan that one process cannot carry out."""
     for node in plan.nodes:
         if node.launch_prefix:
             yield f'{node.place}: launch-prefix="{node.launch_prefix}" is for a process: it is ignored in one graph'
@@ -274,7 +274,7 @@ def differences(plan: Plan) -> Iterator[str]:
 
 
 def on_machine(plan: Plan, node: NodePlan) -> str:
-    """Return what is to be done about a node that belongs on another machine."""
+    """Return a hint for a node that belongs on another machine."""
     machine = plan.machines[node.machine]
     user = f"{machine.user}@" if machine.user else ""
     port = f" -p {machine.ssh_port}" if machine.ssh_port != 22 else ""
@@ -288,5 +288,5 @@ def on_machine(plan: Plan, node: NodePlan) -> str:
 
 
 def log_base(folder: Path | None, name: str) -> str:
-    """Return how the log files of a process begin."""
+    """Return the prefix of a process's log files."""
     return "" if folder is None else str(folder / name.replace("/", "-"))

@@ -1,6 +1,6 @@
-"""``import roslaunch``: what scripts use of ROS's module (http://wiki.ros.org/roslaunch/API%20Usage).
+"""``import roslaunch``: the parts of ROS's module that scripts use (http://wiki.ros.org/roslaunch/API%20Usage).
 
-The nodes run in the graph of the script that starts them, as `rosmini.ros.launch.roslaunch` has it. ``roslaunch.core``,
+The nodes run in the graph of the script that starts them, as with `rosmini.ros.launch.roslaunch`. ``roslaunch.core``,
 ``parent``, ``rlutil`` and ``scriptapi`` are this module.
 """
 
@@ -35,13 +35,13 @@ __all__ = [
 ]
 
 __path__: list[str] = []
-"""A package to what imports ``roslaunch.core``."""
+"""Makes the module a package, for ``import roslaunch.core``."""
 
 core = parent = rlutil = scriptapi = sys.modules[__name__]
 
 
 def __getattr__(name: str) -> Any:
-    if name == "RLException":  # what reads XML is loaded when it is needed: every script gets this module
+    if name == "RLException":  # the XML reader is loaded on demand: every script gets this module
         from .errors import LaunchError
 
         return LaunchError
@@ -51,7 +51,7 @@ def __getattr__(name: str) -> Any:
 
 
 def get_or_generate_uuid(options_runid: str | None = None, options_wait_for_master: bool = False) -> str:  # noqa: ARG001
-    """Return the run's identity: the one given, else the Master's, else a new one."""
+    """Return the run id: the given one, else the Master's, else a new one."""
     if options_runid is not None:
         return options_runid
     code, _, value = running_graph().ask_as("/roslaunch").call("getParam", "/run_id")
@@ -59,11 +59,11 @@ def get_or_generate_uuid(options_runid: str | None = None, options_wait_for_mast
 
 
 def configure_logging(uuid: str) -> None:
-    """Do nothing: there are no log files of a launch inside a script."""
+    """Do nothing: a launch inside a script has no log files."""
 
 
 def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
-    """Return the launch files that the words of a command line name. Raises ``RLException``."""
+    """Return the launch files named by the words of a command line. Raises ``RLException``."""
     words = [word for word in args if not is_remapping(word)]
     from .reader import find_file
 
@@ -71,7 +71,7 @@ def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
 
 
 class Node:
-    """A node to be started, with the arguments of roslaunch's own class. Raises ``ValueError``."""
+    """A node to start, with the arguments of roslaunch's own class. Raises ``ValueError``."""
 
     def __init__(
         self,
@@ -139,15 +139,15 @@ class Process:
 
     @property
     def exit_code(self) -> int | None:
-        """Its exit status, None while it runs."""
+        """Exit status; None while it runs."""
         return self._running.handle.poll()
 
     def is_alive(self) -> bool:
-        """Return whether it runs."""
+        """Return True if it is running."""
         return self._running.handle.poll() is None
 
     def stop(self, errors: Any = None) -> None:  # noqa: ARG002 - roslaunch's signature
-        """End it, and wait until it has."""
+        """End it, and wait until it has ended."""
         self._running.asked_to_end = True
         self._running.handle.terminate()
         if self.is_alive():
@@ -171,11 +171,11 @@ class ROSLaunch:
         self._launch = _launch(None)
 
     def start(self) -> None:
-        """Get ready."""
+        """Prepare for launching nodes."""
         self.started = True
 
     def launch(self, node: Node) -> Process:
-        """Start a node. Raises ``RLException`` if it cannot be, or before ``start``."""
+        """Start a node. Raises ``RLException`` if that fails, or before ``start``."""
         if not self.started:
             raise core.RLException("please start ROSLaunch first: launch.start()")
         made = self._launch.start_node(node.plan)
@@ -184,7 +184,7 @@ class ROSLaunch:
         return Process(made)
 
     def stop(self) -> None:
-        """End all nodes, and wait until they have."""
+        """End all nodes, and wait until they have ended."""
         self._launch.stop()
 
     def spin(self) -> None:
@@ -192,14 +192,14 @@ class ROSLaunch:
         _wait(self._launch)
 
     def spin_once(self) -> None:
-        """Do nothing: the graph goes on whenever the script waits for something."""
+        """Do nothing: the graph runs whenever the script waits for something."""
 
 
 class ROSLaunchParent:
     """Starts all nodes of launch files.
 
     Args:
-        run_id: of the run; not used.
+        run_id: id of the run; not used.
         roslaunch_files: paths, or pairs of a path and words such as ``["name:=value"]``.
         is_core: True starts nothing: the graph has a Master.
 
@@ -237,10 +237,10 @@ class ROSLaunchParent:
             _wait(each)
 
     def spin_once(self) -> None:
-        """Do nothing: the graph goes on whenever the script waits for something."""
+        """Do nothing: the graph runs whenever the script waits for something."""
 
     def shutdown(self) -> None:
-        """End all nodes, and wait until they have."""
+        """End all nodes, and wait until they have ended."""
         for each in reversed(self._launches):
             each.stop()
 

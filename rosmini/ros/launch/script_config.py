@@ -1,4 +1,4 @@
-"""``import roslaunch.xmlloader`` and ``roslaunch.config``: launch files as data, for scripts that look at them.
+"""``import roslaunch.xmlloader`` and ``roslaunch.config``: launch files as data, for use in scripts.
 
 >>> config = ROSLaunchConfig()
 >>> XmlLoader().load_string('<launch><node pkg="tf" type="tf_monitor" name="monitor"/></launch>', config, argv=[])
@@ -40,7 +40,7 @@ class Param(NamedTuple):
 
 
 class ROSLaunchConfig:
-    """What launch files mean: ``nodes``, ``tests``, ``params`` and ``machines`` by name, ``roslaunch_files``."""
+    """Contents of launch files: ``nodes``, ``tests``, ``params`` and ``machines`` by name, ``roslaunch_files``."""
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
@@ -50,20 +50,20 @@ class ROSLaunchConfig:
         self.machines: dict[str, Machine] = {}
         self.roslaunch_files: list[str] = []
         self.config_errors: list[str] = []
-        """What is odd, and keeps nobody from launching."""
+        """Problems that do not prevent a launch."""
         self._plans: list[Plan] = []
 
     @property
     def resolved_node_names(self) -> list[str]:
-        """The global names of the nodes."""
+        """Global names of the nodes."""
         return [node.plan.full_name for node in self.nodes]
 
     def summary(self, local: bool = False) -> str:  # noqa: ARG002 - roslaunch's signature
-        """Return what roslaunch prints before it starts."""
+        """Return the summary that roslaunch prints before it starts."""
         return "\n".join(plan.summary() for plan in self._plans)
 
     def add(self, plan: Plan) -> None:
-        """Take over what a plan has; a later setting of a parameter wins."""
+        """Add the contents of a plan; a later setting of a parameter wins."""
         self._plans.append(plan)
         self.nodes += [_node(each) for each in plan.nodes]
         self.tests += [_node(each) for each in plan.tests]
@@ -108,7 +108,7 @@ class XmlLoader:
         argv: Sequence[str] | None = None,
         verbose: bool = True,  # noqa: ARG002
     ) -> None:
-        """Read a file; ``argv`` has its arguments, the script's own by default. Raises ``XmlParseException``."""
+        """Read a file; ``argv`` has its arguments, by default the script's own. Raises ``XmlParseException``."""
         from .reader import read
 
         ros_config.add(read(filename, args=_arguments(argv)))
@@ -139,7 +139,7 @@ def load_config_default(
     loader: XmlLoader | None = None,
     **others: Any,  # noqa: ARG001
 ) -> ROSLaunchConfig:
-    """Return what launch files and texts mean together. Raises ``XmlParseException``."""
+    """Return the combined contents of launch files and texts. Raises ``XmlParseException``."""
     loader, config = loader or XmlLoader(), ROSLaunchConfig()
     for each in roslaunch_files:
         file, words = (each, None) if isinstance(each, str) else each

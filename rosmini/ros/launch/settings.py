@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     from .scope import Scope
 
 LARGEST = 16_000_000
-"""Bytes of a file whose text becomes a parameter."""
+"""Maximum size of a file whose text becomes a parameter [bytes]."""
 
 VALUES = ("value", "textfile", "binfile", "command")
 
 
 def read_param(loading: Loading, element: Element, scope: Scope, *, local: bool = False) -> None:
-    """Set a parameter (http://wiki.ros.org/roslaunch/XML/param). Inside a node (``local``) it is the node's own.
+    """Set a parameter (http://wiki.ros.org/roslaunch/XML/param), inside a node (``local``) a private one.
 
     Raises ``LaunchError``.
     """
@@ -63,11 +63,11 @@ def read_param(loading: Loading, element: Element, scope: Scope, *, local: bool 
 
 
 _NOTHING: Any = object()
-"""The value of a parameter whose file or command is missing."""
+"""Value of a parameter whose file or command is missing."""
 
 
 def _value(loading: Loading, element: Element, how: str, text: str, kind: str) -> tuple[Any, str]:
-    """Return a parameter's value, and where it comes from."""
+    """Return a parameter's value and its source."""
     if how == "value":
         return convert(text.strip(), kind), ""
     try:
@@ -153,7 +153,7 @@ def _load(
 
 
 def _bad_yaml(element: Element, error: RosParamException, *, inline: bool) -> LaunchError:
-    """Return the error for YAML that is none: at its own line, if it stands in the launch file itself."""
+    """Return the error for invalid YAML, with the line in the launch file if the YAML is ``inline``."""
     if inline:
         line = element.line + (error.line or 1) - 1
         return LaunchError(f"Error within YAML block: {error.message}", element.path, line)
@@ -163,7 +163,7 @@ def _bad_yaml(element: Element, error: RosParamException, *, inline: bool) -> La
 
 
 def _note(loading: Loading, element: Element, command: str, full: str, file: str | None) -> None:
-    """Note what is to be done with the Parameter Server before the nodes start."""
+    """Record an action on the Parameter Server to carry out before the nodes start."""
     if command == "delete" and file is not None:
         raise element.error("'file' attribute is invalid with 'delete' command.")
     if command == "dump":
@@ -177,7 +177,7 @@ def _note(loading: Loading, element: Element, command: str, full: str, file: str
 
 
 def read_remap(loading: Loading, element: Element, scope: Scope) -> None:
-    """Add a remapping for what follows in this scope. Raises ``LaunchError``."""
+    """Add a remapping for the rest of this scope. Raises ``LaunchError``."""
     loading.check_attributes(element, ("from", "to"))
     ends = [canonicalize(loading.required(element, scope, name)) for name in ("from", "to")]
     for name, end in zip(("from", "to"), ends, strict=True):
@@ -189,7 +189,7 @@ def read_remap(loading: Loading, element: Element, scope: Scope) -> None:
 
 
 def read_env(loading: Loading, element: Element, scope: Scope) -> None:
-    """Set an environment variable for what follows in this scope. Raises ``LaunchError``."""
+    """Set an environment variable for the rest of this scope. Raises ``LaunchError``."""
     loading.check_attributes(element, ("name", "value"))
     name, value = (loading.required(element, scope, each) for each in ("name", "value"))
     if not name:

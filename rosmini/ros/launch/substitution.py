@@ -1,6 +1,6 @@
 """Substitution args: ``$(find pkg) $(arg x) $(env X) $(optenv X y) $(anon x) $(dirname) $(eval ...)``.
 
-See http://wiki.ros.org/roslaunch/XML, section "substitution args". ``$(eval ...)`` is confined
+See http://wiki.ros.org/roslaunch/XML, section "substitution args". ``$(eval ...)`` is restricted
 (`rosmini.core.expressions`).
 """
 
@@ -36,27 +36,27 @@ if TYPE_CHECKING:
 COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
 
 STAND_IN = "missing_"
-"""How the words begin that stand for what is missing: reading goes on with them, to find all that is."""
+"""Prefix of placeholders for missing things; reading continues with them, to find everything that is missing."""
 
 MOST_HINTS = 20
-"""For how many missing things similar names are searched."""
+"""Number of missing things for which similar names are searched."""
 
 LONGEST = 1_000_000
-"""How many characters a text may have, once everything is replaced."""
+"""Maximum number of characters in a text after replacement."""
 
 MOST = 25_000_000
-"""How many characters all texts of a launch may have together, of those in which something is replaced."""
+"""Maximum number of characters in all texts of a launch in which something is replaced."""
 
 SHOWN = 300
-"""How many characters of a text an error quotes."""
+"""Maximum number of characters of a text quoted in an error."""
 
-# Each `$` of a row would otherwise begin the search again.
+# Otherwise each `$` in a row would start the search again.
 _OPEN = re.compile(r"(?<!\$)\$+\(([^)]*)\)")
 _FIND = re.compile(r"(?<!\$)\$+\( *find +([^()$ ]+) *\)([^ ]*)")
 
 
 class _Arguments(Mapping[str, Any]):
-    """The arguments as values, except those with the name of a function."""
+    """Arguments as values, except those that have the name of a function."""
 
     def __init__(self, args: Mapping[str, str], functions: Mapping[str, Any]) -> None:
         self._args, self._functions = args, functions
@@ -74,13 +74,13 @@ class _Arguments(Mapping[str, Any]):
 
 
 class Substitution:
-    """Replaces what stands in ``$(...)``.
+    """Replaces ``$(...)`` in texts.
 
     Args:
-        packages: where ``$(find ...)`` looks.
-        environ: what ``$(env ...)`` reads.
-        anonymous: makes a new name of the name in ``$(anon ...)``.
-        missing: is told what is not there; reading goes on with a stand-in.
+        packages: packages for ``$(find ...)``.
+        environ: variables for ``$(env ...)``.
+        anonymous: creates a new name for the name in ``$(anon ...)``.
+        missing: called for each missing thing; reading continues with a placeholder.
 
     """
 
@@ -98,11 +98,11 @@ class Substitution:
         self._budget = Budget(STEPS_OF_A_FILE)
 
     def is_incomplete(self, text: str) -> bool:
-        """Return whether something that is missing should stand in a text."""
+        """Return True if a text contains a placeholder for something missing."""
         return STAND_IN in text and any(word in text for word in self._stand_ins)
 
     def resolve(self, text: str, scope: Scope, element: Element) -> str:
-        """Return a text with everything replaced. Raises ``LaunchError`` for what makes no sense."""
+        """Return a text with everything replaced. Raises ``LaunchError`` for invalid substitutions."""
         if "$" not in text:
             return text
         if text.startswith("$(eval ") and text.endswith(")"):
@@ -120,7 +120,7 @@ class Substitution:
     def _sub(
         self, what: re.Pattern[str], new: Callable[[re.Match[str]], str], text: str, element: Element
     ) -> str:
-        """Replace as ``what.sub`` does, and stop before the text becomes too long."""
+        """Replace like ``what.sub``, and stop before the text becomes too long."""
         size = 0
 
         def counted(found: re.Match[str]) -> str:
@@ -226,7 +226,7 @@ class Substitution:
         return f"/{self._stand_in(package)}"
 
     def _path(self, package: str, rest: str, element: Element) -> str:
-        """Return where a package is, and the path that follows, if one does."""
+        """Return the path of a package, followed by the rest of the path, if any."""
         path = rest.replace("\\", "/").removeprefix("/").replace("/", os.sep)
         folder = self._find(package, element)
         return str(os.path.join(folder, path)) if path else folder  # noqa: PTH118 - a text that need be no path
@@ -237,7 +237,7 @@ class Substitution:
         return word
 
     def _hint(self, name: str, known: Collection[str]) -> str:
-        """Return the names that may be meant, for the first things that are missing."""
+        """Return a hint with similar names, for the first missing things only."""
         return (
             ""
             if len(self._stand_ins) >= MOST_HINTS or _word(name) in self._stand_ins

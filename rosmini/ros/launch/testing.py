@@ -1,4 +1,4 @@
-"""The ``<test>`` tags of launch files (http://wiki.ros.org/rostest): nodes that end, beside all others."""
+"""Runs the ``<test>`` tags of launch files (http://wiki.ros.org/rostest): nodes that end, alongside all others."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ KINDS = ("failure", "error", "skipped")
 
 @dataclass(frozen=True)
 class Case:
-    """One test: ``kind`` is empty where it passed, else "failure", "error" or "skipped", and ``text`` says why."""
+    """A test; ``kind`` is empty if it passed, else "failure", "error" or "skipped", and ``text`` gives the reason."""
 
     classname: str
     name: str
@@ -45,17 +45,17 @@ class Case:
 
 @dataclass(frozen=True)
 class Results:
-    """What the tests of launch files gave; its text is rostest's."""
+    """Results of the tests of launch files; printed like rostest's."""
 
     cases: tuple[Case, ...] = field(default=())
 
     def count(self, kind: str) -> int:
-        """Return how many tests gave that."""
+        """Return the number of tests with that result."""
         return sum(case.kind == kind for case in self.cases)
 
     @property
     def passed(self) -> bool:
-        """Whether there was a test, and none failed."""
+        """True if there was a test and none failed."""
         return bool(self.cases) and not self.count("failure") + self.count("error")
 
     def __str__(self) -> str:
@@ -65,7 +65,7 @@ class Results:
         return "\n".join(lines)
 
     def write(self, file: str | Path) -> None:
-        """Write them as JUnit XML. Raises ``OSError``."""
+        """Write the results as JUnit XML. Raises ``OSError``."""
         counts = {"failures": "failure", "errors": "error", "skipped": "skipped"}
         numbers = {name: str(self.count(kind)) for name, kind in counts.items()}
         root = ET.Element("testsuite", {"name": "rostest", "tests": str(len(self.cases)), **numbers})
@@ -87,14 +87,14 @@ def run_tests(
     packages: PackageIndex | None = None,
     say: Callable[[str], object] = lambda _: None,
 ) -> Results:
-    """Run the tests of a plan one after the other, each with all nodes of the plan in a graph of its own.
+    """Run the tests of a plan one after another, each with all nodes of the plan in a new graph.
 
     Args:
-        plan: the plan; one without tests gives no results.
-        folder: where the tests write their results, a file each.
-        simulated: simulated time, in which a time limit is one of the graph; else wall time.
-        packages: where packages are.
-        say: prints what goes on.
+        plan: the plan; without tests there are no results.
+        folder: where each test writes its results file.
+        simulated: use simulated time, which then applies to time limits; otherwise wall-clock time.
+        packages: the packages.
+        say: prints progress.
 
     """
     cases: list[Case] = []
@@ -117,7 +117,7 @@ def _run_test(
     packages: PackageIndex | None,
     say: Callable[[str], object],
 ) -> list[Case]:
-    """Run a test once, and read its results."""
+    """Run a test once and read its results."""
     file.unlink(missing_ok=True)
     classname = f"{test.package}.rosunit-{test.test_name}"
     node = replace(test, args=f"{test.args} '--gtest_output=xml:{file}'", output="screen")
@@ -139,7 +139,7 @@ def _run_test(
 
 @contextmanager
 def _own_master(graph: Graph) -> Iterator[None]:
-    """Serve the graph's Master at a free port, and name it in ``ROS_MASTER_URI``, as rostest does."""
+    """Serve the graph's Master at a free port and set ``ROS_MASTER_URI``, as rostest does."""
     with socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
@@ -157,7 +157,7 @@ def _own_master(graph: Graph) -> Iterator[None]:
 
 
 def _results_of(made: Running, code: int, file: Path, classname: str, test: TestPlan) -> list[Case]:
-    """Return what a test has written; its exit status says it, if it wrote nothing."""
+    """Return the results that a test has written; without any, the result of its exit status."""
     if not is_file(file):
         text = "" if code == 0 else f"{made.name} ended with exit status {code}, and wrote no results"
         return [Case(classname, test.test_name, "failure" if code else "", text)]

@@ -1,4 +1,4 @@
-"""Texts of launch files as values: parameters by their ``type``, and attributes that are true or false, or numbers."""
+"""Converts texts of launch files: parameters by their ``type``, and attributes that are booleans or numbers."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 def convert(text: str, kind: str = "auto") -> Any:
-    """Return the value of a text, as ``<param type="...">`` says (http://wiki.ros.org/roslaunch/XML/param).
+    """Return the value of a text according to ``<param type="...">`` (http://wiki.ros.org/roslaunch/XML/param).
 
-    By itself (``auto``) a number with a point is a double, one without an int, ``true`` and ``false`` are truth values
+    By default (``auto``) a number with a point is a double, one without an int, ``true`` and ``false`` are booleans
     and anything else is a string. Raises ``ParameterError``.
     """
     kind = kind.strip().lower()
@@ -60,14 +60,14 @@ def _automatic(text: str) -> Any:
 
 
 def checked(name: str, value: Any) -> Any:
-    """Return ``value`` as the Parameter Server can hold it. Raises ``ParameterError``."""
+    """Return ``value`` in a form that the Parameter Server can store. Raises ``ParameterError``."""
     if value is None:
         raise ParameterError(f"parameter {name} has no value (YAML's null), which a parameter cannot be")
     return check_value(name, value)
 
 
 def flag(element: Element, name: str, text: str | None, *, default: bool = False) -> bool:
-    """Return an attribute that is true or false. Raises ``LaunchError``."""
+    """Return a boolean attribute. Raises ``LaunchError``."""
     if text is None:
         return default
     truth = {"true": True, "false": False}.get(text.lower())
@@ -77,7 +77,7 @@ def flag(element: Element, name: str, text: str | None, *, default: bool = False
 
 
 def positive(element: Element, name: str, text: str | None, default: float) -> float:
-    """Return an attribute that is a number above zero; ``default`` where it is missing. Raises ``LaunchError``."""
+    """Return an attribute that is a positive number, or ``default`` if it is missing. Raises ``LaunchError``."""
     if text is None:
         return default
     value = seconds(element, name, text)
@@ -87,7 +87,7 @@ def positive(element: Element, name: str, text: str | None, default: float) -> f
 
 
 def seconds(element: Element, name: str, text: str | None) -> float:
-    """Return an attribute that is a number of seconds, 0 where it is missing. Raises ``LaunchError``."""
+    """Return an attribute that is a number of seconds, or 0 if it is missing. Raises ``LaunchError``."""
     try:
         value = float(text) if text is not None else 0.0
     except ValueError:

@@ -1,4 +1,4 @@
-"""The rules of ``roswtf`` on launch files: what keeps them from starting, and what of them does not run as they say."""
+"""Rules of ``roswtf`` for launch files: what prevents a launch, and what does not run as the files say."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def load(words: Sequence[str], packages: PackageIndex) -> Plan | Finding:
-    """Read the launch files that a command line names, with ``name:=value``; one that cannot be read is a finding."""
+    """Read the launch files of a command line, with ``name:=value``; an unreadable file becomes a finding."""
     args = dict(word.split(":=", 1) for word in words if ":=" in word)
     try:
         files = find_file([word for word in words if ":=" not in word], packages)
@@ -39,7 +39,7 @@ def load(words: Sequence[str], packages: PackageIndex) -> Plan | Finding:
 
 
 def static_findings(plan: Plan, packages: PackageIndex, environ: Mapping[str, str]) -> Iterator[Finding]:
-    """Find what is missing, what is odd, and packages that are used and not declared."""
+    """Find missing things, warnings, and packages that are used but not declared."""
     missing = [*plan.missing, *missing_programs(plan, packages, environ)]
     if missing:
         where: list[str] = []
@@ -74,7 +74,7 @@ def static_findings(plan: Plan, packages: PackageIndex, environ: Mapping[str, st
 
 
 def online_findings(plan: Plan, graph: Survey) -> Iterator[Finding]:
-    """Find nodes of a launch that have ended, and parameters that were changed; nothing where none of it runs."""
+    """Find nodes of a launch that have ended, and changed parameters; nothing if none of the nodes runs."""
     names = [node.full_name for node in plan.nodes]
     gone = tuple(name for name in names if name not in graph.nodes)
     if len(gone) == len(names):
@@ -102,7 +102,7 @@ def online_findings(plan: Plan, graph: Survey) -> Iterator[Finding]:
 
 
 def _undeclared(file: LaunchFile) -> Iterator[str]:
-    """Yield the packages whose nodes and files a launch file uses, and that its own manifest does not name."""
+    """Yield the packages whose nodes and files a launch file uses but its own manifest does not name."""
     home = package_around(file.path)
     if home is None:
         return

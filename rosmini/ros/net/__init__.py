@@ -1,4 +1,4 @@
-"""The wire of ROS 1: XML-RPC and TCPROS, through the ports that :mod:`rosmini.core.graph` defines."""
+"""Wire protocols of ROS 1: XML-RPC and TCPROS, behind the ports that :mod:`rosmini.core.graph` defines."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["connect"]
 
 
 def __getattr__(name: str) -> Any:
-    """Import what is asked for on first use: a tool that only asks for an address needs no graph."""
+    """Import names on first use: a tool that only needs an address can do without the graph."""
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from .connecting import connect

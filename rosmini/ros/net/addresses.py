@@ -1,7 +1,7 @@
-"""Where the Master is, under which address this process is known, and where it listens.
+"""Network addresses: the Master's, the one under which this process is known, and the one it listens on.
 
-The rules are those of http://wiki.ros.org/ROS/NetworkSetup and http://wiki.ros.org/ROS/EnvironmentVariables, but for
-one: without ``ROS_IP`` or ``ROS_HOSTNAME`` nothing here listens on the network. Whoever wants to be reached says so.
+The rules are those of http://wiki.ros.org/ROS/NetworkSetup and http://wiki.ros.org/ROS/EnvironmentVariables, with one
+exception: rosmini listens on the network only if ``ROS_IP`` or ``ROS_HOSTNAME`` is set.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 MASTER_URI = "http://localhost:11311"
-"""The Master's address where nothing else is said."""
+"""Default address of the Master."""
 
 _SET_THERE = (
     "set ROS_IP there to an address of that machine which this one reaches (`hostname -I` prints those it has), and "
@@ -34,38 +34,38 @@ class Addresses(NamedTuple):
     """The addresses of a process."""
 
     master_uri: str
-    """Where the Master is, as it was given: ``http://host:port``."""
+    """Address of the Master, as given: ``http://host:port``."""
     host: str
-    """The host name or address that others are told."""
+    """Host name or address that this process advertises."""
     bind: str
-    """The address to listen on: one of loopback, or 0.0.0.0 for every network of the machine."""
+    """Address to listen on: a loopback address, or 0.0.0.0 for all networks of the machine."""
     names: tuple[str, ...] = ()
-    """The names and addresses that the user gave this machine: ``ROS_HOSTNAME``, ``ROS_IP`` and the like."""
+    """Names and addresses that the user gave this machine: ``ROS_HOSTNAME``, ``ROS_IP`` and the like."""
 
     @property
     def is_open(self) -> bool:
-        """True where others on the network can reach this process."""
+        """True if others on the network can reach this process."""
         return self.bind == EVERYWHERE
 
     @property
     def master(self) -> tuple[str, int]:
-        """The Master's host and port."""
+        """Host and port of the Master."""
         return host_and_port(self.master_uri)
 
     def uri(self, port: int, scheme: str = "http") -> str:
-        """Return what others are told of a server of this process: ``http://host:port/``, or ``rosrpc://host:port``."""
+        """Return the URI to advertise for a server of this process: ``http://host:port/``, or ``rosrpc://host:port``."""
         return f"{scheme}://{_in_uri(self.host)}:{port}{'/' if scheme == 'http' else ''}"
 
     @property
     def is_alone(self) -> bool:
-        """True where all nodes of the graph are on this machine: nothing of another one finds its Master."""
+        """True if all nodes of the graph are on this machine, because no other machine can reach its Master."""
         return is_loopback(self.host) and is_loopback(self.master[0])
 
     def advice(self, host: str, reason: BaseException | None) -> str:
-        """Return what to do about a node that advertises an address at which it is not reached from here.
+        """Return a hint for a node whose advertised address cannot be reached from here.
 
-        ``host`` is the one in that address; ``reason`` is what the system said: ``socket.gaierror`` for a name that
-        does not resolve, ``ConnectionRefusedError`` where nobody listens.
+        ``host`` is the one in that address; ``reason`` is the system's error: ``socket.gaierror`` for a name that
+        does not resolve, ``ConnectionRefusedError`` if no process listens.
         """
         if isinstance(reason, ConnectionRefusedError):
             ended = (
@@ -88,24 +88,24 @@ class Addresses(NamedTuple):
 
     @property
     def announcement(self) -> str | None:
-        """A line that says where this process listens, or None if only this machine can reach it."""
+        """Message that says where this process listens, or None if only this machine can reach it."""
         if not self.is_open:
             return None
         return f"listening on every network of this machine, known to others as {self.host}"
 
     @property
     def notes(self) -> list[str]:
-        """What a program says once when it starts: where it listens, and what is wrong with its addresses."""
+        """Messages that a program prints once at its start: where it listens, and faults of its addresses."""
         return [*filter(None, [self.announcement]), *self.faults]
 
     @property
     def faults(self) -> list[str]:
-        """What is wrong with its addresses."""
+        """Faults of these addresses."""
         return [line for line in (self.mistake, self.warning) if line is not None]
 
     @property
     def mistake(self) -> str | None:
-        """A line about an address that others are told and that is not this machine's, or None. Asks the system."""
+        """Message about an advertised address that is not this machine's, or None. Queries the system."""
         if not is_literal(self.host) or is_own_address(self.host):
             return None
         return (
@@ -115,7 +115,7 @@ class Addresses(NamedTuple):
 
     @property
     def warning(self) -> str | None:
-        """What is likely to go wrong with these addresses, and what to do; None if nothing is."""
+        """Message about a probable fault of these addresses and how to fix it, or None."""
         host, _ = self.master
         if is_loopback(self.host) and not is_loopback(host):
             return (
@@ -127,7 +127,7 @@ class Addresses(NamedTuple):
 
 
 HERE = Addresses(MASTER_URI, LOCALHOST, LOOPBACK)
-"""The addresses of a process of whose network nothing is said: only this machine reaches it."""
+"""Addresses of a process without network settings: only this machine can reach it."""
 
 
 def addresses(
@@ -137,7 +137,7 @@ def addresses(
 
     ``environ`` has ``ROS_MASTER_URI``, ``ROS_HOSTNAME`` and ``ROS_IP`` (``os.environ`` by default); ``arguments`` has
     ``__master``, ``__hostname`` and ``__ip`` by these keys, as :attr:`rosmini.core.names.Remappings.special` does, and
-    goes before it. Raises ``ROSInitException`` for an address that is none.
+    takes precedence. Raises ``ROSInitException`` for an invalid address.
     """
     environ = os.environ if environ is None else environ
     arguments = arguments or {}
@@ -159,9 +159,9 @@ def addresses(
 
 
 def host_and_port(uri: str, source: str = "the Master's address") -> tuple[str, int]:
-    """Return host and port of ``http://host:port``; port 80 if there is none, as the Web has it.
+    """Return host and port of ``http://host:port``; the default port is 80, as on the Web.
 
-    Raises ``ROSInitException``, naming the ``source``, if it has another form.
+    Raises ``ROSInitException``, naming the ``source``, if the format is different.
     """
     try:
         parts = urlsplit(uri)
@@ -177,7 +177,7 @@ def host_and_port(uri: str, source: str = "the Master's address") -> tuple[str, 
 
 
 def is_loopback(host: str) -> bool:
-    """Tell whether a host is this machine by its name or address alone; nothing is resolved."""
+    """Return True if a host is this machine by its name or address alone; nothing is resolved."""
     if host == LOCALHOST:
         return True
     try:
@@ -187,7 +187,7 @@ def is_loopback(host: str) -> bool:
 
 
 def is_literal(host: str) -> bool:
-    """Tell whether a host is an address already, so that it need not be resolved."""
+    """Return True if a host is an address that need not be resolved."""
     try:
         ip_address(host)
     except ValueError:
@@ -196,7 +196,7 @@ def is_literal(host: str) -> bool:
 
 
 def is_own_address(address: str) -> bool:
-    """Return whether a literal address is one of this machine's. Asks the system, which answers at once."""
+    """Return True if a literal address is one of this machine's; the system answers at once."""
     with socket(AF_INET6 if ":" in address else AF_INET, SOCK_DGRAM) as probe:
         try:
             probe.bind((address, 0))
@@ -206,7 +206,7 @@ def is_own_address(address: str) -> bool:
 
 
 def _first(*sources: tuple[str, str | None]) -> tuple[str, str]:
-    """Return the first source that says something, and what it says; the last one always does."""
+    """Return the first source with a value, and the value; the last one always has one."""
     return next((source, text) for source, text in sources if text)
 
 
@@ -224,7 +224,7 @@ def _check_host(host: str, source: str) -> None:
 
 
 def _bound(host: str) -> str:
-    """Return the address to listen on for what others are told."""
+    """Return the address to listen on for an advertised host."""
     if not is_loopback(host):
         return EVERYWHERE
     return LOOPBACK if host == LOCALHOST else host

@@ -1,7 +1,7 @@
-"""Watches under which addresses nodes register at a Master of this process.
+"""Checks the addresses under which nodes register at a Master of this process.
 
-The Master hands these addresses out to the other nodes. One that is wrong for them is ROS's most frequent trouble with
-several machines: all lists are complete, and no message arrives (http://wiki.ros.org/ROS/NetworkSetup).
+The Master passes these addresses on to other nodes. A wrong one is the most frequent fault of ROS on
+several machines: all lists are complete, but no message arrives (http://wiki.ros.org/ROS/NetworkSetup).
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 LIMIT = 1_000
-"""So many nodes and addresses are remembered, each of which is warned of once."""
+"""Maximum number of nodes and addresses remembered, to warn of each only once."""
 
 
 class Advertised:
-    """Says once of each node that others do not find it where it says it is. Used in the I/O thread only."""
+    """Warns once about each node that others cannot reach at its advertised address. I/O thread only."""
 
     def __init__(self, warn: Callable[[str], object]) -> None:
         self._warn = warn
@@ -29,7 +29,7 @@ class Advertised:
         self._tasks: set[asyncio.Task[None]] = set()
 
     def look(self, caller: str, name: str, uri: str) -> None:
-        """Look at a registration that came from the address ``caller``, of a node that is to be reached at ``uri``."""
+        """Check a registration that came from the address ``caller``, of a node that advertises ``uri``."""
         try:
             host = urlsplit(uri).hostname or ""
         except ValueError:

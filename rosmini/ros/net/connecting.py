@@ -1,4 +1,4 @@
-"""A graph of this process that is part of the one of a Master: what a node or a tool in a terminal uses."""
+"""Connects a graph of this process with a Master, for nodes and tools in a terminal."""
 
 from __future__ import annotations
 
@@ -27,21 +27,21 @@ def connect(
     log_dir: str | Path | None = None,
     announce: bool = True,
 ) -> Graph:
-    """Return a graph in wall time whose nodes are citizens of the graph of the Master that the environment names.
+    """Return a graph in wall-clock time whose nodes belong to the graph of the Master that the environment names.
 
-    Nothing is asked of the Master yet: it may come later. Nodes of this process exchange messages directly, all others
+    The Master is not contacted yet; it may start later. Nodes of this process exchange messages directly, all others
     over TCPROS. A process that listens on the network, or whose addresses are wrong, says so on standard error.
-    ``shutdown`` of the graph (or the end of its ``with``) ends what belongs to it on the network.
+    ``shutdown`` of the graph (or leaving its ``with`` block) closes its network connections.
 
     Args:
         environ: has ``ROS_MASTER_URI``, ``ROS_HOSTNAME`` and ``ROS_IP``; ``os.environ`` by default.
-        arguments: ``__master``, ``__hostname`` and ``__ip`` by these keys, which go before it.
-        rate: how many seconds of graph time pass in one second.
-        seed: what random numbers of this graph start from.
-        log_dir: where log files go; by default ``ROS_LOG_DIR``.
-        announce: say where it listens. A tool that is over in a moment need not, and says what is wrong all the same.
+        arguments: ``__master``, ``__hostname`` and ``__ip`` by these keys, which take precedence.
+        rate: seconds of graph time per second.
+        seed: seed of this graph's random numbers.
+        log_dir: folder for log files; by default ``ROS_LOG_DIR``.
+        announce: print where it listens. A short-lived tool can omit this; faults are printed in any case.
 
-    Raises ``ROSInitException`` for an address that is none.
+    Raises ``ROSInitException`` for an invalid address.
 
     """
     where = addresses(environ, arguments)

@@ -1,4 +1,4 @@
-"""What TCPROS sends after its length: headers, messages, requests and responses, cut out of a stream of bytes."""
+"""Splits a TCPROS byte stream into length-prefixed frames: headers, messages, requests and responses."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from rosmini.core.errors import DeserializationError
 from rosmini.core.graph.headers import HEADER_LIMIT
 
 MESSAGE_LIMIT = 1_000_000_000
-"""The longest message that is read, as in roscpp."""
+"""Maximum length of a message, as in roscpp [bytes]."""
 
 CHUNK = 64 * 1024
 LARGE = 1024 * 1024
@@ -21,16 +21,16 @@ PROTOCOLS = {
     b"SSH-": "SSH",
     b"\x16\x03": "TLS",
 }
-"""What else is spoken on networks, by the first bytes."""
+"""Other network protocols, by their first bytes."""
 
 _length_of = struct.Struct("<I").unpack_from
 
 
 class FrameReader:
-    """Cuts a stream into frames; it holds no more bytes than have arrived, whatever a length promises.
+    """Splits a stream into frames; it buffers only bytes that have arrived, whatever a length claims.
 
-    The first frame is a connection header. ``ok_byte``: each later one has a byte before its length, which says whether
-    a service call went well; the frame then begins with that byte.
+    The first frame is a connection header. With ``ok_byte``, each later one has a byte before its length, which says if
+    a service call succeeded; the frame then begins with that byte.
     """
 
     def __init__(self, *, ok_byte: bool = False) -> None:
@@ -41,16 +41,16 @@ class FrameReader:
         self._parts: list[bytes] = []
         self._missing = 0
         self.is_deaf = False
-        """True: what comes from now on is thrown away."""
+        """True if further data is discarded."""
 
     @property
     def wanted(self) -> int:
-        """How many bytes to ask the socket for: up to the end of a large frame, so that none is copied twice."""
+        """Number of bytes to read from the socket: up to the end of a large frame, to avoid copying."""
         return min(max(self._missing, CHUNK), LARGE)
 
     @property
     def is_cut(self) -> bool:
-        """Whether a frame has begun that is not complete."""
+        """True if a frame has begun but is not complete."""
         return bool(self._missing or self._start)
 
     def feed(self, data: bytes) -> list[bytes]:
@@ -89,7 +89,7 @@ class FrameReader:
         return frames
 
     def _refusal(self, length: int, bytes_of_it: bytes) -> str:
-        """Return what is wrong with a length that is too great."""
+        """Return the error message for a length that is too great."""
         if self._limit != HEADER_LIMIT:
             return f"a message of {length} bytes was announced; at most {self._limit} are read"
         spoken = next((name for start, name in PROTOCOLS.items() if bytes_of_it.startswith(start)), None)

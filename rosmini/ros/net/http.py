@@ -1,4 +1,4 @@
-"""Whole messages of HTTP over asyncio's streams, parsed by h11, for the two ends of XML-RPC."""
+"""Complete HTTP messages over asyncio's streams, parsed by h11, for XML-RPC servers and clients."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
 HEAD_LIMIT = 64 * 1024
-"""The longest start line with header fields, in bytes."""
+"""Maximum length of the start line with header fields [bytes]."""
 
 BODY_LIMIT = 64 * 1024 * 1024
-"""The longest document, in bytes: a map of the world as a parameter still fits."""
+"""Maximum length of a document [bytes]; a world map as a parameter still fits."""
 
 CHUNK = 64 * 1024
 
@@ -28,13 +28,13 @@ async def read_message(
     feed: Callable[[bytes], object],
     check: Callable[[h11.Request], Awaitable[None]] | None = None,
 ) -> h11.Request | h11.Response | None:
-    """Return the next message; None when the peer closed the connection before it began.
+    """Return the next message; None if the peer closed the connection before it began.
 
-    Its body goes to ``feed`` in chunks, between which the loop's other tasks have their turn. If ``check`` raises
-    an error for a request, its body is read and dropped, and then the error is raised: a client that is still sending
-    when the connection is closed does not get the answer.
+    Its body goes to ``feed`` in chunks, between which other tasks of the loop run. If ``check`` raises
+    an error for a request, its body is read and discarded before the error is raised: a client that is still sending
+    when the connection is closed would not get the answer.
 
-    Raises ``TransportException`` for a body over the limit, and ``h11.RemoteProtocolError`` for what is not HTTP.
+    Raises ``TransportException`` for a body over the limit, and ``h11.RemoteProtocolError`` for invalid HTTP.
     """
     head: h11.Request | h11.Response | None = None
     refusal: TransportException | None = None
@@ -84,6 +84,6 @@ def write_message(
     head: h11.Request | h11.Response,
     body: bytes,
 ) -> None:
-    """Write a message whose head says how long the body is."""
+    """Write a message whose head contains the length of the body."""
     parts = [connection.send(head), connection.send(h11.Data(data=body)), connection.send(h11.EndOfMessage())]
     writer.write(b"".join(part for part in parts if part))

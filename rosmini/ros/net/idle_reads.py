@@ -1,12 +1,12 @@
-"""Connected sockets that the hub's own thread reads while it has nothing else to do.
+"""Connected sockets that the hub's own thread reads while it is idle.
 
-A message that comes in wakes the I/O thread, which has to wake the hub's: two changes of threads, each as long as the
-rest of a message's way. So the hub, where it would only sleep until it is woken, sleeps at the sockets themselves. When
-it has been busy for a while, the I/O thread reads them again: what comes is taken and bounded although a callback
-computes for long.
+Normally an incoming message wakes the I/O thread, which then wakes the hub's: two thread switches, each as long as
+the rest of a message's path. So an idle hub waits for the sockets themselves instead of for a wake-up. When it
+has been busy for a while, the I/O thread reads them again, so that incoming data is received and bounded during a
+long callback.
 
-The sockets are in one epoll set (``_set``). The I/O thread's loop does not watch that one but another (``_switch``), of
-which it is the only member: so one system call turns the loop's interest on or off. Where there is no epoll (macOS,
+The sockets are in one epoll set (``_set``). The I/O thread's loop does not watch that set but another (``_switch``),
+whose only member it is: one system call turns the loop's interest on or off. Without epoll (macOS,
 Windows) the I/O thread reads everything.
 """
 
@@ -26,24 +26,24 @@ if TYPE_CHECKING:
     from rosmini.core.graph.scheduler import Scheduler
 
 SELECTABLE = 1024
-"""``select`` takes descriptors below this one only."""
+"""Limit of file descriptors for ``select``."""
 
 COARSE_S = 0.1
-"""From here on a time-out need not be exact: epoll's are to a millisecond."""
+"""Timeout from which precision does not matter [s]; epoll's has a resolution of a millisecond."""
 
 BEAT_S = 0.02
-"""How long the hub may be busy until the I/O thread reads."""
+"""How long the hub may be busy before the I/O thread reads [s]."""
 
 QUIET_BEATS = 10
-"""After so many beats without any change nobody looks how busy the hub is, until something comes."""
+"""Number of beats without activity after which the hub's state is not checked until data arrives."""
 
 
 class IdleReads:
-    """The sockets of one graph. Made and closed in the loop's thread."""
+    """Sockets of one graph; created and closed in the loop's thread."""
 
     def __init__(self, loop: asyncio.AbstractEventLoop, scheduler: Scheduler) -> None:
         self.is_asleep = False
-        """True while the hub sleeps here, or is about to: only then whoever has work for it has to wake it."""
+        """True while the hub sleeps here or is about to; only then must it be woken for new work."""
         self._loop = loop
         self._scheduler = scheduler
         self._lock = threading.RLock()
@@ -51,7 +51,7 @@ class IdleReads:
         self._is_closed = False
         self._is_on = True
         self.beats = False
-        """Whether the loop looks now and then how busy the hub is."""
+        """True if the loop checks periodically how busy the hub is."""
         self._naps = self._seen = self._quiet = 0
         self._set = select.epoll()
         self._switch = select.epoll()
@@ -63,20 +63,20 @@ class IdleReads:
         scheduler.sleep_in(self)
 
     def add(self, sock: socket.socket, reader: Callable[[], None]) -> None:
-        """Call ``reader`` when there is something to read, in the hub's thread or the loop's, one at a time."""
+        """Call ``reader`` when there is data to read, in the hub's thread or the loop's, one at a time."""
         with self._lock:
             if not self._is_closed:
                 self._readers[sock.fileno()] = reader
                 self._set.register(sock, select.EPOLLIN)
 
     def remove(self, sock: socket.socket) -> None:
-        """Read this one no more. Nobody is in the middle of it then, unless it is the caller."""
+        """Stop reading a socket; on return its reader does not run any more, unless it is the caller."""
         with self._lock:
             if not self._is_closed and self._readers.pop(sock.fileno(), None) is not None:
                 self._set.unregister(sock)
 
     def wake(self) -> None:
-        """Wake the hub. From any thread, and from a signal's handler."""
+        """Wake the hub; may be called from any thread and from a signal handler."""
         with self._alarm_lock:
             if not self._set.closed:
                 os.eventfd_write(self._alarm, 1)
@@ -84,7 +84,7 @@ class IdleReads:
     # -- in the hub's thread -------------------------------------------------------------------------------------
 
     def sleep(self, timeout: float, nothing_came: Callable[[], bool]) -> None:
-        """Sleep until something is sent or the hub is woken, unless something came already; then read what was sent."""
+        """Sleep until data arrives or the hub is woken, unless something came already; then read the data."""
         with self._lock:
             if self._is_closed:
                 return
@@ -116,7 +116,7 @@ class IdleReads:
             if self._is_closed:
                 self._end()
             elif self.beats:
-                pass  # if the hub does not sleep again soon, the loop learns it
+                pass  # if the hub does not sleep soon, the loop notices
             elif something_came:
                 self.beats = True
                 self._loop.call_soon_threadsafe(self._beat)
@@ -126,7 +126,7 @@ class IdleReads:
     # -- in either thread ----------------------------------------------------------------------------------------
 
     def _turn(self, *, on: bool) -> None:
-        """Have the loop read, or not. With the lock held."""
+        """Turn reading in the loop on or off, with the lock held."""
         self._is_on = on
         self._switch.modify(self._set, select.EPOLLIN if on else 0)
 
@@ -147,7 +147,7 @@ class IdleReads:
                 self._read(self._set.poll(0))
 
     def _beat(self) -> None:
-        """Read from now on if the hub has been awake since the last time."""
+        """Start reading in the loop if the hub has been awake since the last beat."""
         with self._lock:
             if self._is_closed:
                 return
@@ -160,7 +160,7 @@ class IdleReads:
                 self._loop.call_later(BEAT_S, self._beat)
 
     def close(self) -> None:
-        """Read nothing more; the hub sleeps at its inbox from now on."""
+        """Stop reading; the hub then sleeps at its inbox."""
         self._scheduler.sleep_in(None)
         self._loop.remove_reader(self._switch)
         with self._lock:
@@ -179,5 +179,5 @@ class IdleReads:
 
 
 def idle_reads(loop: asyncio.AbstractEventLoop, scheduler: Scheduler) -> IdleReads | None:
-    """Return the sockets that the hub reads, too; None where the system has no epoll."""
+    """Return the sockets that the hub reads too; None if the system has no epoll."""
     return IdleReads(loop, scheduler) if hasattr(select, "epoll") and hasattr(os, "eventfd") else None

@@ -1,6 +1,6 @@
-"""The one thread of a process that reads from and writes to the network: an asyncio loop.
+"""The only thread of a process that reads from and writes to the network: an asyncio loop.
 
-What it learns enters a graph through the scheduler's inbox; what a graph wants of it comes through
+Its results enter a graph through the scheduler's inbox; a graph gives it work through
 :meth:`IoThread.call` and :meth:`IoThread.start`.
 """
 
@@ -26,30 +26,30 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 LEAVE_S = 2.0
-"""How long ending may take."""
+"""Maximum duration of closing [s]."""
 
 KEPT = 16 * 1024 * 1024
-"""How large a block of memory may be that is not given back to the system at once."""
+"""Maximum size of a freed memory block that is kept for reuse [bytes]."""
 
 TURNS = 6
-"""So many turns of the loop it takes to close a connection."""
+"""Number of loop iterations needed to close a connection."""
 
 
 class IoThread:
-    """Starts when it is first needed. After :meth:`close` it can be used again, with a new loop.
+    """Starts on first use; after :meth:`close` it can be used again, with a new loop.
 
-    Where it is told a scheduler, that one's hub reads what it may while it is idle.
+    With a scheduler, the hub of that scheduler reads shared sockets while it is idle.
     """
 
     def __init__(self, scheduler: Scheduler | None = None) -> None:
         self._scheduler = scheduler
         self.idle: IdleReads | None = None
-        """The sockets that an idle hub reads; None where it does not. Only in the loop's thread."""
+        """Sockets that an idle hub reads, or None. Loop's thread only."""
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._thread: threading.Thread | None = None
         self.closers: dict[Callable[[], object], None] = {}
-        """Called once in the loop's thread when it ends: they close what they have open. Change it there only."""
+        """Functions called once in the loop's thread when it ends, to close what is open. Change it there only."""
 
     @property
     def loop(self) -> asyncio.AbstractEventLoop:
@@ -76,11 +76,11 @@ class IoThread:
             self.closers[self.idle.close] = None
 
     def call(self, function: Callable[..., object], *arguments: Any) -> None:
-        """Call a function in the loop's thread soon. From any thread."""
+        """Call a function soon in the loop's thread; may be called from any thread."""
         self.loop.call_soon_threadsafe(function, *arguments)
 
     def start(self, coroutine: Coroutine[Any, Any, T]) -> Future[T]:
-        """Run a coroutine in the loop's thread. From any thread."""
+        """Run a coroutine in the loop's thread; may be called from any thread."""
         return asyncio.run_coroutine_threadsafe(coroutine, self.loop)
 
     def ask(
@@ -90,10 +90,10 @@ class IoThread:
         reason: str,
         discard: Callable[[T], object] | None = None,
     ) -> T:
-        """Return the result of a coroutine; the calling lane is parked, and simulated time goes on meanwhile.
+        """Return the result of a coroutine; the calling lane is parked, while simulated time continues.
 
-        ``discard`` gets the result, in any thread, when the caller was interrupted and nobody else will.
-        Raises what the coroutine raises, and ``TransportTerminated`` when the network is closed meanwhile.
+        ``discard`` gets the result, in any thread, if the caller was interrupted and cannot take it.
+        Raises the errors of the coroutine, and ``TransportTerminated`` if the network is closed meanwhile.
         """
         waiter = scheduler.waiter(reason, remote=True)
         future = self.start(coroutine)
@@ -103,13 +103,13 @@ class IoThread:
         except BaseException:
             if discard is None:
                 future.cancel()
-            else:  # what is cancelled now may have its result already
+            else:  # a cancelled future may already have its result
                 future.add_done_callback(partial(_throw_away, discard))
             raise
         return cast("T", waiter.value)
 
     def on_hub(self, scheduler: Scheduler, function: Callable[[], T]) -> asyncio.Future[T]:
-        """Return the future result of a function that is called in the hub's thread. Only in the loop's thread."""
+        """Return a future for a function that is called in the hub's thread. Loop's thread only."""
         loop = asyncio.get_running_loop()
         result: asyncio.Future[T] = loop.create_future()
 
@@ -133,7 +133,7 @@ class IoThread:
         return result
 
     def close(self) -> None:
-        """End everything that runs in the loop, and the thread; it takes two seconds at most."""
+        """End the tasks of the loop, and the thread, within two seconds."""
         with self._lock:
             loop, self._loop = self._loop, None
             thread, self._thread = self._thread, None
@@ -158,7 +158,7 @@ def _pass_on(done: Future[Any], waiter: Any) -> None:
 
 
 def _run(loop: asyncio.AbstractEventLoop, closers: dict[Callable[[], object], None]) -> None:
-    """Run the loop until it is stopped; then close what is open and end its tasks."""
+    """Run the loop until it is stopped, then close what is open and end its tasks."""
     asyncio.set_event_loop(loop)
     _keep_memory()
     try:
@@ -170,7 +170,7 @@ def _run(loop: asyncio.AbstractEventLoop, closers: dict[Callable[[], object], No
 
 
 async def _end(closers: dict[Callable[[], object], None]) -> None:
-    """Close and cancel until nothing is left: what was asked for last is only opened in one of the next turns."""
+    """Close and cancel until nothing is left: the latest requests open only in one of the next iterations."""
     loop, quiet = asyncio.get_running_loop(), 0
     deadline = loop.time() + LEAVE_S / 2
     while quiet < TURNS and loop.time() < deadline:
@@ -186,14 +186,14 @@ async def _end(closers: dict[Callable[[], object], None]) -> None:
 
 
 def _keep_memory() -> None:
-    """Have what messages of megabytes take and free kept for the next ones, up to twice ``KEPT``.
+    """Keep memory freed by large messages for the next ones, up to twice ``KEPT``.
 
-    The GNU C library moves the size from which it gives memory back to the system with the largest block that was ever
-    freed. Else each large message gives its pages back and has the system clear others: four times as slow.
+    The GNU C library adjusts the size at which it returns memory to the system to the largest block that was ever
+    freed. Otherwise each large message returns its pages and makes the system clear others: four times as slow.
     """
     bytes(KEPT)  # never written to: it takes no memory
 
 
 def later(loop: asyncio.AbstractEventLoop, seconds: float, function: Callable[[], object]) -> None:
-    """Call a function in the loop's thread after some seconds on the wall. From any thread."""
+    """Call a function in the loop's thread after some seconds of wall-clock time; from any thread."""
     loop.call_soon_threadsafe(partial(loop.call_later, seconds, function))

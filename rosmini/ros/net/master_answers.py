@@ -1,4 +1,4 @@
-"""What a Master in another process answers, checked before anybody takes it apart, and what it means if none comes."""
+"""Validation of answers from a Master in another process, and the error for a missing answer."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def checked(uri: str, method: str, answer: Any) -> Triple:
-    """Return an answer of the Master's. Raises ``MasterUnreachable`` if it is none, or its value is of another type."""
+    """Return a Master's answer. Raises ``MasterUnreachable`` if it is invalid or its value has the wrong type."""
     if (
         isinstance(answer, list)
         and len(answer) == 3
@@ -42,7 +42,7 @@ def _are_pairs(value: Any) -> bool:
 
 
 def _is_state(value: Any) -> bool:
-    """Tell whether a value is as that of ``getSystemState``: three tables of names, each with those of nodes."""
+    """Return True if a value has the form of ``getSystemState``: three tables of names with lists of nodes."""
     return (
         isinstance(value, list)
         and len(value) == 3
@@ -61,11 +61,11 @@ VALUES = {
     **dict.fromkeys(("getPublishedTopics", "getTopicTypes"), _are_pairs),
     "getSystemState": _is_state,
 }
-"""What the value of an answer has to be: whoever asks takes it apart."""
+"""Expected type of the value in an answer, by method; callers rely on it."""
 
 
 def unreachable(uri: str, error: TransportException) -> MasterUnreachable:
-    """Return the error that says that a Master does not answer, why, and what to do."""
+    """Return the error for a Master that does not answer, with the cause and what to do."""
     if not isinstance(error, Unreached | TransportTerminated):
         return _no_master(uri, str(error))
     hangs = isinstance(error.__cause__, TimeoutError)

@@ -1,4 +1,4 @@
-"""A Master of this process, served over XML-RPC as ``rosmaster`` serves its own."""
+"""XML-RPC server for a Master of this process, compatible with ``rosmaster``."""
 
 from __future__ import annotations
 
@@ -23,36 +23,36 @@ if TYPE_CHECKING:
     from .io_thread import IoThread
 
 MULTICALL = "system.multicall"
-"""The method that makes several calls at once, as roslaunch does to set its parameters."""
+"""Method that makes several calls at once; roslaunch uses it to set its parameters."""
 
 MOST_CALLS = 10_000
-"""How many calls one ``system.multicall`` makes; one with more makes none."""
+"""Maximum number of calls in one ``system.multicall``; with more, none is made."""
 
 MOST_BYTES = 16 * 1024 * 1024
-"""How long the answers of one ``system.multicall`` are together; it ends at the call whose answer exceeds that."""
+"""Maximum total size of the answers of one ``system.multicall`` [bytes]; it ends at the call that exceeds it."""
 
 
 class AddressInUse(RosminiError):
-    """Another process listens at the Master's port."""
+    """Another process listens on the Master's port."""
 
 
 class MasterServer:
-    """Answers the Master API at a port of this machine, in the I/O thread: a busy graph delays no answer.
+    """Serves the Master API at a port of this machine, in the I/O thread: a busy graph does not delay answers.
 
-    Between the calls of a ``system.multicall`` other clients have their turn. It has at most :data:`MOST_CALLS` calls
-    and :data:`MOST_BYTES` of answers; beyond that it is answered by a fault.
+    Other clients are served between the calls of a ``system.multicall``. It has at most :data:`MOST_CALLS` calls
+    and :data:`MOST_BYTES` of answers; beyond that the answer is a fault.
 
     Args:
         io: the thread that reads and writes.
-        master: who answers; its ``uri`` becomes the address at which it is served.
-        where: what others are told of this machine, and where to listen.
-        port: 0 for any that is free.
-        on_shutdown: called in the I/O thread with the reason when somebody shuts the Master down.
+        master: the Master to serve; its ``uri`` becomes the address of this server.
+        where: the advertised address of this machine, and the address to listen on.
+        port: 0 for any free port.
+        on_shutdown: called in the I/O thread with the reason when a client shuts the Master down.
         on_call: called there with the method's name, the arguments and the answer of each call.
-        warn: called there with a line about a node that registers under an address at which others do not find it,
+        warn: called there with a message about a node whose advertised address others cannot reach,
             or about a client whose request was refused.
 
-    Raises ``AddressInUse`` when another process listens there, and ``RosminiError`` when the address is not this
+    Raises ``AddressInUse`` if another process listens there, and ``RosminiError`` if the address is not this
     machine's.
 
     """
@@ -84,11 +84,11 @@ class MasterServer:
 
     @property
     def port(self) -> int:
-        """The port at which it listens."""
+        """Port on which it listens."""
         return self._server.port
 
     def close(self) -> None:
-        """Stop serving; the Master keeps what it knows. Harmless when repeated."""
+        """Stop serving; the Master keeps its state. May be called repeatedly."""
         self._server.close()
         self._master.uri = self._before
 
@@ -99,7 +99,7 @@ class MasterServer:
         return self._answer_one(method, arguments, caller)
 
     async def _answer_all(self, calls: Any, caller: str) -> EncodedAnswer:
-        """Answer several calls, and let the loop's other tasks have their turn after each."""
+        """Answer several calls, and let other tasks of the loop run after each."""
         if len(calls) > MOST_CALLS:
             raise XmlRpcFault(
                 1, f"{MULTICALL} has {len(calls)} calls, at most {MOST_CALLS} are made at once: none was made"
@@ -120,14 +120,14 @@ class MasterServer:
         return EncodedAnswer(encode_answers(answers))
 
     def _answer_element(self, call: Any, caller: str) -> bytes:
-        """Return the element that answers one of several calls: a list with the answer, or a fault's struct."""
+        """Return the element that answers one of several calls: a list with the answer, or the struct of a fault."""
         try:
             if call["methodName"] == MULTICALL:
                 raise XmlRpcFault(1, "<class 'RuntimeError'>:Recursive system.multicall forbidden")
             return encode_value([self._answer_one(call["methodName"], tuple(call["params"]), caller)])
         except XmlRpcFault as fault:
             code, text = fault.code, fault.text
-        except Exception as error:  # what the caller sent may be anything
+        except Exception as error:  # the caller may have sent anything
             code, text = 1, f"{type(error)}:{error}"
         return encode_value({"faultCode": code, "faultString": NOT_XML.sub("?", text)})
 

@@ -1,4 +1,4 @@
-"""What a graph has of the network: one I/O thread, a client of XML-RPC, and the transport of its nodes."""
+"""The network side of a graph: one I/O thread, an XML-RPC client, and the transport of its nodes."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ if TYPE_CHECKING:
 
 
 WARN_NS = 60_000_000_000
-"""How long nothing more is said of what a peer has done wrong in the same way."""
+"""How long repeated warnings about the same fault of a peer are suppressed [ns]."""
 
 LONGEST_WARNING = 500
 
 
 class Network:
-    """The network of one graph. Nothing runs until a node, or a call, needs it.
+    """The network of one graph; nothing runs until a node or a call needs it.
 
     Args:
-        scheduler: the graph's.
-        where: the addresses of this process: under which one others find its nodes, and where these listen.
+        scheduler: the scheduler of the graph.
+        where: the addresses of this process: the advertised one, and the one to listen on.
 
     """
 
@@ -47,10 +47,10 @@ class Network:
         self.transport = TcpTransport(self)
 
     def warn(self, text: str, cause: tuple[str, ...] = ()) -> None:
-        """Say what went wrong with a peer that is no node of this graph. From any thread.
+        """Warn about a fault of a peer outside this graph; may be called from any thread.
 
-        With a ``cause``, such as the node, the peer's host and what that did, it is said once a minute. What a peer
-        may have written itself is shown on one line, in letters that do nothing to a terminal.
+        With a ``cause``, such as the node, the peer's host and the fault, the warning appears once a minute. Text from
+        the peer is shown on one line, without terminal control characters.
         """
         if cause and not self._gates.is_due(cause, time.monotonic_ns(), WARN_NS):
             return
@@ -58,12 +58,12 @@ class Network:
         sys.stderr.write(f"[WARN] {line}{'...' if len(text) > LONGEST_WARNING else ''}\n")
 
     def close(self) -> None:
-        """End the I/O thread and close what is open, within two seconds; what is used again is restarted."""
+        """End the I/O thread and close what is open, within two seconds; it restarts on the next use."""
         self.io.close()
 
 
 def tcp(where: Addresses = HERE) -> Callable[[Scheduler], TcpTransport]:
-    """Return what makes a transport for ``Graph(transports=[LocalTransport, ...])``; see :class:`Network`."""
+    """Return a factory of transports for ``Graph(transports=[LocalTransport, ...])``; see :class:`Network`."""
     return lambda scheduler: Network(scheduler, where).transport
 
 

@@ -1,8 +1,8 @@
-"""A graph of this process, in a notebook for instance, becomes part of the ROS graph of other processes, and leaves it.
+"""Connects a graph of this process, for instance in a notebook, with the ROS graph of other processes.
 
-Where a Master answers, the graph joins it; else it serves its own Master at that address. Nodes get addresses that
-others reach; what connects them in this process stays as it is. In a notebook the graph goes on by itself then. One in
-simulated time tells everybody its time on ``/clock``, which goes no faster than the clock on the wall; its own nodes
+If a Master answers, the graph joins it; otherwise it serves its own Master at that address. Nodes get addresses that
+others can reach; connections within this process stay as they are. In a notebook the graph then runs by itself. A
+graph in simulated time publishes ``/clock`` and runs no faster than real time; its own nodes
 stay on the graph's time.
 """
 
@@ -35,16 +35,16 @@ if TYPE_CHECKING:
     from .addresses import Addresses
 
 CLOCK_HZ = 100.0
-"""How often the time is published."""
+"""Rate at which the time is published [Hz]."""
 
 CLOCK_NODE = "rosmini_clock"
 USE_SIM_TIME = "/use_sim_time"
 ROSCORE = ("/rosdistro", "/rosversion", "/run_id")
-"""The parameters that each Master has of its own."""
+"""Parameters that each Master sets itself."""
 
 
 class _StandingStill(MasterPort):
-    """A Master elsewhere, asked while the graph stands still: for the moments of joining and leaving."""
+    """A Master elsewhere, called while the graph does not run: when joining and leaving."""
 
     keeps_trying = False
 
@@ -53,7 +53,7 @@ class _StandingStill(MasterPort):
         self._network = network
 
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
-        """Return the Master's answer; blocks, and nothing else goes on. Raises ``MasterUnreachable``."""
+        """Return the Master's answer; blocks everything else. Raises ``MasterUnreachable``."""
         asked = self._network.io.start(
             self._network.client.request(self.uri, method, (caller_id, *arguments), patience(method))
         )
@@ -67,7 +67,7 @@ class _StandingStill(MasterPort):
 
 
 def _is_absent(error: MasterUnreachable) -> bool:
-    """Tell whether nobody listens at the Master's address, unlike a Master that hangs, or something else there."""
+    """Return True if no process listens at the Master's address, unlike a Master that hangs, or another server."""
     cause = error.__cause__
     return isinstance(cause, Unreached) and not isinstance(cause.__cause__, TimeoutError)
 
@@ -84,7 +84,7 @@ def online(
 
 
 class Online:
-    """A graph's part in the ROS graph of other processes. Made by ``graph.online()``, ended by ``graph.offline()``."""
+    """A graph's membership in the ROS graph of other processes, from ``graph.online()`` to ``graph.offline()``."""
 
     def __init__(self, graph: Graph, where: Addresses, *, live: bool = True) -> None:
         if not isinstance(graph.master, Master):
@@ -93,10 +93,10 @@ class Online:
         self.where = where
         self.network = Network(graph.scheduler, where)
         self.joined = False
-        """True where the Master is another process's."""
+        """True if the Master belongs to another process."""
         self._own = graph.master
         self.server: MasterServer | None = None
-        """What serves this graph's Master; None where the graph has joined another one."""
+        """Server of this graph's Master; None if the graph has joined another one."""
         self._pace: Pace | None = None
         self._companions: list[Callable[[], bool]] = []
         self._is_live_of_ours = False
@@ -125,7 +125,7 @@ class Online:
     # -- going online --------------------------------------------------------------------------------------------
 
     def _find_master(self) -> None:
-        """Find a Master that answers, or serve ours."""
+        """Find a Master that answers, or serve our own."""
         uri = self.where.master_uri
         try:
             _StandingStill(uri, self.network).call("getPid", "/rosmini")
@@ -143,7 +143,7 @@ class Online:
             self.joined = True
 
     def _move(self, change: Any) -> None:
-        """Give all nodes the addresses of the ways that there are now."""
+        """Give all nodes the addresses of the current transports."""
         graph = self.graph
         nodes = {node.uri: node for node in graph.nodes.values()}
         moved: dict[str, str] = change(self.network.transport, nodes)
@@ -198,7 +198,7 @@ class Online:
             node.timer(1 / CLOCK_HZ, tell_time)
 
     def keep_pace(self, condition: Callable[[], bool]) -> None:
-        """Let simulated time go no faster than real time while ``condition()`` is true. Has no effect in wall time."""
+        """Limit simulated time to real time while ``condition()`` is true; has no effect in wall-clock time."""
         if not self._companions:
             self._pace = Pace(self.graph.scheduler, self.network.io)
         self._companions.append(condition)
@@ -209,7 +209,7 @@ class Online:
             self._pace.keep()
 
     def _go_on(self) -> None:
-        """Let the graph go on by itself in a notebook."""
+        """Run the graph in the background of a notebook."""
         if self.graph.notebook and not self.graph.is_live:
             self.graph.live()
             self._is_live_of_ours = True
@@ -221,7 +221,7 @@ class Online:
     # -- going offline -------------------------------------------------------------------------------------------
 
     def end(self) -> None:
-        """Leave the others; nodes of this process go on among themselves."""
+        """Disconnect from other processes; nodes of this process continue among themselves."""
         graph = self.graph
         graph.keeps_time = False
         port: MasterPort = _StandingStill(self.where.master_uri, self.network) if self.joined else self._own
@@ -262,7 +262,7 @@ class Online:
             self._ask(port, "unsubscribeParam", node.name, node.uri, key)
 
     def _ask(self, port: MasterPort, method: str, *arguments: Any) -> None:
-        """Ask, unless a question before was not answered."""
+        """Call the Master, unless an earlier call was not answered."""
         if port.leave_by is None:
             try:
                 port.call(method, *arguments)
@@ -270,7 +270,7 @@ class Online:
                 port.leave_by = 0
 
     def _close_connections(self) -> None:
-        """Close the connections with nodes elsewhere: in this process only the others stay."""
+        """Close the connections with nodes elsewhere; only those within this process remain."""
         protocol = self.network.transport.protocol
         for node in self.graph.nodes.values():
             for publication in node.publications.values():

@@ -1,4 +1,4 @@
-"""Simulated time that goes no faster than the clock on the wall: others live on it, and cannot keep up otherwise."""
+"""Keeps simulated time from running faster than real time, so that other processes can keep up."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from .io_thread import IoThread
 
 LAG_NS = 100_000_000
-"""How far time runs after the wall to make up for a delay; after a longer one it goes on from where it stood."""
+"""Maximum delay that is made up for by running faster [ns]; after a longer one, time continues from there."""
 
 
 class Pace:
-    """Lets a graph's time stand still, while what comes from the network is taken, until the wall has caught up."""
+    """Stops a graph's time, while data from the network is processed, until real time has caught up."""
 
     def __init__(self, scheduler: Scheduler, io: IoThread) -> None:
         self._scheduler = scheduler
@@ -31,7 +31,7 @@ class Pace:
         self._graph_ns, self._wall_ns = self._scheduler.now_ns(), time.perf_counter_ns()
 
     def keep(self) -> None:
-        """Hold the time back if it is ahead. In the hub's thread, again and again."""
+        """Stop the time if it is ahead; called repeatedly in the hub's thread."""
         passed = time.perf_counter_ns() - self._wall_ns
         ahead = self._scheduler.now_ns() - self._graph_ns - passed
         if ahead < -LAG_NS:
@@ -42,7 +42,7 @@ class Pace:
             later(self._io.loop, ahead / 1e9, self.end)
 
     def end(self) -> None:
-        """Let the time go on. From any thread; harmless when repeated."""
+        """Release the time; may be called repeatedly and from any thread."""
         with self._lock:
             held, self._holds = self._holds, False
         if held:

@@ -1,4 +1,4 @@
-"""All that a node has registered, once more: the Master has forgotten it, or another one is there now."""
+"""Repeats all registrations of a node after the Master lost them or was replaced."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ if TYPE_CHECKING:
 
 
 def register_again(node: Node) -> None:
-    """Register what a node publishes, subscribes to and offers, and the parameters that it watches.
+    """Register the publishers, subscribers, services and watched parameters of a node.
 
-    It may park the calling lane, and keeps trying while the Master does not answer and the node goes on. Raises
+    It may park the calling lane, and retries while the Master does not answer and the node runs. Raises
     ``ROSException`` if the Master refuses.
     """
     master, warn = node.master, node.logerr

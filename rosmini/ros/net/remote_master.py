@@ -1,4 +1,4 @@
-"""A Master in another process, as a graph asks it: the Master API over XML-RPC."""
+"""A Master in another process, called by a graph: the Master API over XML-RPC."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ if TYPE_CHECKING:
     from .xmlrpc_client import XmlRpcClient
 
 TIMEOUT_S = 10.0
-"""How long a call waits for the Master, by the clock on the wall."""
+"""Timeout of a call to the Master, in wall-clock time [s]."""
 
 LEAVE_S = 2.0
-"""How long a call that takes a registration back waits: a node that ends is not held up by a Master that hangs."""
+"""Timeout of a call that unregisters [s], so that a Master that hangs does not delay a node's end."""
 
 
 def patience(method: str) -> float:
-    """Return how many seconds a call waits for the Master."""
+    """Return the timeout of a call to the Master [s]."""
     return LEAVE_S if method.startswith(("unregister", "unsubscribe")) else TIMEOUT_S
 
 
 class RemoteMaster(MasterPort):
-    """The way to the Master at ``uri``; a call parks the calling lane, and simulated time goes on meanwhile.
+    """The Master at ``uri``; a call parks the calling lane, while simulated time continues.
 
-    ``watch`` looks after the registrations that are made through it.
+    ``watch`` monitors the registrations made through it.
     """
 
     def __init__(self, uri: str, client: XmlRpcClient, watch: Watch | None = None) -> None:
@@ -44,7 +44,7 @@ class RemoteMaster(MasterPort):
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
         """Return the Master's answer: [code, status, value].
 
-        Raises ``MasterUnreachable``, which says what to do, when there is none.
+        Raises ``MasterUnreachable``, which says what to do, if there is no answer.
         """
         try:
             answer = self._client.call(self.uri, method, caller_id, *arguments, timeout=patience(method))

@@ -1,9 +1,9 @@
-"""Which HTTP requests a server of XML-RPC answers: those that no web page can send.
+"""Accepts only HTTP requests to an XML-RPC server that no web page can send.
 
-A browser sends a POST request of any page to any server, this machine's included. A page whose owner has a DNS server
-can also give its own name the address of this machine, and then read the answers (DNS rebinding). What a browser cannot
-do for such a page: leave the header ``Origin`` out of a POST request, send ``Content-Type: text/xml`` to a server of
-another origin without asking it first, and name another host in ``Host`` than that of the page's address.
+A browser sends a POST request from any page to any server, including those on this machine. The owner of a page who
+controls a DNS server can also give its name the address of this machine, and then read the answers (DNS rebinding).
+A page cannot make a browser omit the header ``Origin`` from a POST request, send ``Content-Type: text/xml`` to a
+server of another origin without asking it first, or send a ``Host`` other than that of the page's address.
 """
 
 from __future__ import annotations
@@ -26,34 +26,34 @@ if TYPE_CHECKING:
 CONTENT_TYPE = "text/xml"
 
 NAME_S = 5.0
-"""How long the name service may take to return the full name of this machine."""
+"""Timeout of the name service for the full name of this machine [s]."""
 
 
 class Refused(TransportException):
-    """A request that a web page could have sent, or that no client of XML-RPC sends."""
+    """A request that a web page could have sent, or that no XML-RPC client sends."""
 
     def __init__(self, status: HTTPStatus, text: str, *, has_body: bool = True) -> None:
         super().__init__(text)
         self.status = status
         self.has_body = has_body
-        """False if the answer must have no body: to the method HEAD."""
+        """False if the answer must not have a body: for the method HEAD."""
 
 
 class RequestCheck:
     """Refuses requests that a web page can send.
 
     Args:
-        names: the names and addresses that the user gave this machine; it is also known by its own, and by loopback's.
+        names: names and addresses that the user gave this machine, besides its own name and loopback names.
 
     """
 
     def __init__(self, names: Iterable[str] = ()) -> None:
         self._names = frozenset(map(_plain, names))
         self._looking: asyncio.Task[str] | None = None
-        """Asks for the machine's full name, for all requests that wait for it."""
+        """Look-up of the machine's full name, shared by all requests that wait for it."""
 
     async def check(self, request: h11.Request) -> None:
-        """Raise :class:`Refused` unless a client of XML-RPC has sent this request, under a name of this machine."""
+        """Raise :class:`Refused` unless an XML-RPC client sent this request to a name of this machine."""
         method, headers = request.method.decode("latin-1"), _texts(request)
         if method != "POST":
             raise Refused(
@@ -76,7 +76,7 @@ class RequestCheck:
                 f"the request's Content-Type is {shown(', '.join(kinds)) if kinds else 'missing'}; a call of XML-RPC, "
                 f"unlike what any web page can send, has the header `Content-Type: {CONTENT_TYPE}`",
             )
-        for field in headers.get("host", []):  # none in HTTP/1.0, which no browser speaks any more
+        for field in headers.get("host", []):  # missing in HTTP/1.0, which browsers no longer use
             host = _host(field)
             if not await self._is_own(host):
                 raise Refused(
@@ -109,7 +109,7 @@ class RequestCheck:
 
 
 def _texts(request: h11.Request) -> dict[str, list[str]]:
-    """Return the values of a request's headers by their names, which are in lower case."""
+    """Return the values of a request's headers by name in lower case."""
     found: dict[str, list[str]] = {}
     for name, value in request.headers:
         found.setdefault(name.decode("latin-1"), []).append(value.decode("latin-1"))
@@ -117,12 +117,12 @@ def _texts(request: h11.Request) -> dict[str, list[str]]:
 
 
 def _plain(name: str) -> str:
-    """Return the name of a host as it is compared: case does not matter, nor does the dot of the root."""
+    """Return a host name normalised for comparison: case and a trailing dot do not matter."""
     return name.lower().removesuffix(".")
 
 
 def _host(field: str) -> str:
-    """Return the host of ``Host: host:port``; that of an IPv6 address has brackets, or had none in old clients."""
+    """Return the host of ``Host: host:port``; an IPv6 address has brackets, except from old clients."""
     if field.startswith("["):
         return field[1:].partition("]")[0].lower()
     host, colon, port = field.rpartition(":")

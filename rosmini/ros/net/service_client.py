@@ -1,4 +1,4 @@
-"""The client's end of a service on TCPROS."""
+"""Client side of a service over TCPROS."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ BROKEN = "transport error completing service call: unable to receive data from s
 
 
 class TcpServiceLink:
-    """Sends requests; the answers come in their order."""
+    """Sends requests; the answers arrive in the same order."""
 
     is_remote = True
 

@@ -1,4 +1,4 @@
-"""The server's end of a service on TCPROS: requests come in; an ok byte and a response, or an error, go out."""
+"""Server side of a service over TCPROS: receives requests; sends an ok byte and a response, or an error."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class TcpClient:
-    """One client of a service, as its server sees it: one request after another."""
+    """A client of a service, as its server sees it; requests are handled one after another."""
 
     def __init__(
         self,
@@ -39,7 +39,7 @@ class TcpClient:
         stream.share()
 
     def open(self, header: bytes, *, is_probe: bool) -> None:
-        """Send the header, and then answer; one who only probes learns the header."""
+        """Send the header, then answer requests; a probe gets only the header."""
         self._answers.append(header)
         self._stream.flush()
         if is_probe:
@@ -51,7 +51,7 @@ class TcpClient:
 
     def _arrived(self, frames: list[bytes]) -> None:
         self._requests.extend(frames)
-        if len(self._requests) > 1:  # who waits for each answer, as clients do, never has to wait for us
+        if len(self._requests) > 1:  # clients that wait for each answer are never paused
             self._stream.pause()
             self._is_paused = True
         self._scheduler.call_soon(self._handle)

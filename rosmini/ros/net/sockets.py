@@ -1,4 +1,4 @@
-"""Sockets that listen and sockets that are connected, with errors that say what to do."""
+"""Listening and connected sockets, with errors that say what to do."""
 
 from __future__ import annotations
 
@@ -22,27 +22,27 @@ BACKLOG = 128
 
 
 class Unreached(TransportException):
-    """Nobody is reached at an address; the cause is what the system said."""
+    """An address cannot be reached; the cause is the system's error."""
 
     def __init__(self, text: str, host: str) -> None:
         super().__init__(text)
         self.host = host
-        """The host in that address."""
+        """Host in that address."""
 
 
 Address = tuple[socket.AddressFamily, Any]
-"""A family, and what ``socket.connect`` takes."""
+"""Address family, and the argument for ``socket.connect``."""
 
 
 def listen(bind: str, port: int) -> socket.socket:
     """Return a socket that listens at an address of this machine.
 
-    Raises ``OSError``: the port is in use, for instance.
+    Raises ``OSError``, for instance if the port is in use.
     """
     family = socket.AF_INET6 if ":" in bind else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
     try:
-        if sys.platform != "win32":  # there it would let a second process listen at the same port
+        if sys.platform != "win32":  # there it would let a second process listen on the port
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind((bind, port))
         listener.listen(BACKLOG)
@@ -54,13 +54,13 @@ def listen(bind: str, port: int) -> socket.socket:
 
 
 KEEPALIVE = {"TCP_KEEPIDLE": 60, "TCP_KEEPINTVL": 10, "TCP_KEEPCNT": 9}
-"""As in rospy and roscpp: after a minute of silence the peer is asked, every ten seconds, nine times at most."""
+"""As in rospy and roscpp: after a minute of silence up to nine probes are sent, ten seconds apart."""
 
 
 def prepare(connection: socket.socket) -> None:
-    """Set what each connection has: all is sent at once, and a host that has gone is noticed though nothing is sent.
+    """Set the options of each connection: data is sent at once, and a dead host is noticed when nothing is sent.
 
-    Who publishes sends what it has at the end of each event, in one piece: to wait for more would only delay it.
+    A publisher sends its data at the end of each event, in one piece: waiting for more would only delay it.
     """
     connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     if all(hasattr(socket, name) for name in KEEPALIVE):
@@ -70,7 +70,7 @@ def prepare(connection: socket.socket) -> None:
 
 
 def literal(host: str, port: int) -> Address | None:
-    """Return the address that needs no look-up, or None."""
+    """Return the address if it needs no look-up, or None."""
     try:
         number = ipaddress.ip_address("127.0.0.1" if host == "localhost" else host)
     except ValueError:
@@ -79,7 +79,7 @@ def literal(host: str, port: int) -> Address | None:
 
 
 async def resolve(host: str, port: int) -> Address:
-    """Return the address of a host; names are looked up in a separate thread, which may take its time.
+    """Return the address of a host; names are looked up in a separate thread, which may be slow.
 
     Raises :class:`Unreached` for a name that does not resolve.
     """
@@ -104,7 +104,7 @@ async def full_name() -> str:
 
 
 async def _look_up(look_up: Callable[[], T], what: str) -> T:
-    """Return the result of a function that asks the name service, from a thread that the process does not wait for."""
+    """Return the result of a name service function, called in a thread that the process does not wait for."""
     loop = asyncio.get_running_loop()
     answer: asyncio.Future[T] = loop.create_future()
 
@@ -132,7 +132,7 @@ async def _look_up(look_up: Callable[[], T], what: str) -> T:
 async def connect(host: str, port: int) -> socket.socket:
     """Return a connected, non-blocking socket.
 
-    Raises :class:`Unreached` when nobody listens there, or the name or the way there is not known.
+    Raises :class:`Unreached` if no process listens there, or the name or the route is unknown.
     """
     if not 0 < port < 65536:
         raise Unreached(f"nobody can be reached at {shown(host)}, port {port}: ports are 1 to 65535", host)

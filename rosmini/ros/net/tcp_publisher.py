@@ -1,4 +1,4 @@
-"""The publisher's end of a topic on TCPROS (http://wiki.ros.org/ROS/TCPROS)."""
+"""Publisher side of a topic over TCPROS (http://wiki.ros.org/ROS/TCPROS)."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from .tcp_stream import Stream
 
 BATCH = 64 * 1024
-"""About so many bytes are written at once."""
+"""Approximate number of bytes written at once."""
 
 UNBOUNDED = 64 * 1024 * 1024
-"""So many bytes wait for a slow subscriber of a publisher without a queue size; then the oldest are dropped."""
+"""Maximum backlog for a slow subscriber without a queue size [bytes]; then the oldest messages are dropped."""
 
 
 class TcpSender:
-    """Sends the bytes of messages to one subscriber, in batches; one that reads slowly loses the oldest."""
+    """Sends serialised messages to one subscriber in batches; drops the oldest if it reads slowly."""
 
     protocol = "TCPROS"
     wants_bytes = True
@@ -42,22 +42,22 @@ class TcpSender:
         self.on_closed: Callable[[], None] = _nothing
         self.on_dropped: Callable[[], None] = _nothing
         self.sent = 0
-        """How many messages were sent, dropped ones included."""
+        """Number of messages sent, including dropped ones."""
         self.dropped = 0
-        """The number of messages dropped because the subscriber reads too slowly."""
+        """Number of messages dropped because the subscriber reads too slowly."""
         stream.source = self._next
 
     def open(self, header: bytes) -> None:
-        """Send the header, and then what has been queued."""
+        """Send the header, then the queued messages."""
         self._header = header
         self._is_open = True
         self._stream.on_end = self._ended
         self._stream.flush()
 
     def send(self, packet: Any, size: int | None) -> None:
-        """Send a message now if it is the first of this event, for what follows may take long; else in the next event.
+        """Send a message now if it is the first of this event, since the rest may take long, or else in the next event.
 
-        Many together are written at once, and earlier only where the oldest would have to go.
+        Several messages are written together, and earlier only if the oldest would be dropped otherwise.
         """
         if self._is_closed:
             return
@@ -73,7 +73,7 @@ class TcpSender:
                 self._stream.flush()
 
     def _make_room(self, size: int | None) -> None:
-        """Write what waits, and drop the oldest where that was not enough."""
+        """Write the queued messages, and drop the oldest if that does not free enough space."""
         if self._is_open:
             self._stream.flush()
         waiting, before = self._waiting, self.dropped
@@ -90,7 +90,7 @@ class TcpSender:
             self._stream.flush()
 
     def _next(self) -> bytes:
-        """Return the next bytes for the socket: about a batch. With the stream's lock held."""
+        """Return the next bytes for the socket, about a batch, with the stream's lock held."""
         if self._header is not None:
             header, self._header = self._header, None
             return header
@@ -104,12 +104,12 @@ class TcpSender:
         return packets[0] if len(packets) == 1 else b"".join(packets)
 
     def close(self) -> None:
-        """Close from the publisher's side, after what was sent."""
+        """Close from the publisher's side, after sending the queued data."""
         self._is_closed = True
         self._stream.close()
 
     def _ended(self, _error: Exception | None) -> None:
-        """The subscriber has closed the connection, or it broke. In the I/O thread."""
+        """Handle a connection that the subscriber closed or that broke; in the I/O thread."""
         self._scheduler.call_soon_threadsafe(self._tell)
 
     def _tell(self) -> None:
@@ -120,4 +120,4 @@ class TcpSender:
 
 
 def _nothing() -> None:
-    """Do nothing: what is called when nobody has asked to be."""
+    """Do nothing; the default callback."""

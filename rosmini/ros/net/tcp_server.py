@@ -1,4 +1,4 @@
-"""The port of a node at which subscribers and clients of services arrive."""
+"""The port of a node that accepts subscribers and service clients."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ if TYPE_CHECKING:
     Warn = Callable[..., None]
 
 HANDSHAKE_S = 30.0
-"""So long whoever connects may take to say what for."""
+"""Handshake timeout [s]."""
 
 WAITING = 128
-"""How many may wait to say what for; beyond that, whoever came first is closed."""
+"""Maximum number of connections in the handshake; beyond that, the oldest is closed."""
 
 PAUSE_S = 1.0
-"""How long no connection is accepted after the machine has refused one."""
+"""How long no connection is accepted after the system has refused one [s]."""
 
 
 class TcpServer:
-    """Listens for one node, from when it is made. Raises ``OSError`` at once when it cannot."""
+    """Listens for one node from its creation on. Raises ``OSError`` at once on failure."""
 
     def __init__(
         self,
@@ -59,7 +59,7 @@ class TcpServer:
         self.port: int = self._socket.getsockname()[1]
         self._is_closed = False
         self.waiting: dict[_Arrival, None] = {}
-        """Who has not said yet what for, in order of arrival."""
+        """Connections in the handshake, in order of arrival."""
         io.call(self._begin)
 
     def _begin(self) -> None:
@@ -68,7 +68,7 @@ class TcpServer:
             asyncio.get_running_loop().add_reader(self._socket, self._accept)
 
     def close(self) -> None:
-        """Stop listening; connections stay. From any thread; harmless when repeated."""
+        """Stop listening; connections remain. May be called repeatedly and from any thread."""
         if not self._is_closed:
             self._is_closed = True
             if self.io.runs:
@@ -100,13 +100,13 @@ class TcpServer:
             next(iter(self.waiting)).give_up(f"{WAITING} others wait, too")
 
     def complain(self, host: str, reason: str, cause: str) -> None:
-        """Say why a connection is closed; of the same host and cause no more for a while."""
+        """Log why a connection is closed, but not repeatedly for the same host and cause."""
         name = self.endpoint.name
         self.warn(f"{name} closed a connection from {host}: {reason}", (name, host, cause))
 
 
 class _Arrival:
-    """A connection whose header is awaited."""
+    """A connection whose header has not arrived."""
 
     def __init__(self, server: TcpServer, sock: socket.socket, host: str) -> None:
         self._server = server
@@ -126,13 +126,13 @@ class _Arrival:
         return self._answer.popleft() if self._answer else b""
 
     def give_up(self, reason: str) -> None:
-        """Close it, for no header has come."""
+        """Close the connection, because no header has come."""
         self._settle()
         self._stream.abort()
         self._server.complain(self._host, f"it sent no header, and {reason}", "silence")
 
     def _settle(self) -> None:
-        """Wait no longer for its header."""
+        """Stop waiting for the header."""
         self._timer.cancel()
         self._server.waiting.pop(self, None)
 

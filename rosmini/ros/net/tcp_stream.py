@@ -1,4 +1,4 @@
-"""A connected socket in the I/O thread: frames come in, bytes go out, and nobody ever waits for the other end."""
+"""A connected socket in the I/O thread that reads frames and writes bytes without blocking."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ if TYPE_CHECKING:
     from .io_thread import IoThread
 
 LINGER_S = 2.0
-"""How long a closed connection may take to get rid of what was sent."""
+"""How long a closed connection may take to deliver data already sent [s]."""
 
 READS = 16
-"""So many times a socket is read before it is another's turn."""
+"""Maximum number of consecutive reads of a socket before others are served."""
 
 
 class Stream:
-    """Reads frames in the I/O thread, where it is made; what the socket does not take at once is written there, too.
+    """Reads frames in the I/O thread, where it is created; data that the socket refuses at once is written there.
 
-    A ``shared`` one is read in the hub's thread while that one is idle: ``on_frames`` may be called there, then.
+    A ``shared`` stream is read in the hub's thread while the hub is idle: ``on_frames`` may then be called there.
 
-    ``source`` gives the next bytes to send, b"" when there are none; it is called with :attr:`lock` held, which
-    whoever fills it takes, too. ``on_frames`` and ``on_end`` are called in the I/O thread; ``on_end`` once, with what
-    went wrong, or None when the peer closed the connection, and not after :meth:`close`.
+    ``source`` returns the next bytes to send, or b"" if none; it is called with :attr:`lock` held, and code that
+    fills it takes the lock too. ``on_frames`` and ``on_end`` are called in the I/O thread; ``on_end`` once, with the
+    error, or None if the peer closed the connection, and not after :meth:`close`.
     """
 
     def __init__(self, io: IoThread, sock: socket.socket, frames: FrameReader) -> None:
@@ -56,11 +56,11 @@ class Stream:
 
     @property
     def is_cut(self) -> bool:
-        """Whether what has come ends in the middle of a frame."""
+        """True if the received data ends in the middle of a frame."""
         return self._frames.is_cut
 
     def describe(self, host: str | None = None) -> str:
-        """Return what ``getBusInfo`` says of the connection, in ROS's words; ``host`` as the peer calls itself."""
+        """Return the description for ``getBusInfo``, in ROS's words; ``host`` is the peer's name for itself."""
         try:
             here, there = self._socket.getsockname(), self._socket.getpeername()
         except OSError:
@@ -75,15 +75,15 @@ class Stream:
     # -- reading, in the I/O thread ------------------------------------------------------------------------------
 
     def share(self) -> None:
-        """Have an idle hub read it, too. From any thread, while nobody reads."""
+        """Let an idle hub read it too; may be called from any thread while nothing reads it."""
         self._is_shared = True
 
     def resume(self) -> None:
-        """Begin to read, or go on. From any thread."""
+        """Start or resume reading; may be called from any thread."""
         self._call(self.start)
 
     def start(self) -> None:
-        """Begin to read, or go on."""
+        """Start or resume reading."""
         if self._is_shut or self._reads:
             return
         self._reads = True
@@ -95,7 +95,7 @@ class Stream:
             self._loop.add_reader(self._socket, self._readable)
 
     def pause(self) -> None:
-        """Read nothing for now: the peer has to wait."""
+        """Pause reading: the peer has to wait."""
         if self._reads:
             self._reads = False
             if self._idle is not None:
@@ -104,7 +104,7 @@ class Stream:
                 self._loop.remove_reader(self._socket)
 
     def _readable(self) -> None:
-        """Take what has come: all of it, unless it is so much that others would wait long."""
+        """Read the available data, but at most so much that others need not wait long."""
         for _ in range(READS):
             wanted = self._frames.wanted
             try:
@@ -119,7 +119,7 @@ class Stream:
                 return
             if (
                 not self._is_closing
-            ):  # what comes after is only taken so that the peer can read our last words
+            ):  # later data is discarded, so that the peer can read our last message
                 try:
                     frames = self._frames.feed(data)
                 except DeserializationError as error:
@@ -131,7 +131,7 @@ class Stream:
                 return
 
     def _stop(self, error: Exception | None) -> None:
-        """Read no more, and end it in the I/O thread."""
+        """Stop reading, and end the stream in the I/O thread."""
         if self._idle is None:
             self._end(error)
         else:
@@ -145,7 +145,7 @@ class Stream:
             self.on_end(error)
 
     def _shut(self) -> None:
-        """Close the socket. In the I/O thread only."""
+        """Close the socket; I/O thread only."""
         self._io.closers.pop(self._shut, None)
         with self.lock:
             if self._is_shut:
@@ -159,17 +159,17 @@ class Stream:
 
     @property
     def is_blocked(self) -> bool:
-        """True while the peer takes nothing more."""
+        """True while the peer accepts no more data."""
         return self._is_blocked
 
     def flush(self) -> None:
-        """Send what the source gives, as far as the socket takes it now; the rest follows by itself."""
+        """Send data from the source as far as the socket accepts it; the rest follows automatically."""
         with self.lock:
             if not self._is_blocked:
                 self._pump()
 
     def _pump(self) -> None:
-        """Write until nothing is left or the socket takes no more. With the lock held."""
+        """Write until nothing is left or the socket accepts no more, with the lock held."""
         while not self._is_shut:
             if not self._rest:
                 self._rest = memoryview(self.source())
@@ -201,7 +201,7 @@ class Stream:
             self._loop.remove_writer(self._socket)
 
     def close(self) -> None:
-        """Close the connection after what was sent; nobody is told. From any thread; harmless when repeated."""
+        """Close the connection after sending, without a callback; may be called repeatedly and from any thread."""
         with self.lock:
             if self._is_closing or self._is_shut:
                 return
@@ -211,20 +211,20 @@ class Stream:
         self._call(self._linger)
 
     def _linger(self) -> None:
-        """Close for good when the peer has read all, or after a while."""
+        """Close completely when the peer has read everything, or after a timeout."""
         if not self._is_shut:
             self.start()
             self._loop.call_later(LINGER_S, self._shut)
 
     def _finish(self) -> None:
-        """Tell the peer that no more comes; it closes its end, too."""
+        """Signal the end of data to the peer, which then closes its side too."""
         if not self._is_shut:
             with suppress(OSError):
                 self._socket.shutdown(socket.SHUT_WR)
             self.start()
 
     def abort(self) -> None:
-        """Close at once and forget what was not sent. From any thread."""
+        """Close at once and discard unsent data; may be called from any thread."""
         self._is_closing = True
         self._call(self._shut)
 
@@ -237,4 +237,4 @@ class Stream:
 
 
 def _ignore(_: object) -> None:
-    """Do nothing: what is called when nobody has asked to be."""
+    """Do nothing; the default callback."""

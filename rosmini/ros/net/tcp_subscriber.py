@@ -1,4 +1,4 @@
-"""The subscriber's end of a topic on TCPROS: it takes frames, and makes messages of those that are wanted."""
+"""Subscriber side of a topic over TCPROS: receives frames, and decodes those that are needed."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ if TYPE_CHECKING:
     from .tcp_stream import Stream
 
 BATCH = 1000
-"""So many messages are handed over at once."""
+"""Maximum number of messages handed over at once."""
 
 LENGTH_SIZE = 4
-"""So many bytes before each message say how long it is."""
+"""Size of the length before each message [bytes]."""
 
 HELD = 1024 * 1024
-"""When more bytes wait for callbacks than this, and no queue size drops them, nothing more is read."""
+"""Backlog of a subscriber without a queue size at which reading stops [bytes]."""
 
 
 HELD_MESSAGES = 100_000
-"""So it is, too, when more messages wait than this: one without fields has no bytes."""
+"""Backlog at which reading stops [messages]; a message without fields has no bytes."""
 
 
 class TopicInlet:
-    """Takes the frames of one publisher; they stay bytes until the callbacks have taken those before."""
+    """Receives the frames of one publisher; they stay bytes until callbacks have processed earlier ones."""
 
     def __init__(
         self,
@@ -86,7 +86,7 @@ class TopicInlet:
     # -- in the hub's thread -------------------------------------------------------------------------------------
 
     def _more(self) -> None:
-        """Hand over what was held back; the callbacks have taken the rest."""
+        """Hand over the messages held back, once callbacks have processed the rest."""
         if not self._is_due and (self._frames or self._has_ended):
             self._is_due = True
             self._scheduler.ready.append(self._take)
@@ -101,7 +101,7 @@ class TopicInlet:
             waiting.popleft()
             receiver.dropped += 1
         if waiting:
-            return  # it is called again when these have been taken
+            return  # called again once these are processed
         batch: list[bytes] = []
         with self._stream.lock:
             while frames and len(batch) < BATCH:

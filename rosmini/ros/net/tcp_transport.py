@@ -1,4 +1,4 @@
-"""Nodes of other processes and machines, through XML-RPC and TCPROS."""
+"""Transport to nodes of other processes and machines, over XML-RPC and TCPROS."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ if TYPE_CHECKING:
     from .xmlrpc_client import XmlRpcClient
 
 CONNECT_S = 30.0
-"""How long a connection may take until the other end has shown its header, by the clock on the wall."""
+"""Timeout of a connection until the peer has sent its header, in wall-clock time [s]."""
 
 
 class _Place(NamedTuple):
-    """Where a node of this process is reached."""
+    """Addresses at which a node of this process is reached."""
 
     host: str
     slave: XmlRpcServer
@@ -43,7 +43,7 @@ class _Place(NamedTuple):
 
 
 class NetworkPort(Protocol):
-    """What the transport needs of its graph's :class:`~rosmini.ros.net.network.Network`."""
+    """The parts of :class:`~rosmini.ros.net.network.Network` that the transport uses."""
 
     scheduler: Scheduler
     io: IoThread
@@ -51,14 +51,14 @@ class NetworkPort(Protocol):
     where: Addresses
 
     def warn(self, text: str, cause: tuple[str, ...] = ()) -> None:
-        """Say what went wrong with a peer, and of the same cause no more for a while. From any thread."""
+        """Warn about a fault of a peer, not repeatedly for the same cause; may be called from any thread."""
 
     def close(self) -> None:
         """End the I/O thread and close what is open."""
 
 
 class TcpTransport:
-    """Each node has one port for its slave API, and one for topics and services: roscpp needs them apart."""
+    """TCPROS transport; a node has one port for its slave API and one for topics and services, as roscpp requires."""
 
     protocol = "TCPROS"
 
@@ -69,7 +69,7 @@ class TcpTransport:
     def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
         """Make a node reachable.
 
-        Raises ``TransportException`` when the address to listen at is not this machine's.
+        Raises ``TransportException`` if the address to listen on is not this machine's.
         """
         network, where = self.network, self.network.where
 
@@ -95,7 +95,7 @@ class TcpTransport:
         return uri
 
     def detach(self, uri: str) -> None:
-        """Make a node unreachable; open connections are the node's to close."""
+        """Make a node unreachable; the node closes its open connections itself."""
         place = self._places.pop(uri, None)
         if place is not None:
             place.slave.close()
@@ -107,11 +107,11 @@ class TcpTransport:
         return "" if place is None else f"rosrpc://{place.host}:{place.topics.port}"
 
     def reaches(self, uri: str) -> bool:
-        """Return whether this is an address of the network."""
+        """Return True if this is an address of the network."""
         return uri.startswith(("http://", "rosrpc://"))
 
     def offer(self, caller: str) -> list[Any] | None:
-        """Return what a subscriber offers in ``requestTopic``."""
+        """Return the protocols that a subscriber offers in ``requestTopic``."""
         return [self.protocol] if caller in self._places else None
 
     def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
@@ -122,7 +122,7 @@ class TcpTransport:
         return [self.protocol, place.host, place.topics.port]
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API; the lane is parked. Raises ``TransportException`` without an answer."""
+        """Call a method of a node's slave API, parking the lane. Raises ``TransportException`` without an answer."""
         try:
             answer = self.network.client.call(uri, method, *arguments)
         except Unreached as error:
@@ -134,7 +134,7 @@ class TcpTransport:
         return answer
 
     def retry(self, seconds: float, function: Callable[[], object]) -> bool:
-        """Call a function in the hub's thread after some seconds on the wall."""
+        """Call a function in the hub's thread after some seconds of wall-clock time."""
         network = self.network
         if network.io.runs:  # else the graph is ending
             later(network.io.loop, seconds, lambda: network.scheduler.call_soon_threadsafe(function))
@@ -149,8 +149,8 @@ class TcpTransport:
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection; the lane is parked meanwhile.
 
-        Raises ``TransportInitError`` when the publisher refuses it, or has another type, with its header; and
-        ``TransportException`` when it cannot be reached.
+        Raises ``TransportInitError`` if the publisher refuses it or has another type, with its header, and
+        ``TransportException`` if it cannot be reached.
         """
         try:
             _, host, port = parameters
@@ -180,7 +180,7 @@ class TcpTransport:
         header: Header,
         service_class: Any,
     ) -> TcpServiceLink:
-        """Open a service connection; the lane is parked meanwhile. Raises as :meth:`connect_topic`."""
+        """Open a service connection; the lane is parked meanwhile. Raises the errors of :meth:`connect_topic`."""
         host, port = host_and_port(service_uri, "rosrpc")
         network = self.network
         stream, reply, _ = self._open(
@@ -197,20 +197,20 @@ class TcpTransport:
             raise self._explained(error) from error.__cause__
 
     def _explained(self, error: Unreached) -> TransportException:
-        """Return an error that says what to do about the address that a node advertises, too."""
+        """Return an error that also says what to do about the address that a node advertises."""
         if isinstance(error.__cause__, gaierror):
             return error  # it says so already
         return TransportException(f"{error}. {self.network.where.advice(error.host, error.__cause__)}")
 
     def close(self) -> None:
-        """End the network of this graph; it restarts when needed."""
+        """Close the network of this graph; it restarts when needed."""
         for uri in list(self._places):
             self.detach(uri)
         self.network.close()
 
 
 Opened = tuple[Stream, "Header", list[bytes]]
-"""A connection whose headers were exchanged, and the frames that have come since."""
+"""A connection after the exchange of headers, and the frames that have arrived since."""
 
 
 def _discard(opened: Opened) -> None:
@@ -220,8 +220,8 @@ def _discard(opened: Opened) -> None:
 async def open_topic(io: IoThread, host: str, port: int, header: Header) -> Opened:
     """Connect to a publisher.
 
-    One that refuses the type and does not say which it has, as those of ROS do not, is asked, so that the error can
-    tell: for a moment it has a subscriber of any type.
+    If it refuses the type without saying its own, as ROS's publishers do, it is asked for it, so that the error can
+    name it: for a moment it has a subscriber of any type.
     """
     try:
         opened = await _open(io, host, port, header)

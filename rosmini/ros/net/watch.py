@@ -1,7 +1,7 @@
-"""Looks now and then whether the Master still knows the nodes of this process.
+"""Checks periodically if the Master still knows the nodes of this process.
 
-A Master that goes away and comes back has forgotten everything. Real nodes do not notice; ours say so, once, and
-register again. In the same way a node learns that another one has its name while the Master's word did not reach it.
+A restarted Master has forgotten everything. Nodes of real ROS do not notice; rosmini's log it once and
+register again. A node also learns that another one has taken its name if the Master's notice did not reach it.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ if TYPE_CHECKING:
     from .xmlrpc_client import XmlRpcClient
 
 PERIOD_S = 2.0
-"""How often the Master is asked, by the clock on the wall."""
+"""Period of the checks, in wall-clock time [s]."""
 
 TIMEOUT_S = 5.0
-"""How long it may take to answer."""
+"""Timeout of a check [s]."""
 
 
 class _Seen(NamedTuple):
-    """A node, and its address when it was asked for."""
+    """A node, and its address when it was checked."""
 
     node: Node
     uri: str
 
 
 class Watch:
-    """Watches the Master at ``uri`` on behalf of the nodes of ``graph``; begun with the first registration."""
+    """Watches the Master at ``uri`` for the nodes of ``graph``; starts with the first registration."""
 
     def __init__(self, graph: Graph, uri: str, io: IoThread, client: XmlRpcClient) -> None:
         self._graph = graph
@@ -51,16 +51,16 @@ class Watch:
         self._pid: int | None = None
         self._is_lost = False
         self._forgotten: dict[str, int] = {}
-        """How many times in a row the Master did not know a node."""
+        """Number of consecutive checks in which the Master did not know a node."""
 
     def begin(self) -> None:
-        """Begin to watch. Harmless when repeated."""
+        """Start watching; may be called repeatedly."""
         if self._task is None or self._task.done():
             self._is_lost, self._pid = False, None
             self._task = self._io.start(self._run())
 
     def end(self) -> None:
-        """Stop watching. Harmless when repeated."""
+        """Stop watching; may be called repeatedly."""
         if self._task is not None:
             self._task.cancel()
 
@@ -75,7 +75,7 @@ class Watch:
                 await self._look(nodes)
 
     async def _look(self, nodes: list[_Seen]) -> None:
-        """Ask whether it is the same Master, and for one node, another one each time."""
+        """Check if it is the same Master, and check one node, a different one each time."""
         self._turn += 1
         chosen = nodes[self._turn % len(nodes)]
         scheduler = self._graph.scheduler
@@ -99,7 +99,7 @@ class Watch:
             await self._io.on_hub(scheduler, partial(self._end_replaced, chosen))
 
     def _may_register(self, seen: _Seen) -> bool:
-        """Tell whether to register a node that the Master does not know: ever more seldom where that has no effect."""
+        """Return True if an unknown node is to be registered again: less and less often if that has no effect."""
         count = self._forgotten[seen.node.name] = self._forgotten.get(seen.node.name, 0) + 1
         return count & (count - 1) == 0
 
@@ -110,7 +110,7 @@ class Watch:
     # -- in the hub's thread -------------------------------------------------------------------------------------
 
     def _nodes(self) -> list[_Seen]:
-        """Return the nodes that run and are known; of one that starts, the Master may have a killed one's address."""
+        """Return the running, registered nodes; for a starting one, the Master may have a killed one's address."""
         return [
             _Seen(node, node.uri)
             for node in self._graph.nodes.values()
@@ -125,12 +125,12 @@ class Watch:
         )
 
     def _say(self, text: str, nodes: list[Node]) -> None:
-        """Let the first of the nodes say it, for all."""
+        """Log a message once, through the first of the nodes."""
         for node in nodes[:1]:
             node.spawn(f"{node.name} tells of the Master", partial(node.logwarn, text))
 
     def _end_replaced(self, seen: _Seen) -> None:
-        """End a node whose name another one has."""
+        """End a node whose name another one has taken."""
         if seen in self._nodes():
             seen.node.shutdown_requested(
                 "/master", f"[{seen.node.name}] Reason: new node registered with same name"

@@ -1,4 +1,4 @@
-"""Calls over XML-RPC: of the Master, and of nodes' slave APIs."""
+"""XML-RPC calls to the Master and to nodes' slave APIs."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 __all__ = ["TIMEOUT_S", "XmlRpcClient", "XmlRpcFault", "host_and_port"]
 
 TIMEOUT_S = 10.0
-"""How long a call waits for its answer, by the clock on the wall."""
+"""Timeout of a call, in wall-clock time [s]."""
 
 KEPT = 32
-"""How many connections are kept open between calls."""
+"""Maximum number of connections kept open between calls."""
 
 LONGEST_REASON = 500
-"""How much of a server's reason for a refusal an error shows, in characters."""
+"""Maximum number of characters of a server's reason for refusal in an error."""
 
 
 class _Open(NamedTuple):
@@ -40,9 +40,9 @@ class _Open(NamedTuple):
 
 
 def host_and_port(uri: str, scheme: str = "http") -> tuple[str, int]:
-    """Return where a URI of ROS points to.
+    """Return host and port of a ROS URI.
 
-    Raises ``TransportException`` for what is no such URI.
+    Raises ``TransportException`` for an invalid URI.
     """
     try:
         parts = urlsplit(uri)
@@ -55,7 +55,7 @@ def host_and_port(uri: str, scheme: str = "http") -> tuple[str, int]:
 
 
 class XmlRpcClient:
-    """Calls methods at servers; connections are kept open between calls where the server keeps them."""
+    """Calls methods of servers; connections are kept open between calls if the server allows it."""
 
     def __init__(self, io: IoThread, scheduler: Scheduler) -> None:
         self._io = io
@@ -63,11 +63,11 @@ class XmlRpcClient:
         self._kept: dict[tuple[str, int], _Open] = {}
 
     def call(self, uri: str, method: str, *arguments: Any, timeout: float = TIMEOUT_S) -> Any:
-        """Return the answer to a call; the calling lane is parked meanwhile, and simulated time goes on.
+        """Return the answer to a call; the calling lane is parked meanwhile, while simulated time continues.
 
-        Raises ``XmlRpcFault`` when the peer says that the call went wrong, and ``TransportException`` when there is no
-        answer: nobody listens there, the host's name does not resolve, ``timeout`` seconds on the wall have passed, or
-        what answers is no server of XML-RPC.
+        Raises ``XmlRpcFault`` if the peer reports an error, and ``TransportException`` if there is no
+        answer: no process listens, the host's name does not resolve, ``timeout`` seconds of real time have passed, or
+        the peer is not an XML-RPC server.
         """
         return self._io.ask(
             self._scheduler, self.request(uri, method, arguments, timeout), f"an answer of {uri} to {method}"
@@ -80,7 +80,7 @@ class XmlRpcClient:
         arguments: tuple[Any, ...],
         timeout: float = TIMEOUT_S,  # noqa: ASYNC109 - the error tells it
     ) -> Any:
-        """Do as :meth:`call`, inside the loop of the I/O thread."""
+        """Call like :meth:`call`, inside the loop of the I/O thread."""
         host, port = host_and_port(uri)
         body = encode_call(method, arguments)
         try:
@@ -123,7 +123,7 @@ class XmlRpcClient:
         return answer
 
     async def _post(self, way: _Open, host: str, port: int, path: str, body: bytes) -> bytes | None:
-        """Return the answer's body; None when the server closed the connection before it answered."""
+        """Return the answer's body; None if the server closed the connection before answering."""
         fields = [
             ("Host", f"{host}:{port}"),
             ("User-Agent", "rosmini"),
@@ -151,7 +151,7 @@ class XmlRpcClient:
                 way.state.start_next_cycle()
                 self._keep((host, port), way)
             else:
-                way.writer.transport.abort()  # what is not sent yet nobody reads any more
+                way.writer.transport.abort()  # no one will read data not yet sent
 
     def _keep(self, address: tuple[str, int], way: _Open) -> None:
         for ended in [each for each, kept in self._kept.items() if kept.reader.at_eof()]:
@@ -165,6 +165,6 @@ class XmlRpcClient:
         self._io.closers[self.close] = None
 
     def close(self) -> None:
-        """Close what is kept open. In the loop's thread only, which does it in the end."""
+        """Close the open connections; loop's thread only, which does it at its end."""
         while self._kept:
             self._kept.popitem()[1].writer.close()

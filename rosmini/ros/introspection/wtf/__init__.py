@@ -1,5 +1,5 @@
-"""What ``roswtf`` finds out: what is probably wrong with a graph, and what to do about it (http://wiki.ros.org/roswtf).
+"""The checks of ``roswtf``: probable faults of a graph, and how to fix them (http://wiki.ros.org/roswtf).
 
-A survey asks the Master and every node once; the rules are functions of what it found, of what was heard on ``/tf``
+A survey queries the Master and every node once; the rules are functions of the survey, of messages received on ``/tf``
 and ``/rosout`` meanwhile, and of the environment, and each returns findings.
 """

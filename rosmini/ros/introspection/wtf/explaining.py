@@ -1,4 +1,4 @@
-"""Which finding explains an error that somebody has before them: `roswtf` on a cell that failed."""
+"""Finds the finding that explains an error: `roswtf` for a cell that failed."""
 
 from __future__ import annotations
 
@@ -26,31 +26,31 @@ if TYPE_CHECKING:
     from .survey import Survey
 
 _NAME = re.compile(r"(?<![\w:./])/[A-Za-z]\w*(?:/\w+)*")
-"""A global name of the graph in a text; not a path with a dot in it, and no part of an address."""
+"""A global graph name in a text; not a path with a dot in it, and not part of an address."""
 _WAITED = re.compile(r"time(d ?)?out|waiting|wait(ed)? for|never|nothing (more|else)", re.IGNORECASE)
 _CLOCKS = ("no_clock", "several_clocks")
 
 
 def is_known(error: BaseException) -> bool:
-    """Return whether there are rules for errors of this kind at all."""
+    """Return True if there are rules for errors of this kind."""
     return isinstance(error, RosminiError | ModuleNotFoundError)
 
 
 def explain(
     error: BaseException, graph: Survey | None, static: Callable[[], Iterable[Finding]]
 ) -> Finding | None:
-    """Return the finding that explains an error, with the places that have to do with it; None if there is none.
+    """Return the finding that explains an error, with the related places; None if no finding does.
 
     Args:
-        error: what was raised.
-        graph: the graph, if there is one.
-        static: finds what is wrong with the environment and the packages; only called where it may be the cause.
+        error: the exception.
+        graph: the survey of the graph, if any.
+        static: finds problems of the environment and the packages; called only if they may be the cause.
 
     """
     if isinstance(error, UnknownPackage | ScriptError | ModuleNotFoundError):
         return next(_of_packages(error, static()), None)
     if graph is None or not isinstance(error, RosminiError) or isinstance(error, TypeMismatch):
-        return None  # that error says it all itself
+        return None  # the error message is sufficient
     return next(_of_graph(error, graph), None)
 
 
@@ -66,7 +66,7 @@ def _of_packages(error: BaseException, findings: Iterable[Finding]) -> Iterator[
 
 
 def _package_in(line: str) -> str:
-    """Return the package of which a static finding's line speaks: ``name: ...``, ``name/script: ...`` or a manifest."""
+    """Return the package named in a line of a static finding: ``name: ...``, ``name/script: ...`` or a manifest."""
     place = re.split(r":(?:\s|\d)", line, maxsplit=1)[0]
     path = PurePath(place)
     return (
@@ -94,7 +94,7 @@ def _of_graph(error: RosminiError, graph: Survey) -> Iterator[Finding]:
 
 
 def _misnamed(names: set[str], graph: Survey) -> Iterator[Finding]:
-    """Yield what was probably meant by a name that nobody in the graph has."""
+    """Yield the probable meaning of a name that does not exist in the graph."""
     published = {name for name, nodes in graph.publishers.items() if nodes}
     known = {*published, *graph.services, *graph.nodes}
     for name in sorted(names - known):
@@ -106,7 +106,7 @@ def _misnamed(names: set[str], graph: Survey) -> Iterator[Finding]:
 
 
 def _about(lines: Iterable[str], names: set[str]) -> Iterator[str]:
-    """Yield the places that name one of these, each with the lines that belong to it."""
+    """Yield the places that mention one of these names, each with its indented lines."""
     is_about = False
     for line in lines:
         is_about = is_about if line.startswith(" ") else bool(names & set(_NAME.findall(line)))

@@ -1,4 +1,4 @@
-"""What a rule found, and how ``roswtf`` prints it."""
+"""The result of a rule, and how ``roswtf`` prints it."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ Level = Literal["WARNING", "ERROR"]
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that is probably wrong: how bad it is, what it is, where it was found, and the way out."""
+    """A probable fault: its severity, description, places, and how to fix it."""
 
     rule: str
-    """A short name of what is wrong, the same for every graph: ``no_clock``."""
+    """Short name of the fault, the same for every graph: ``no_clock``."""
     level: Level
     what: str
     where: tuple[str, ...] = ()
-    """The places, one a line; a line that begins with a blank belongs to the one above it."""
+    """Places, one per line; a line that begins with a space belongs to the one above it."""
     advice: str = ""
 
     def __str__(self) -> str:

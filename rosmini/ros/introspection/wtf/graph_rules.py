@@ -1,4 +1,4 @@
-"""The rules on a graph: nodes, topics, types, connections, parameters."""
+"""Rules for a graph: nodes, topics, types, connections, parameters."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from .survey import Node, Survey
 
 TOOLS = ("/roswtf", "/rostopic", "/rqt_", "/rosbag_record")
-"""How the names of nodes begin that only look on: what they hear says nothing about a graph."""
+"""Name prefixes of nodes that only observe, so their subscriptions do not indicate a fault."""
 
 UNPUBLISHED = ("/clock", "/rosout")
-"""Topics that have subscribers before anybody needs to publish: in wall time, and in a graph of the Master alone."""
+"""Topics that may have subscribers without a publisher: in wall-clock time, and in a graph with only a Master."""
 
 
 def silent_nodes(graph: Survey) -> Iterator[Finding]:
-    """Find nodes that the Master lists and that do not answer."""
+    """Find nodes that the Master lists but that do not answer."""
     found = tuple(
         f"{node.name}: {node.silence.removeprefix('ERROR: ')}"
         for node in graph.nodes.values()
@@ -38,7 +38,7 @@ def silent_nodes(graph: Survey) -> Iterator[Finding]:
 
 
 def types_differ(graph: Survey) -> Iterator[Finding]:
-    """Find topics on which nodes disagree about the type: they are never connected."""
+    """Find topics whose nodes disagree about the type, so that they never connect."""
     found: list[str] = []
     for topic in _topics(graph):
         kinds = graph.types(topic)
@@ -53,11 +53,11 @@ def types_differ(graph: Survey) -> Iterator[Finding]:
 
 
 def not_connected(graph: Survey) -> Iterator[Finding]:
-    """Find publishers and subscribers of one topic and one type that have no connection."""
+    """Find publishers and subscribers of the same topic and type without a connection."""
     found: list[str] = []
     for topic in _topics(graph):
         if len(graph.types(topic)) > 1:
-            continue  # types_differ says why
+            continue  # types_differ reports the reason
         for to in _alive(graph, graph.subscribers.get(topic, ())):
             found += [
                 f"{source.name} -> {to.name} ({topic})"
@@ -106,7 +106,7 @@ def dropped_messages(graph: Survey) -> Iterator[Finding]:
 
 
 def no_clock(graph: Survey) -> Iterator[Finding]:
-    """Find simulated time without a clock, and a clock that nobody obeys or that several nodes set."""
+    """Find simulated time without a clock, a clock that no node uses, or one that several nodes set."""
     publishers = graph.publishers.get("/clock", ())
     simulated = graph.parameter("use_sim_time")
     if simulated and not publishers:
@@ -129,7 +129,7 @@ def no_clock(graph: Survey) -> Iterator[Finding]:
 
 
 def several_drivers(graph: Survey) -> Iterator[Finding]:
-    """Find robots that several nodes drive at once."""
+    """Find robots that are driven by several nodes at once."""
     found = []
     for topic, names in sorted(graph.publishers.items()):
         kinds = graph.types(topic)
@@ -143,7 +143,7 @@ def several_drivers(graph: Survey) -> Iterator[Finding]:
 
 
 def strangers_parameters(graph: Survey) -> Iterator[Finding]:
-    """Find private parameters of a node that is not there, where one of almost that name is."""
+    """Find private parameters of a missing node when a node with a similar name exists."""
     known = [name.strip("/") for name in graph.nodes if name.count("/") == 1]
     found = []
     for name, value in sorted(graph.parameters.items()):
@@ -160,7 +160,7 @@ def strangers_parameters(graph: Survey) -> Iterator[Finding]:
 
 
 def loopback_addresses(graph: Survey) -> Iterator[Finding]:
-    """Find nodes that gave an address which only their own machine can reach, in a graph of several machines."""
+    """Find nodes that advertise an address that only their own machine can reach, in a graph of several machines."""
     hosts = {node.name: host_of(node.uri) for node in graph.nodes.values()}
     local = tuple(f"{name} ({host})" for name, host in hosts.items() if host and _is_loopback(host))
     if local and any(host and not _is_loopback(host) for host in hosts.values()):
@@ -171,7 +171,7 @@ def loopback_addresses(graph: Survey) -> Iterator[Finding]:
 
 
 def small_inflation(graph: Survey) -> Iterator[Finding]:
-    """Find costmaps whose inflation radius is below the robot's inscribed radius: paths then graze the walls."""
+    """Find costmaps whose inflation radius is below the robot's inscribed radius, so that paths graze walls."""
     found = []
     for path, settings in _dicts(graph.parameters, ""):
         radius = settings.get("robot_radius", _inscribed(settings.get("footprint")))
@@ -217,7 +217,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _meant(graph: Survey, topic: str) -> list[str]:
-    """Return the topics that are published under another name and were probably meant, as sentences."""
+    """Return the topics published under another name that were probably meant, as sentences."""
     kinds = set(graph.types(topic))
     free = [
         other
@@ -241,7 +241,7 @@ def _is_loopback(host: str) -> bool:
 
 
 def _dicts(tree: Any, path: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield every namespace of a tree of parameters with its name."""
+    """Yield every namespace of a parameter tree with its name."""
     waiting = [(path, tree)]
     while waiting:
         where, value = waiting.pop(0)
@@ -251,7 +251,7 @@ def _dicts(tree: Any, path: str) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _inscribed(footprint: object) -> float | None:
-    """Return the radius of the largest circle about the origin inside a footprint [[x, y], ...]; None if it is none."""
+    """Return the inscribed radius of a footprint [[x, y], ...] about the origin; None if it is invalid."""
     try:
         points = [(float(x), float(y)) for x, y in footprint]  # type: ignore[attr-defined]
         return min(_to_edge(*a, *b) for a, b in zip(points, [*points[1:], *points[:1]], strict=True))

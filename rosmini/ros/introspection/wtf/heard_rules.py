@@ -1,4 +1,4 @@
-"""The rules on what was heard for a while: the transforms on ``/tf``, and errors and warnings on ``/rosout``."""
+"""Rules for messages received for a while: transforms on ``/tf``, and errors and warnings on ``/rosout``."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
 MOST_SHOWN = 10
-"""How many lines of the log are shown."""
+"""Maximum number of log lines shown."""
 
 OLD_NS = 10_000_000_000
-"""How far behind the time a transform may be that is not static: what a buffer keeps by default."""
+"""Maximum age of a transform that is not static [ns]; the default length of a buffer."""
 
 
 class Transform(NamedTuple):
-    """One transform as it was heard: frames, who sent it, its stamp and the time at which it came [ns].
+    """A received transform: frames, sender, stamp and arrival time [ns].
 
-    ``heard_ns`` is None while there is no time yet.
+    ``heard_ns`` is None while no time is known.
     """
 
     parent: str
@@ -33,7 +33,7 @@ class Transform(NamedTuple):
 
 @dataclass(frozen=True)
 class Heard:
-    """What was heard while ``roswtf`` listened: transforms, and (node, text) of errors and warnings in the log."""
+    """Messages received by ``roswtf``: transforms, and (node, text) of errors and warnings in the log."""
 
     transforms: list[Transform] = field(default_factory=list)
     errors: list[tuple[str, str]] = field(default_factory=list)
@@ -41,7 +41,7 @@ class Heard:
 
 
 def logged_errors(heard: Heard) -> Iterator[Finding]:
-    """Find errors that nodes logged: an exception in a callback is logged, and the node goes on."""
+    """Find errors that nodes logged: after an exception in a callback, a node logs it and continues."""
     shown = _counted(heard.errors)
     if shown:
         yield Finding(
@@ -52,14 +52,14 @@ def logged_errors(heard: Heard) -> Iterator[Finding]:
 
 
 def logged_warnings(heard: Heard) -> Iterator[Finding]:
-    """Find warnings that nodes logged: lost first messages, repeated transforms, planners that find no way."""
+    """Find warnings that nodes logged: lost first messages, repeated transforms, planners without a path."""
     shown = _counted(heard.warnings)
     if shown:
         yield Finding("logged_warnings", "WARNING", "Nodes logged warnings in this time:", shown)
 
 
 def repeated_senders(heard: Heard) -> Iterator[Finding]:
-    """Find frames whose transform several nodes send, the cause of TF_REPEATED_DATA and of robots that jump."""
+    """Find frames whose transform several nodes send, the cause of TF_REPEATED_DATA and of jumping robots."""
     senders: dict[str, set[str]] = {}
     for each in heard.transforms:
         senders.setdefault(each.child, set()).add(each.authority)
@@ -89,7 +89,7 @@ def several_parents(heard: Heard) -> Iterator[Finding]:
 
 
 def several_trees(heard: Heard) -> Iterator[Finding]:
-    """Find frames in separate trees, between which nothing can be transformed."""
+    """Find frames in separate trees, between which no transform exists."""
     parent = {each.child: each.parent for each in heard.transforms}
     trees: dict[str, set[str]] = {}
     for frame in {*parent, *parent.values()}:
@@ -115,7 +115,7 @@ def loops(heard: Heard) -> Iterator[Finding]:
 
 
 def old_transforms(heard: Heard) -> Iterator[Finding]:
-    """Find transforms whose stamps are far from the time: two clocks, or simulated time that some do not obey."""
+    """Find transforms with stamps far from the time: two clocks, or simulated time that some nodes ignore."""
     worst: dict[tuple[str, str], int] = {}
     for each in heard.transforms:
         if not each.is_static and each.heard_ns is not None:
@@ -147,7 +147,7 @@ RULES: tuple[Callable[[Heard], Iterator[Finding]], ...] = (
 
 
 def _counted(logged: Iterable[tuple[str, str]]) -> tuple[str, ...]:
-    """Return the first lines of a log, sorted, each once."""
+    """Return the first lines of a log, sorted, without duplicates."""
     counts: dict[str, int] = {}
     for node, text in logged:
         line = f"{node}: {' '.join(text.split())[:160]}"
@@ -157,7 +157,7 @@ def _counted(logged: Iterable[tuple[str, str]]) -> tuple[str, ...]:
 
 
 def _root(frame: str, parent: dict[str, str]) -> str:
-    """Return the root above a frame; in a loop, the first of its frames in the alphabet."""
+    """Return the root above a frame; in a loop, the alphabetically first of its frames."""
     seen: list[str] = []
     while frame in parent and frame not in seen:
         seen.append(frame)

@@ -1,4 +1,4 @@
-"""The rules on the environment and on the packages of the search path: what can be wrong before anything runs."""
+"""Rules for the environment and the packages on the search path: faults that exist before anything runs."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from rosmini.core.packages import PackageIndex
 
 HEAD = 256
-"""How many bytes of a script are read: its first line."""
+"""Number of bytes read from a script to find its first line."""
 
 
 def missing_folders(environ: Mapping[str, str], packages: PackageIndex) -> Iterator[Finding]:  # noqa: ARG001 - a rule
-    """Find folders of the search path that are not there."""
+    """Find folders of the search path that do not exist."""
     path = environ.get("ROS_PACKAGE_PATH", "")
     found = tuple(part for part in path.split(os.pathsep) if part and not Path(part).is_dir())
     if found:
@@ -35,7 +35,7 @@ def missing_folders(environ: Mapping[str, str], packages: PackageIndex) -> Itera
 
 
 def broken_manifests(environ: Mapping[str, str], packages: PackageIndex) -> Iterator[Finding]:
-    """Find packages that cannot be used because their manifests cannot be read."""
+    """Find packages that are unusable because their manifests cannot be read."""
     found = tuple(str(problem) for problem in (*packages.problems(), *_own(environ, packages)[1]))
     if found:
         yield Finding(
@@ -45,7 +45,7 @@ def broken_manifests(environ: Mapping[str, str], packages: PackageIndex) -> Iter
 
 
 def missing_dependencies(environ: Mapping[str, str], packages: PackageIndex) -> Iterator[Finding]:
-    """Find what packages of the user's say that they need, and what is not there."""
+    """Find dependencies of the user's packages that are missing."""
     found = []
     for name in _own(environ, packages)[0]:
         missing = [
@@ -62,7 +62,7 @@ def missing_dependencies(environ: Mapping[str, str], packages: PackageIndex) -> 
 
 
 def unused_workspace(environ: Mapping[str, str], packages: PackageIndex) -> Iterator[Finding]:
-    """Find a catkin workspace around the working folder that this terminal was not set up for."""
+    """Find a catkin workspace around the working folder for which this terminal was not set up."""
     here = Path.cwd()
     found = next((each for each in (here, *here.parents) if (each / "src" / "CMakeLists.txt").exists()), None)
     if found is None:
@@ -80,7 +80,7 @@ def unused_workspace(environ: Mapping[str, str], packages: PackageIndex) -> Iter
 
 
 def scripts_that_cannot_start(environ: Mapping[str, str], packages: PackageIndex) -> Iterator[Finding]:
-    """Find scripts that rosrun would not start: no run bit, no first line that names Python, Windows' line ends."""
+    """Find scripts that rosrun would not start: not executable, no Python shebang line, or Windows line endings."""
     found = []
     for name in _own(environ, packages)[0]:
         folder = packages.path(name)
@@ -105,7 +105,7 @@ RULES: tuple[Callable[[Mapping[str, str], PackageIndex], Iterator[Finding]], ...
 
 
 def _own(environ: Mapping[str, str], packages: PackageIndex) -> tuple[list[str], list[DefinitionError]]:
-    """Return the packages below folders of ``ROS_PACKAGE_PATH``, and what is wrong with manifests there."""
+    """Return the packages below folders of ``ROS_PACKAGE_PATH``, and problems with manifests there."""
     roots = [Path(part).resolve() for part in environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if part]
     found: list[str] = []
     problems: list[DefinitionError] = []
@@ -121,7 +121,7 @@ def _own(environ: Mapping[str, str], packages: PackageIndex) -> tuple[list[str],
 
 
 def _scripts(folder: Path) -> list[Path]:
-    """Return the Python files that are scripts by their place and by their first line, or their name."""
+    """Return the Python files that are scripts, judged by their folder and by first line or name."""
     files = [each for part in SCRIPT_FOLDERS for each in sorted((folder / part).glob("*")) if each.is_file()]
     return [
         each

@@ -1,4 +1,4 @@
-"""What is asked of the Master and of the nodes before anything is judged."""
+"""The information collected from the Master and the nodes before the rules are applied."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
     from rosmini.core.peers import Peers
 
 ID = "/roswtf"
-"""In whose name the Master and the nodes are asked."""
+"""Caller name for calls to the Master and the nodes."""
 
 
 @dataclass(frozen=True)
 class Node:
-    """What one node says of itself; ``silence`` is what ``rosnode ping`` would print of one that does not answer."""
+    """A node's own information; ``silence`` is the message of ``rosnode ping`` if it does not answer."""
 
     name: str
     uri: str
@@ -28,15 +28,15 @@ class Node:
     """Its topics with their types."""
     subscribed: Mapping[str, str] = field(default_factory=dict)
     sources: frozenset[tuple[str, str]] = frozenset()
-    """(topic, address or name of the publisher) of each open connection into it."""
+    """(topic, address or name of the publisher) of each open inbound connection."""
     flows: tuple[Flow, ...] = ()
-    """Its connections, with the numbers of messages that were dropped."""
+    """Its connections, with their numbers of dropped messages."""
     silence: str = ""
 
 
 @dataclass(frozen=True)
 class Survey:
-    """A graph at one moment: nodes by name, who is on each topic and service, and all parameters."""
+    """A graph at one moment: nodes by name, the nodes on each topic and service, and all parameters."""
 
     nodes: Mapping[str, Node]
     publishers: Mapping[str, tuple[str, ...]]
@@ -45,7 +45,7 @@ class Survey:
     parameters: Mapping[str, Any]
 
     def types(self, topic: str) -> dict[str, list[str]]:
-        """Return what the nodes on a topic say its type is: types, sorted, with the nodes; ``*`` agrees with all."""
+        """Return the types of a topic according to its nodes: types, sorted, with the nodes; ``*`` agrees with all."""
         found: dict[str, list[str]] = {}
         for name in sorted({*self.publishers.get(topic, ()), *self.subscribers.get(topic, ())}):
             node = self.nodes[name]
@@ -63,7 +63,7 @@ class Survey:
 
 
 def survey(peers: Peers) -> Survey:
-    """Ask the Master, and every node that it knows. Raises ``MasterUnreachable``."""
+    """Query the Master and every node that it knows. Raises ``MasterUnreachable``."""
     master = peers.ask_as(ID)
     published, subscribed, services = (
         {name: tuple(sorted(holders)) for name, holders in part} for part in master.ask("getSystemState")
@@ -108,7 +108,7 @@ def _node(peers: Peers, name: str, uri: str | None, names: Mapping[str, str]) ->
 def _is_source(row: list[Any]) -> bool:
     return row[2] == "i" and (
         len(row) <= 5 or bool(row[5])
-    )  # older clients do not say whether it is connected
+    )  # older clients do not report whether it is connected
 
 
 def _source(row: list[Any]) -> tuple[str, str]:
