@@ -54,9 +54,7 @@ class Scope:
         made = self.child(namespace)
         made.file, made.included_at, made.takes_all = file, at, takes_all
         made.args, made.declared, made.anonymous = dict(args), set(), {}
-        made.private = (
-            self.private or {}
-        )  # as in ROS: adds to those of the including file, if any
+        made.private = self.private or {}  # as in ROS: adds to those of the including file, if any
         return made
 
     def inside(self, namespace: str | None) -> str:

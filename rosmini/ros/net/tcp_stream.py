@@ -117,9 +117,7 @@ class Stream:
             if not data:
                 self._stop(None)
                 return
-            if (
-                not self._is_closing
-            ):  # later data is discarded, so that the peer can read our last message
+            if not self._is_closing:  # later data is discarded, so that the peer can read our last message
                 try:
                     frames = self._frames.feed(data)
                 except DeserializationError as error:
