@@ -69,11 +69,12 @@ def wire() -> Iterator[Wire]:
 
 
 def test_a_sleeping_hub_reads_by_itself(wire: Wire) -> None:
-    for number in range(20):
+    for number in range(1000):  # on a loaded machine many arrive before the hub sleeps
         threading.Thread(target=wire.there.send, args=(b"%d" % number,)).start()
         wire.scheduler.run(until=lambda number=number: wire.got(b"%d" % number))
-    names = {name for _, name in wire.read}
-    assert threading.current_thread().name in names
+        if threading.current_thread().name in {name for _, name in wire.read}:
+            return
+    pytest.fail("the hub's own thread read nothing")
 
 
 def test_what_comes_while_the_hub_is_busy_is_read_by_the_io_thread(wire: Wire) -> None:
