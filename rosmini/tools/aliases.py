@@ -19,13 +19,13 @@ from .main import COMMANDS
 SHELLS = ("bash", "zsh", "powershell")
 
 PATIENCE_S = 1.0
-"""How long a Master may take to answer when a word is completed [s]."""
+"""Timeout for an answer of the Master when a word is completed [s]."""
 
 EMPTY = '""'
-"""An empty word, as PowerShell gives it: up to 7.2 it leaves out those that are truly empty."""
+"""An empty word as passed by PowerShell, which up to 7.2 drops truly empty words."""
 
 _ROS = ("ros", "rqt", "catkin_")
-"""How the names of ROS's commands begin; `rosmini test` and others that are ours have no bare name."""
+"""Prefixes of ROS's commands; rosmini's own, such as `rosmini test`, have no bare name."""
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
@@ -48,7 +48,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print the lines, or what a word may become."""
+    """Print the lines, or the completions of a word."""
     if args.complete is not None:
         return _complete(args.complete)
     shell = args.shell or _shell()
@@ -69,7 +69,7 @@ def names() -> list[str]:
 
 
 def lines(shell: str, program: list[str]) -> str:
-    """Return the lines for a shell; ``program`` is how rosmini is started."""
+    """Return the lines for a shell; ``program`` is the command that starts rosmini."""
     if shell == "powershell":
         start = "& " + " ".join(f"'{word.replace(chr(39), chr(39) * 2)}'" for word in program)
         return "".join(
@@ -85,7 +85,7 @@ def lines(shell: str, program: list[str]) -> str:
 
 
 def _cd(shell: str, name: str, start: str) -> str:
-    """Return what a name does: start the command; `roscd` changes the folder."""
+    """Return the body of a name's function: start the command; `roscd` changes the folder."""
     if shell == "powershell":
         return (
             f"$there = {start} roscd @args; if ($there) {{ Set-Location $there }}"
@@ -106,7 +106,7 @@ def _shell() -> str:
 
 
 def _program() -> list[str]:
-    """Return how rosmini is started from any folder."""
+    """Return the command that starts rosmini from any folder."""
     found = shutil.which("rosmini")
     return [str(Path(found).absolute())] if found else [sys.executable, "-m", "rosmini"]
 
@@ -121,7 +121,7 @@ def _complete(words: list[str]) -> int:
     try:
         with DirectWire(addresses().master_uri, master_s=PATIENCE_S, node_s=PATIENCE_S) as wire:
             found = candidates(["" if word == EMPTY else word for word in words], wire)
-    except RosminiError:  # such as an address of the Master that is none: shells want words, not complaints
+    except RosminiError:  # such as an invalid address of the Master: shells want words, not messages
         return 1
     print("".join(f"{word}\n" for word in found), end="")
     return 0

@@ -1,4 +1,4 @@
-"""`rosmini catkin_create_pkg`: a new package in a folder of its own, as catkin's own tool makes it."""
+"""`rosmini catkin_create_pkg`: creates a package in a new folder, like catkin's own tool."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TOOL = Tool("catkin_create_pkg", "make a new package", needs_graph=False, only_v
 
 @dataclass(frozen=True, kw_only=True)
 class Created(Result):
-    """A package that was made, in the folder ``path``."""
+    """A package that was created in the folder ``path``."""
 
     path: Path
 
@@ -51,7 +51,7 @@ def _parser() -> ArgumentParser:
 
 @TOOL.verb("make a new package", parser=_parser)
 def create(given: argparse.Namespace, call: Call) -> Created:
-    """Make it. Raises ``VerbError`` with the original's status if that cannot be."""
+    """Create the package. Raises ``VerbError`` with the original's status on failure."""
     from rosmini.ros.catkin import CatkinError, NewPackage, create_package
 
     new = NewPackage(

@@ -27,7 +27,7 @@ def _parser() -> ArgumentParser:
 
 @TOOL.verb("make a folder the source space of a workspace", parser=_parser)
 def init(given: argparse.Namespace, call: Call) -> Result:
-    """Do it. Raises ``VerbError`` with the original's status if that cannot be."""
+    """Make the folder a source space. Raises ``VerbError`` with the original's status on failure."""
     from rosmini.ros.catkin import CatkinError, init_workspace
 
     folder = Path.cwd() / given.workspace

@@ -1,4 +1,4 @@
-"""`rosmini catkin_make`: builds a catkin workspace: messages, services, actions, scripts, and what a shell sources."""
+"""`rosmini catkin_make`: builds a catkin workspace: messages, services, actions, scripts, and setup files."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ NOT_HERE = {
 
 @dataclass(frozen=True, kw_only=True)
 class Made(Result):
-    """What was built: ``report`` names the packages that were built, were up to date, or failed."""
+    """Result of a build: ``report`` names the packages that were built, were up to date, or failed."""
 
     report: Report | None = None
 
@@ -80,7 +80,7 @@ def _parser() -> ArgumentParser:
 
 @TOOL.verb("build a catkin workspace", parser=_parser)
 def make(given: argparse.Namespace, call: Call) -> Made:
-    """Build it; the status is 1 if a package could not be built. Raises ``VerbError`` if nothing can be."""
+    """Build the workspace; the status is 1 if a package failed. Raises ``VerbError`` if nothing can be built."""
     from rosmini.ros.catkin import CatkinError, Workspace
 
     base, say = Path.cwd() / given.directory, below_here(call)
@@ -123,7 +123,7 @@ def _make(workspace: Workspace, given: argparse.Namespace, call: Call, say: Call
 
 
 def _use(packages: Sequence[str]) -> None:
-    """Let this process find the messages of packages as they are now, if it has looked at any."""
+    """Make this process use the new messages of packages, if it has loaded any."""
     if "rosmini.msgs" in sys.modules:
         from rosmini.msgs.importer import forget
 
@@ -132,7 +132,7 @@ def _use(packages: Sequence[str]) -> None:
 
 
 def _clean(workspace: Workspace, say: Callable[[str], object]) -> None:
-    """Remove what was built."""
+    """Remove the build products."""
     import shutil
 
     for folder in (workspace.build, workspace.devel):

@@ -1,4 +1,4 @@
-"""Where the book's sources are, and the commands that only they need: in a checkout, not in the installed package."""
+"""Finds the book's sources, for commands that need a checkout rather than the installed package."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class NoCheckout(RosminiError):
 
 
 def find_checkout() -> Path:
-    """The checkout around the current folder, else the one that rosmini itself runs from.
+    """Return the checkout around the current folder, or the one that contains the running rosmini.
 
     Raises `NoCheckout` if neither has `book/_config.yml` and `notebooks/`, as in an installed wheel.
     """

@@ -1,4 +1,4 @@
-"""Python's collector of garbage in a process that is ours: how often it looks."""
+"""Controls how often Python's garbage collector runs in processes of rosmini."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 OBJECTS = 10_000
-"""So many more objects than after the last run start it again; Python's own 700 are one instant of a hundred robots."""
+"""Number of new objects that triggers a collection; Python's default of 700 is one instant of a hundred robots."""
 
 
 @contextmanager
 def seldom() -> Iterator[None]:
-    """Let the collector look more seldom, if it does not do so already.
+    """Make the collector run less often within the block, if it does not already.
 
-    Messages are many small objects that go as soon as nobody holds them, without a collector. Those that are on their
-    way when it looks count as old from then on, and many of these let it look through everything there is, which
+    Messages are many small objects that are freed without a collector as soon as nothing refers to them. Those that are
+    being transmitted during a collection count as old afterwards, and many of these trigger a full collection, which
     takes a tenth of a second: with a hundred robots a fifth of all time.
     """
     before = gc.get_threshold()

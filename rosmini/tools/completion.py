@@ -1,7 +1,7 @@
-"""What a word of a command line may go on as: verbs, options, and the names that are there at this moment.
+"""Completion of command lines: verbs, options, and the names that currently exist.
 
-Shells ask `rosmini aliases --complete`, IPython asks :func:`candidates` itself. Nothing here ever complains: where no
-Master answers there are no names.
+Shells call `rosmini aliases --complete`, IPython calls :func:`candidates`. Nothing here reports errors: if no
+Master answers, there are no names.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _OPTIONS = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
 
 
 def candidates(words: Sequence[str], peers: Peers) -> list[str]:
-    """Return what the last of the words may become, sorted; ``words`` begins with a command, or with `rosmini`."""
+    """Return the completions of the last word, sorted; ``words`` begins with a command, or with `rosmini`."""
     given = list(words[1:] if words[:1] == ["rosmini"] else words)
     if len(given) < 2:
         return _beginning(given[0] if given else "", COMMANDS)
@@ -61,7 +61,7 @@ def _beginning(start: str, words: Iterable[str]) -> list[str]:
 
 
 def _options(verb: Verb) -> list[str]:
-    """Return the options in a verb's help: what stands left of what they do."""
+    """Return the options in a verb's help: the left column."""
     lines = (line.strip() for line in verb.parser().format_help().splitlines() if line.startswith("  "))
     return [
         option for line in lines if line[:1] == "-" for option in _OPTIONS.findall(line.partition("  ")[0])
@@ -69,7 +69,7 @@ def _options(verb: Verb) -> list[str]:
 
 
 def _names(verb: Verb, before: Sequence[str], peers: Peers) -> list[str]:
-    """Return the names that may stand after the words ``before``. Raises what the Master's silence raises."""
+    """Return the names that may follow the words ``before``. Raises an error if the Master does not answer."""
     kinds = verb.takes.split()
     if not kinds:
         return []
@@ -87,7 +87,7 @@ def _names(verb: Verb, before: Sequence[str], peers: Peers) -> list[str]:
 
 
 def _executables(before: Sequence[str]) -> list[str]:
-    """Return what `rosrun` may go on with: a package, and then what is in it."""
+    """Return the completions for `rosrun`: a package, and then its executables."""
     from rosmini.core.packages import PackageIndex
 
     packages = PackageIndex()
@@ -100,7 +100,7 @@ def _executables(before: Sequence[str]) -> list[str]:
 
 
 def _of_launch_files(before: Sequence[str]) -> list[str]:
-    """Return what `roslaunch` may go on with: a package, its launch files, and the arguments that such a file takes."""
+    """Return the completions for `roslaunch`: a package, its launch files, and the arguments of such a file."""
     from rosmini.core.packages import PackageIndex
     from rosmini.core.packages.executables import files_of
     from rosmini.ros.launch import read

@@ -1,4 +1,4 @@
-"""What `roswtf` knows about a cell that failed, below its traceback: one finding, if one explains the error."""
+"""Prints a finding of `roswtf` below the traceback of a cell, if one explains the error."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 
 def register(shell: Any) -> None:
-    """Look at each cell of an IPython shell that fails; harmless when repeated."""
+    """Check each failing cell of an IPython shell; may be called repeatedly."""
     shell.events.register("post_run_cell", look)
 
 
 def look(result: Any) -> None:
-    """Print what explains the error of a cell, if anything does."""
+    """Print the explanation of a cell's error, if there is one."""
     error = result.error_in_exec
     if error is None:
         return
@@ -31,7 +31,7 @@ def look(result: Any) -> None:
 
 
 def explanation(error: BaseException) -> Finding | None:
-    """Return the finding that explains an error in the default graph. Takes no time of the graph."""
+    """Return the finding that explains an error in the default graph; takes no graph time."""
     from rosmini.ros.introspection.wtf.explaining import explain, is_known
     from rosmini.ros.introspection.wtf.survey import survey
 
@@ -42,7 +42,7 @@ def explanation(error: BaseException) -> Finding | None:
 
 
 def _graph() -> Graph | None:
-    """Return the default graph if there is one, and all its nodes are in this process: others might keep silent."""
+    """Return the default graph if it exists and all its nodes are in this process: others may not answer."""
     if "rosmini.core.graph" not in sys.modules:
         return None
     from rosmini.core.graph import set_default_graph

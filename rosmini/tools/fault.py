@@ -1,4 +1,4 @@
-"""`rosmini fault`: make something go wrong in a graph, to see what happens then. ROS has no such command.
+"""`rosmini fault`: injects faults into a graph, to see what happens. ROS has no such command.
 
 ``TOOL.run("/scan", "--lose", "0.3", graph=graph)`` is the same as ``graph.faults.disturb("/scan", lose=0.3)``.
 """

@@ -1,4 +1,4 @@
-"""Launching in a terminal: a process for each node, a Master if none runs, and the end of all of them."""
+"""Launching in a terminal: a process for each node, a Master if none runs, and their shutdown."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ if TYPE_CHECKING:
     from rosmini.ros.net.addresses import Addresses
 
 PAUSE_S = 0.05
-"""How long to wait before the Master is asked again [s]."""
+"""Pause before the Master is polled again [s]."""
 
 MASTER_S = 60.0
-"""How long a Master of ours may take to answer [s]."""
+"""Timeout for an answer of the Master started here [s]."""
 
 
 class Log:
-    """The log file of this launch: what is printed is written there, too."""
+    """Log file of this launch; everything printed is also written to it."""
 
     def __init__(self, run_id: str) -> None:
         home = Path(os.environ.get("ROS_HOME") or Path.home() / ".ros")
@@ -56,12 +56,12 @@ class Log:
         self._file = self.path.open("w", encoding="utf-8", errors="backslashreplace")
 
     def say(self, text: str) -> None:
-        """Print, and write down."""
+        """Print a message and write it to the log."""
         print(text, flush=True)
         self._write(text)
 
     def complain(self, text: str) -> None:
-        """Print as an error, and write down."""
+        """Print an error and write it to the log."""
         print(text, file=sys.stderr, flush=True)
         self._write(text)
 
@@ -75,7 +75,7 @@ class Log:
 
 
 def launch(plan: Plan, given: Values, packages: PackageIndex) -> int:
-    """Run a plan until its nodes have ended, or Ctrl-C; the exit status is 0, as roslaunch's."""
+    """Run a plan until its nodes have ended, or Ctrl-C; the exit status is 0, as in roslaunch."""
     from rosmini.ros.launch.processes import Guard
     from rosmini.ros.net.addresses import addresses
 
@@ -100,7 +100,7 @@ def launch(plan: Plan, given: Values, packages: PackageIndex) -> int:
 
 
 def asked(where: Addresses, method: str, *arguments: object) -> Any:
-    """Return what the Master says; None if it does not answer or refuses."""
+    """Return the Master's answer, or None if it does not answer or refuses."""
     try:
         with DirectWire(where.master_uri) as wire:
             code, _, value = wire.ask_as("/roslaunch").call(method, *arguments)
@@ -119,7 +119,7 @@ def wait_for_master(where: Addresses) -> None:
 
 
 def run(plan: Plan, given: Values, packages: PackageIndex, where: Addresses, log: Log, guard: Guard) -> int:
-    """Start everything, wait, and end it."""
+    """Start everything, wait, and shut it down."""
     log.say(f"... logging to {log.path}\nPress Ctrl-C to interrupt")
     for line in where.notes:
         log.complain(f"rosmini: {line}")
@@ -140,7 +140,7 @@ def run(plan: Plan, given: Values, packages: PackageIndex, where: Addresses, log
 
 
 def start_master(where: Addresses, log: Log, guard: Guard) -> subprocess.Popen[bytes]:
-    """Start a Master, and wait until it answers. Raises ``MasterUnreachable`` if it is not for this machine."""
+    """Start a Master and wait until it answers. Raises ``MasterUnreachable`` if its address is not this machine's."""
     from rosmini.ros.net.addresses import is_loopback
 
     host, port = where.master
@@ -170,7 +170,7 @@ def start_master(where: Addresses, log: Log, guard: Guard) -> subprocess.Popen[b
 
 
 def end_master(process: subprocess.Popen[bytes], log: Log, guard: Guard) -> None:
-    """End the Master that was started here."""
+    """Shut down the Master that was started here."""
     log.say("[rosout-1] killing on exit\n[master] killing on exit")
     with suppress(ProcessLookupError):
         process.terminate()
@@ -185,7 +185,7 @@ def end_master(process: subprocess.Popen[bytes], log: Log, guard: Guard) -> None
 def run_nodes(
     plan: Plan, given: Values, packages: PackageIndex, log: Log, guard: Guard, *, first: int
 ) -> None:
-    """Start the nodes, wait until all have ended or Ctrl-C, and end those that are left."""
+    """Start the nodes, wait until all have ended or Ctrl-C, and shut down the rest."""
     from rosmini.ros.launch.running import Launch
     from rosmini.ros.net import connect
 
@@ -213,7 +213,7 @@ def run_nodes(
 def maker(
     plan: Plan, graph: Graph, packages: PackageIndex, log: Log, guard: Guard, *, local: bool
 ) -> Callable[[NodePlan, str], Running]:
-    """Return what makes the handles of nodes as processes."""
+    """Return a function that creates the handles of nodes as processes."""
     from rosmini.ros.launch.executables import program
     from rosmini.ros.launch.processes import ProcessHandle, ProcessSpec, environment
     from rosmini.ros.launch.running import Running, log_base, on_machine
@@ -234,7 +234,7 @@ def maker(
 
 
 def folder_of(node: NodePlan, executable: str, log: Log) -> str:
-    """Return where a process runs: in ROS_HOME, or as ``cwd`` says."""
+    """Return the folder in which a process runs: ROS_HOME, or as ``cwd`` says."""
     asked_for = (node.cwd or "").lower()
     if asked_for == "node":
         return executable

@@ -1,4 +1,4 @@
-"""What verbs on topics share: a topic that may come later, its class, and a filter of its messages."""
+"""Shared functions of verbs on topics: waiting for a topic, its class, and a filter for its messages."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from rosmini.ros.introspection.topics import Found
 
 LOOK_NS = SECOND // 10
-"""How often the Master is asked for a topic that is not there yet."""
+"""Period at which the Master is polled for a missing topic [ns]."""
 
 
 def await_topic(call: Call, name: str, span: Span) -> Found | None:
-    """Return the topic of a name, when there is one; None if there is none before the end."""
+    """Wait for the topic of a name and return it; None if it does not appear before the end."""
     found = look_up(call.peers, name)
     if found is not None:
         return found
@@ -35,8 +35,8 @@ def await_topic(call: Call, name: str, span: Span) -> Found | None:
 def class_for(found: Found, graph: Graph) -> Any:
     """Return the class with which to subscribe to a topic.
 
-    For a type that is not known here it is ``AnyMsg``: each publisher elsewhere sends its definition. Raises
-    ``VerbError`` where there is none such.
+    For an unknown type it is ``AnyMsg``: each publisher in another process sends its definition. Raises
+    ``VerbError`` if there is no such publisher.
     """
     from rosmini.ros.introspection.fields import class_of
     from rosmini.ros.rospy.msg import AnyMsg
@@ -54,9 +54,9 @@ def class_for(found: Found, graph: Graph) -> Any:
 
 
 def predicate(text: str | None) -> Callable[[str, Any], bool] | None:
-    """Return ``f(topic, message)`` for an expression of ``m`` and ``topic``. Raises ``VerbError`` for one that is none.
+    """Return ``f(topic, message)`` for an expression of ``m`` and ``topic``. Raises ``VerbError`` if it is invalid.
 
-    The function raises ``ExpressionError`` when the expression fails on a message.
+    The function raises ``ExpressionError`` if the expression fails on a message.
     """
     from rosmini.core.expressions import ExpressionError
     from rosmini.ros.introspection.filters import message_expression

@@ -1,8 +1,8 @@
 """ROS's commands as line magics: ``%rostopic echo -n 3 /scan`` in a cell is ``rosmini rostopic echo -n 3 /scan``.
 
 ``%load_ext rosmini`` registers those of :data:`rosmini.tools.main.COMMANDS` that are magics. They act on the default
-graph, print what the command prints, and return its result: ``found = %rosnode list`` and then ``found.names``. Of a
-line only ``$name`` is replaced, by the value of that variable; braces are YAML's. There is no shell behind it.
+graph, print the output of the command, and return its result: ``found = %rosnode list``, then ``found.names``. In a
+line only ``$name`` is replaced, by the value of that variable; braces belong to YAML. No shell is involved.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ if TYPE_CHECKING:
     from rosmini.core.verbs import Result, Tool
 
 OPERATORS = "|<>;&"
-"""What a shell would take as its own."""
+"""Characters that are shell operators."""
 
 SLIPS = ("roscpp", "rosmmsg", "rostop")
-"""What is often typed for a command; the error names the right one."""
+"""Frequent misspellings of commands; the error names the correct one."""
 
 _VARIABLE = re.compile(r"\$(?:(\$)|([A-Za-z_]\w*))")
 
@@ -45,7 +45,7 @@ def register(
 ) -> None:
     """Register the commands as line magics of an IPython shell, with completion of their words.
 
-    ``say`` prints, ``warn`` what is amiss, and each command runs in what ``around`` makes.
+    ``say`` prints output, ``warn`` prints problems, and each command runs in the context that ``around`` creates.
     """
     from IPython.core.magic import no_var_expand
 
@@ -86,7 +86,7 @@ def _documented(
 
 
 def _complete(_shell: Any, event: Any) -> list[str]:
-    """Return what the word before the cursor may become."""
+    """Return the completions of the word before the cursor."""
     from rosmini.core.graph import running_graph
 
     before = event.text_until_cursor.lstrip().removeprefix("%").split()
@@ -112,9 +112,9 @@ def run(
     warn: Callable[[str], object] = print,
     console: Mapping[str, Any] | None = None,
 ) -> Result:
-    """Do what a line says, print it, and return the result; ``console`` is for nodes that it starts.
+    """Run a line, print the output, and return the result; ``console`` is for nodes that it starts.
 
-    What is amiss is printed as all else: a notebook shows standard error after standard output. Raises as
+    Problems are printed like all other output: a notebook shows standard error after standard output. Raises as
     :meth:`rosmini.tools.verbs.Tool.run` does.
     """
     split = words(line, name, shell.user_ns)
@@ -131,14 +131,14 @@ def run(
 
 
 def words(line: str, name: str, variables: Mapping[str, Any]) -> list[str]:
-    """Return the words of a line as a shell splits it, with ``$name`` replaced; ``$$`` is a dollar sign.
+    """Return the words of a line, split as in a shell, with ``$name`` replaced; ``$$`` is a dollar sign.
 
-    Raises ``UsageError`` for what only a shell can do, for a quotation without end, and for an unknown variable.
+    Raises ``UsageError`` for shell features, an unterminated quotation, and an unknown variable.
     """
     lexer = shlex.shlex(line, posix=True, punctuation_chars=OPERATORS)
     lexer.whitespace_split, lexer.commenters = True, ""
     if os.name == "nt":
-        lexer.escape = ""  # it separates folders there
+        lexer.escape = ""  # there it separates folders
     try:
         split = list(lexer)
     except ValueError as error:

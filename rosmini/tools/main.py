@@ -1,4 +1,4 @@
-"""The `rosmini` command: finds the subcommand that was asked for and imports that one only.
+"""The `rosmini` command: finds the requested subcommand and imports only that one.
 
 A subcommand is a module with `add_parser(subparsers)`, which adds its own parser, and `main(args) -> int`,
 which does the work and returns the exit status.
@@ -33,17 +33,17 @@ if TYPE_CHECKING:
 
 
 class Command(Protocol):
-    """What the module of a subcommand provides."""
+    """Interface of a subcommand's module."""
 
     def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
         """Add the subcommand's parser."""
 
     def main(self, args: argparse.Namespace) -> int:
-        """Do it; the exit status."""
+        """Run the subcommand and return the exit status."""
 
 
 ROS, OWN, BUILD, BOOK = "ROS's own commands", "Run and look", "Packages", "The book"
-"""The headings of `rosmini --help`."""
+"""Headings of `rosmini --help`."""
 
 WELCOME = """\
 Learn ROS by driving a robot.
@@ -54,21 +54,21 @@ Learn ROS by driving a robot.
   rosmini rviz                                      then click a goal for it
 
 `rosmini --help` lists all commands."""
-"""What `rosmini` prints without arguments."""
+"""Text that `rosmini` prints without arguments."""
 
 
 @dataclass(frozen=True)
 class Entry:
-    """Where a subcommand lives, and the line that `rosmini --help` shows without importing it."""
+    """Location of a subcommand, and the line for `rosmini --help`, which is shown without importing it."""
 
     module: str
     summary: str
     folder: str | None = None
-    """The folder of a checkout from which the module is imported; None: it is in the installed package."""
+    """Folder of a checkout from which the module is imported; None: it is in the installed package."""
     is_magic: bool = False
-    """Whether notebooks have it as a line magic, too: its module has a ``TOOL``."""
+    """True if notebooks also have it as a line magic: its module has a ``TOOL``."""
     group: str = ROS
-    """The heading under which `rosmini --help` lists it."""
+    """Heading under which `rosmini --help` lists it."""
 
     def load(self) -> Command:
         """Import the subcommand. Raises `NoCheckout` if it needs a checkout and there is none."""
@@ -77,7 +77,7 @@ class Entry:
         return _command(importlib.import_module(self.module))
 
     def tool(self) -> Tool | None:
-        """Return the tool that the subcommand is, if it is one. Raises as `load`."""
+        """Return the tool of the subcommand, if it has one. Raises as `load`."""
         self.load()
         found = vars(sys.modules[self.module]).get("TOOL")
         return found if isinstance(found, Tool) else None
@@ -85,12 +85,12 @@ class Entry:
 
 @dataclass(frozen=True)
 class Plugged:
-    """A subcommand of another room or distribution: a `Tool`, which is imported when something of it is asked for."""
+    """A subcommand from another room or distribution: a `Tool` that is imported on first use."""
 
     entry_point: EntryPoint
 
     def tool(self) -> Tool:
-        """Import the tool. Raises what its module raises."""
+        """Import the tool. Raises the errors of its module."""
         found: Tool = self.entry_point.load()
         only = self.entry_point.name.removeprefix(f"{found.name}_")
         return found.alone(only) if only in found.verbs and only != self.entry_point.name else found
@@ -101,7 +101,7 @@ class Plugged:
 
     @property
     def summary(self) -> str:
-        """The line that `rosmini --help` shows."""
+        """Line for `rosmini --help`."""
         tool = self.tool()
         is_one = tool.name == self.entry_point.name and tool.only_verb and "_" in tool.name
         return (
@@ -110,17 +110,17 @@ class Plugged:
 
     @property
     def is_magic(self) -> bool:
-        """Whether notebooks have it as a line magic, too."""
+        """True if notebooks also have it as a line magic."""
         return self.tool().is_magic
 
     @property
     def group(self) -> str:
-        """The heading under which `rosmini --help` lists it."""
+        """Heading under which `rosmini --help` lists it."""
         return self.tool().group or ROS
 
     @property
     def folder(self) -> None:
-        """It is in an installed package."""
+        """None: the tool is in an installed package."""
 
 
 def _command(module: ModuleType) -> Command:
@@ -227,13 +227,13 @@ NO_COMMANDS = {
     "rosmake": "packages are built by `catkin_make`",
     "roscreate-pkg": "packages are created by `catkin_create_pkg`",
 }
-"""What is taken for a command, or was one, and what to write."""
+"""Words mistaken for commands, and former commands, with the replacements."""
 
 
 def chosen(argv: Sequence[str]) -> str | None:
-    """The subcommand that `argv` names: its first word that is not an option; None if there is no such word.
+    """Return the subcommand in `argv`: the first word that is not an option, or None.
 
-    Raises `RosminiError` if that word is no subcommand.
+    Raises `RosminiError` if that word is not a subcommand.
     """
     words = [word for word in argv if not word.startswith("-")]
     if not words or words[0] in COMMANDS:
@@ -246,9 +246,9 @@ def chosen(argv: Sequence[str]) -> str | None:
 
 
 def in_script(name: str, words: Sequence[str]) -> int:
-    """Do what the words say to a tool on the graph that runs the caller, print it, and return the exit status.
+    """Run a tool with some words on the graph that runs the caller, print the output, and return the exit status.
 
-    ``rostopic.rostopicmain`` and its like find this by the entry point `rosmini.tools`.
+    ``rostopic.rostopicmain`` and similar functions find this through the entry point `rosmini.tools`.
     """
     tool = COMMANDS[name].tool()
     if tool is None:
@@ -257,9 +257,9 @@ def in_script(name: str, words: Sequence[str]) -> int:
 
 
 def build_parser(loaded: dict[str, Command], *, others: bool = True) -> argparse.ArgumentParser:
-    """The parser, with the options of the `loaded` subcommands and, with ``others``, the names of all the rest.
+    """Return the parser with the options of the `loaded` subcommands and, with ``others``, the names of all others.
 
-    A tool that starts does not need the others: making sixty parsers takes longer than answering its question.
+    A tool that starts does not need the others: creating sixty parsers takes longer than the tool's work.
     """
     parser = argparse.ArgumentParser(
         prog="rosmini",
@@ -279,7 +279,7 @@ def build_parser(loaded: dict[str, Command], *, others: bool = True) -> argparse
 
 
 def grouped_commands() -> str:
-    """The commands with their summaries, under headings; the tools of rqt are one line."""
+    """Return the commands with their summaries, under headings; the tools of rqt share one line."""
     lines = []
     for group in (ROS, OWN, BUILD, BOOK):
         lines.append(f"{group}:")
@@ -300,10 +300,10 @@ def grouped_commands() -> str:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run `rosmini` with `argv` (default: the command line) and return its exit status.
 
-    0 is success, 1 a failure that was reported, 2 a command line that makes no sense, 130 Ctrl-C.
+    0 is success, 1 a reported failure, 2 an invalid command line, 130 Ctrl-C.
     """
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a message's letter that the locale lacks ends no command
+        if isinstance(stream, io.TextIOWrapper):  # a character missing in the locale must not end a command
             stream.reconfigure(errors="backslashreplace")
     argv = sys.argv[1:] if argv is None else list(argv)
     try:
@@ -353,17 +353,17 @@ def _run(name: str | None, argv: list[str]) -> int:
 
 
 def _system_refused(error: OSError, name: str | None) -> int:
-    """Return the exit status after an error of the operating system that has a simple cause, and report it.
+    """Report an operating system error with a simple cause and return the exit status.
 
-    Such causes are a file that cannot be opened, a reader of the output that has ended (`head`), and a full disk.
-    Raises any other error again.
+    Such causes are a file that cannot be opened, a closed reader of the output (`head`), and a full disk.
+    Any other error is raised again.
     """
     if error.filename is not None:
         print(f"rosmini {name}: cannot open {error.filename}: {error.strerror}", file=sys.stderr)
         return 1
     if not isinstance(error, BrokenPipeError) and error.errno != errno.ENOSPC:
         raise error
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left of the output is not wanted
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # discard the remaining output
     if isinstance(error, BrokenPipeError):
         return 0
     print(f"rosmini {name}: the output cannot be written: {error.strerror}", file=sys.stderr)

@@ -26,7 +26,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def main(args: argparse.Namespace) -> int:
-    """Write it; 1 if the bag cannot be read, or the file not be written."""
+    """Write the file; return 1 if the bag cannot be read or the file cannot be written."""
     from rosmini.ros.bag import ROSBagException
     from rosmini.ros.bag.mcap import from_mcap, to_mcap
 

@@ -1,4 +1,4 @@
-"""What `rospack` and `rosstack` are asked, which is nearly the same (http://docs.ros.org/independent/api/rospkg)."""
+"""Queries of `rospack` and `rosstack`, which are nearly the same (http://docs.ros.org/independent/api/rospkg)."""
 
 from __future__ import annotations
 
@@ -23,32 +23,32 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 SHOWN = 20
-"""The number of folders that `profile` shows by default."""
+"""Default number of folders that `profile` shows."""
 
 
 @dataclass(frozen=True)
 class Queries:
-    """One of the two tools, and what it asks of the packages that can be found now."""
+    """One of the two tools, and its queries on the packages that can be found."""
 
     tool: Tool
     stacks: bool
 
     @property
     def noun(self) -> str:
-        """What it is asked about."""
+        """Kind of its subjects."""
         return "stack" if self.stacks else "package"
 
     def known(self) -> Dependencies:
-        """All that can be found."""
+        """Return all packages or stacks that can be found."""
         return Dependencies(PackageIndex(), self.stacks)
 
     def error(self, text: str) -> VerbError:
-        """An error in the form of the original tool, to be raised."""
+        """Return an error in the form of the original tool."""
         return VerbError(f"[{self.tool.name}] Error: {text}")
 
     @contextmanager
     def told(self, missing: str) -> Iterator[None]:
-        """Raise errors in the form of the original tool; ``missing`` is its text for a name that is not there."""
+        """Raise errors in the form of the original tool; ``missing`` is its text for an unknown name."""
         try:
             yield
         except UnknownPackage as error:
@@ -59,7 +59,7 @@ class Queries:
             raise self.error(str(error)) from error
 
     def name(self, given: argparse.Namespace, known: Dependencies) -> str:
-        """The package or stack that is asked about: by default the one around the working folder."""
+        """Return the requested package or stack; by default the one around the working folder."""
         if given.name:
             return str(given.name)
         here = Path.cwd()
@@ -70,14 +70,14 @@ class Queries:
         raise self.error(f"no {self.noun} given")
 
     def lines(self, given: argparse.Namespace, ask: Callable[[Dependencies, str], Sequence[str]]) -> Lines:
-        """The answer to a question about one of them."""
+        """Return the answer to a query on one of them."""
         known = self.known()
         name = self.name(given, known)
         with self.told(f"no such {self.noun} {name}"):
             return Lines(lines=tuple(ask(known, name)))
 
     def parser(self, verb: str, *options: str, named: str = "") -> Callable[[], ArgumentParser]:
-        """The parser of a verb with these options; ``named`` is what it takes a name of, if anything."""
+        """Return the parser of a verb with these options; ``named`` describes the name that it takes, if any."""
 
         def make() -> ArgumentParser:
             epilog = f"for example: rosmini {self.tool.name} {verb}{' std_msgs' if named else ''}"
@@ -98,7 +98,7 @@ class Queries:
         return make
 
     def register(self) -> None:
-        """Add the verbs that both tools have, under all their names."""
+        """Register the verbs common to both tools, under all their names."""
         noun = self.noun
 
         def add(
@@ -148,7 +148,7 @@ class Queries:
         return Lines(lines=tuple(known.names()), complaints=self._broken(known))
 
     def _broken(self, known: Dependencies, more: Sequence[DefinitionError] = ()) -> tuple[str, ...]:
-        """What to say of manifests that could not be read."""
+        """Return messages about manifests that could not be read."""
         return tuple(f"[{self.tool.name}] Warning: {each}" for each in (*known.index.problems(), *more))
 
     def _depends(self, given: argparse.Namespace, _call: Call) -> Lines:
@@ -224,7 +224,7 @@ class Queries:
     # -- in a terminal ------------------------------------------------------------------------------------------
 
     def main(self, args: argparse.Namespace) -> int:
-        """Do what the words say, as the original tool takes them: `-q` anywhere, options before the verb."""
+        """Run a command line in the form of the original tool: `-q` anywhere, options before the verb."""
         words = [word for word in args.words if word != "-q"]
         quiet = len(words) < len(args.words)
         verb = next((word for word in words if not word.startswith("-")), None)
@@ -237,7 +237,7 @@ class Queries:
             return 0
         if verb is None or verb == "help":
             print(self.tool.help())
-            raise SystemExit(0)  # as argparse ends after a help text
+            raise SystemExit(0)  # like argparse after a help text
         if verb not in self.tool.verbs:
             hint = nearest(verb, self.tool.verbs)
             print(f"[{self.tool.name}] Error: command {verb} not implemented", file=sys.stderr)
@@ -252,7 +252,7 @@ class Queries:
 
 
 def _timed(folder: Path) -> tuple[float, Path, bool, bool]:
-    """The time to search a folder, whether it is a package itself, and whether there is nothing in it."""
+    """Return the time to search a folder, whether it is a package, and whether it is empty."""
     start = perf_counter()
     found = list(crawl(folder))
     return perf_counter() - start, folder, any(each.folder == folder for each in found), not found

@@ -1,4 +1,4 @@
-"""What the tools have in common that answer from what a graph has recorded."""
+"""Shared functions of the tools that read a graph's recording."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def add_duration(parser: Parser) -> None:
-    """Add the option that lets a graph record first."""
+    """Add the option that makes a graph record first."""
     parser.add_option(
         "--duration", type="float", metavar="S",
         help="first record for S seconds of graph time: for graphs that do not record from the start, as notebooks' do",
@@ -20,9 +20,9 @@ def add_duration(parser: Parser) -> None:
 
 
 def recorded(call: Call, duration: float | None) -> Recording:
-    """Return what the graph has recorded, after ``duration`` seconds more.
+    """Return the graph's recording, after ``duration`` seconds more.
 
-    Raises ``VerbError`` if it does not record and was not asked to.
+    Raises ``VerbError`` if it does not record and no duration is given.
     """
     graph = call.graph
     if duration is not None:

@@ -1,6 +1,6 @@
 """`rosmini rosbag`: the verbs of ROS's tool, with its options and output (http://wiki.ros.org/rosbag/Commandline).
 
-In a terminal `record` and `play` run in wall time in a graph of their own, with the nodes after a `+`, as in `run`:
+In a terminal `record` and `play` run in wall-clock time in a new graph, with the nodes after a `+`, as in `run`:
 `rosmini rosbag record -a + rosmini_sim/simulator + drive.py`. In Python they start their node in the graph and return
 its handle.
 """
@@ -52,7 +52,7 @@ TOOL = Tool(
 
 
 def _complaint(path: str | Path, error: Exception) -> str:
-    """Return what ROS's tool prints of a bag that it cannot read, and our reason; or that another cannot be written."""
+    """Return the message of ROS's tool about a bag that it cannot read or write, with our reason."""
     if isinstance(error, ROSBagUnindexedException):
         return f"ERROR bag unindexed: {path}.  Run rosbag reindex."
     if isinstance(error, OSError) and error.filename and Path(error.filename) != Path(path):
@@ -65,7 +65,7 @@ def _complaint(path: str | Path, error: Exception) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class BagInfos(Result):
-    """What is in bags: the text of each, or the YAML, as the options asked."""
+    """Contents of bags: the text of each, or the YAML, depending on the options."""
 
     texts: tuple[str, ...]
 
@@ -85,7 +85,7 @@ def _info_parser() -> Parser:
 
 @TOOL.verb("summarize bag files", parser=_info_parser)
 def info(given: Values, _call: Call) -> BagInfos:
-    """Return what is in bag files, up to the first that cannot be read."""
+    """Return the contents of bag files, up to the first unreadable one."""
     if not given.words:
         _info_parser().error("You must specify at least 1 bag file.")
     if given.key and not given.yaml:
@@ -125,7 +125,7 @@ def _check_parser() -> Parser:
 
 @TOOL.verb("list the types in a bag that differ from this system's", parser=_check_parser)
 def check(given: Values, _call: Call) -> TypeChanges:
-    """Return the types of a bag that differ here. There are no migration rules."""
+    """Return the types of a bag that differ here; migration rules are not supported."""
     if len(given.words) != 1:
         _check_parser().error("You must specify a bag file to check.")
     try:
@@ -140,7 +140,7 @@ def check(given: Values, _call: Call) -> TypeChanges:
 
 @dataclass(frozen=True, kw_only=True)
 class Written(Result):
-    """Bags that were written, each with what is to say of it."""
+    """Bags that were written, each with its message."""
 
     bags: tuple[tuple[Path, str], ...] = ()
     quiet: bool = False
@@ -205,7 +205,7 @@ def _fix_parser() -> Parser:
 
 @TOOL.verb("repair the messages in a bag file, so that they are of this system's types", parser=_fix_parser)
 def fix(given: Values, _call: Call) -> Written:
-    """Make the messages of a bag ones of this system's types."""
+    """Convert the messages of a bag to this system's types."""
     missing = ("You must pass input and output bag files.", "You must pass an output bag file.")
     if len(given.words) < 2:
         _fix_parser().error(missing[len(given.words)])
@@ -231,7 +231,7 @@ def fix(given: Values, _call: Call) -> Written:
 
 @dataclass(frozen=True, kw_only=True)
 class Fix(Written):
-    """A bag that was made one of this system's types."""
+    """A bag that was converted to this system's types."""
 
     def __str__(self) -> str:
         return "Bag migrated successfully."
@@ -246,7 +246,7 @@ def _compression(parser: Parser, default: str) -> None:
 
 
 def _parser_of(verb: str, text: str, *, compresses: bool = False) -> Callable[[], Parser]:
-    """Return what makes the parser of a verb that rewrites bags."""
+    """Return a function that creates the parser of a verb that rewrites bags."""
 
     def make() -> Parser:
         parser = Parser(f"rosbag {verb} [options] BAGFILE1 [BAGFILE2 ...]", text, f"{verb} drive.bag")
@@ -265,7 +265,7 @@ def _parser_of(verb: str, text: str, *, compresses: bool = False) -> Callable[[]
 
 
 def _rewrite(parser: Callable[[], Parser], given: Values, work: Callable[[Path, Path], str]) -> Written:
-    """Do ``work(source, target)`` for each bag. In place the bag as it was stays beside it, as NAME.orig.bag."""
+    """Run ``work(source, target)`` for each bag; when in place, the original is kept as NAME.orig.bag."""
     if not given.words:
         parser().error("You must specify at least one bag file.")
     written: list[tuple[Path, str]] = []
@@ -323,7 +323,7 @@ def decompress(given: Values, _call: Call) -> Written:
 
 @TOOL.verb("make a new index, for a recording that was cut off", name="reindex", parser=_REINDEX)
 def reindex_(given: Values, _call: Call) -> Written:
-    """Make new indexes of bag files."""
+    """Rebuild the indexes of bag files."""
 
     def work(source: Path, target: Path) -> str:
         shutil.copyfile(source, target)
@@ -371,7 +371,7 @@ class Started(Result):
 
 def _in_terminal(verb: str, check_words: Callable[[Sequence[str]], object]) -> Callable[[Sequence[str]], int]:
     def run_nodes(words: Sequence[str]) -> int:
-        """Run the node on the graph of the Master; or, in one process, with those that stand after a `+`."""
+        """Run the node on the graph of the Master, or in one process with the nodes after a `+`."""
         from rosmini.tools import rosrun, run
 
         own = words[: words.index("+")] if "+" in words else words

@@ -1,4 +1,4 @@
-"""`rosmini roscd`: where a package is, for `cd`: no program can change the folder of the shell that runs it.
+"""`rosmini roscd`: prints the folder of a package for `cd`, since no program can change the folder of its shell.
 
 The shell function is ``roscd() { cd "$(rosmini roscd "$@")"; }``. In Python it changes the working folder itself.
 """
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 LOG = "log"
-"""The name by which `roscd` and `rosls` know the folder of log files, and no package."""
+"""Name of the folder of log files in `roscd` and `rosls`; not a package."""
 
 
 TOOL = Tool("roscd", "go to the folder of a package", needs_graph=False, only_verb="go")
@@ -28,7 +28,7 @@ TOOL = Tool("roscd", "go to the folder of a package", needs_graph=False, only_ve
 
 @dataclass(frozen=True, kw_only=True)
 class Folder(Result):
-    """Where ``roscd`` goes; the text is what a terminal needs for its `cd`."""
+    """The folder for ``roscd``; its text is the argument of `cd` in a terminal."""
 
     path: Path
     is_entered: bool
@@ -48,9 +48,9 @@ def _parser() -> ArgumentParser:
 
 
 def located(location: str, command: str, index: PackageIndex | None = None) -> Path:
-    """What ``package/path`` means: the package's folder, or what is in it.
+    """Return the path of ``package/path``: the package's folder, or something in it.
 
-    Raises `RosminiError`, as ``command`` says it, if there is no such package or path.
+    Raises `RosminiError`, in the words of ``command``, if there is no such package or path.
     """
     name, _, rest = location.partition("/")
     index = PackageIndex() if index is None else index
@@ -74,9 +74,9 @@ def located(location: str, command: str, index: PackageIndex | None = None) -> P
 
 
 def workspace(environ: Mapping[str, str]) -> Path:
-    """The workspace that is in use: ROS_WORKSPACE, or the first devel space of CMAKE_PREFIX_PATH.
+    """Return the workspace in use: ROS_WORKSPACE, or the first devel space of CMAKE_PREFIX_PATH.
 
-    Raises `RosminiError` if there is none.
+    Raises `RosminiError` if no workspace is in use.
     """
     if environ.get("ROS_WORKSPACE"):
         return Path(environ["ROS_WORKSPACE"])
@@ -91,7 +91,7 @@ def workspace(environ: Mapping[str, str]) -> Path:
 
 @TOOL.verb("go to the folder of a package", parser=_parser, takes="location")
 def go(given: argparse.Namespace, call: Call) -> Folder:
-    """Go to the folder; a terminal prints it. Raises ``RosminiError`` if there is none."""
+    """Change to the folder; a terminal prints it. Raises ``RosminiError`` if it does not exist."""
     path = located(given.location, "cd to") if given.location else workspace(os.environ)
     if not path.is_dir():
         raise RosminiError(f"{path} is a file, not a folder; its folder is {path.parent}")

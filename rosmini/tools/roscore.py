@@ -39,11 +39,11 @@ SIGNS = {
     "subscribeParam": "+CACHEDPARAM",
     "unsubscribeParam": "-CACHEDPARAM",
 }
-"""What rosmaster's log calls the calls that change something."""
+"""Symbols in rosmaster's log for calls that change something."""
 
 
 def port_number(text: str) -> int:
-    """Read the number of a port."""
+    """Parse a port number."""
     if text.isascii() and text.isdecimal() and 0 < int(text) < 65536:
         return int(text)
     raise argparse.ArgumentTypeError(f"{text!r} is not the number of a port, 1 to 65535")
@@ -129,7 +129,7 @@ def serve(graph: Graph, where: Addresses, port: int, *, verbose: bool) -> Master
 
 
 def show_call(method: str, arguments: tuple[Any, ...], answer: Any) -> None:
-    """Print a call that changed something, as rosmaster's log has it."""
+    """Print a call that changed something, in the format of rosmaster's log."""
     sign = SIGNS.get(method)
     if sign is None or answer[0] != 1:
         return
@@ -140,7 +140,7 @@ def show_call(method: str, arguments: tuple[Any, ...], answer: Any) -> None:
 
 
 def refusal(graph: Graph, uri: str, error: RosminiError) -> RosminiError:
-    """Return the error for a port that is in use: by a Master, or by something else."""
+    """Return the error for a port in use by a Master or another program."""
     from rosmini.ros.net.network import network_of
     from rosmini.ros.net.remote_master import RemoteMaster
 
@@ -156,7 +156,7 @@ def refusal(graph: Graph, uri: str, error: RosminiError) -> RosminiError:
 
 
 def introduce(graph: Graph, where: Addresses, server: MasterServer, *, with_rosout: bool) -> None:
-    """Print what roscore prints when it starts."""
+    """Print the text that roscore prints when it starts."""
     roscore = graph.ask_as("/roscore")
     version = str(roscore.ask("getParam", "/rosversion")).strip()
     distribution = str(roscore.ask("getParam", "/rosdistro")).strip()
@@ -194,7 +194,7 @@ def introduce(graph: Graph, where: Addresses, server: MasterServer, *, with_roso
 
 
 def warn(where: Addresses, port: int) -> None:
-    """Say what will keep others from finding this Master."""
+    """Print what will prevent others from finding this Master."""
     from rosmini.ros.net.addresses import is_loopback
 
     host, asked = where.master
@@ -215,7 +215,7 @@ def warn(where: Addresses, port: int) -> None:
 
 
 def say_goodbye(*, with_rosout: bool) -> None:
-    """Print what roscore prints when it ends."""
+    """Print the text that roscore prints when it ends."""
     lines = [
         *(["[rosout-1] killing on exit"] if with_rosout else []),
         "[master] killing on exit",

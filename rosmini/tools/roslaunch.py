@@ -44,14 +44,14 @@ DESCRIPTION = (
 )
 
 ASKING = ("node_args", "node_list", "find_node", "ros_args", "dump_params", "file_list", "check", "tree")
-"""The options that ask for something and launch nothing."""
+"""Options that only query and launch nothing."""
 
 
 class LaunchParser(Parser):
-    """The options, and what to write where an executable was meant, as in `roslaunch map_server map_saver`."""
+    """The options, with a hint if an executable was meant, as in `roslaunch map_server map_saver`."""
 
     def parse(self, words: Sequence[str], /) -> Values:
-        """Return what was given. Raises ``UsageError``."""
+        """Return the given options. Raises ``UsageError``."""
         if dashed := dashed_remapping(words):
             self.error(dashed)
         try:
@@ -63,7 +63,7 @@ class LaunchParser(Parser):
 
 
 def parser() -> LaunchParser:
-    """Return the options: roslaunch's, and those of one process."""
+    """Return the parser: roslaunch's options, and those for one process."""
     made = LaunchParser("roslaunch", USAGE, DESCRIPTION, example=EXAMPLE)
     made.flag("--files", dest="file_list", help="print the files that are read")
     made.add_option("--args", dest="node_args", metavar="NODE_NAME", help="print the command line of a node")
@@ -108,12 +108,12 @@ TOOL = Tool(
     "roslaunch", "start the nodes of launch files, and look at what they mean", only_verb="launch",
     example="turtlebot3_gazebo turtlebot3_world.launch",
 )  # fmt: skip
-"""What notebooks have: ``%roslaunch`` starts the nodes in the graph, and returns at once or after --duration."""
+"""The magic for notebooks: ``%roslaunch`` starts the nodes in the graph, and returns at once or after --duration."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Launched(Result):
-    """A launch that was started: ``launch["talker"]`` is a node's handle, ``launch.stop()`` ends all of them."""
+    """A running launch: ``launch["talker"]`` is a node's handle, ``launch.stop()`` ends all nodes."""
 
     launch: Launch
 
@@ -146,11 +146,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def main(args: argparse.Namespace) -> int:
-    """Launch, or answer what was asked; the exit status is 1 for a launch file that is wrong."""
+    """Launch, or answer a query; the exit status is 1 for an invalid launch file."""
     words: list[str] = list(args.words)
     if {"-h", "--help"} & set(words):
         print(parser().format_help().replace("Usage: roslaunch", "usage: rosmini roslaunch", 1))
-        raise SystemExit(0)  # as argparse ends after a help text
+        raise SystemExit(0)  # like argparse after a help text
     try:
         given, nodes = options(words)
         return act(given, nodes)
@@ -163,7 +163,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def options(words: Sequence[str]) -> tuple[Values, list[str]]:
-    """Return the options, which may stand at both ends, and the words after the first `+`. Raises ``UsageError``."""
+    """Return the options, which may be at both ends, and the words after the first `+`. Raises ``UsageError``."""
     from .run import split_options
 
     own, trailing = split_options(words)
@@ -193,7 +193,7 @@ def options(words: Sequence[str]) -> tuple[Values, list[str]]:
 
 
 def act(given: Values, nodes: Sequence[str]) -> int:
-    """Do what the options say."""
+    """Carry out the options."""
     from rosmini.ros.launch import LaunchError
 
     packages = PackageIndex()
@@ -215,12 +215,12 @@ def act(given: Values, nodes: Sequence[str]) -> int:
 
 
 def is_question(given: Values) -> bool:
-    """Return whether the options only ask for something."""
+    """Return True if the options are only a query."""
     return any(getattr(given, name) for name in ASKING)
 
 
 def plan_of(given: Values, packages: PackageIndex, names: Callable[[str], str] | None) -> Plan:
-    """Read the files, and what stands on standard input for ``-``. Raises ``LaunchError``."""
+    """Read the files, and standard input for ``-``. Raises ``LaunchError``."""
     from rosmini.ros.launch import find_file, read
 
     files = find_file([word for word in given.words if not is_remapping(word)], packages)
@@ -238,7 +238,7 @@ def plan_of(given: Values, packages: PackageIndex, names: Callable[[str], str] |
 
 
 def anonymous() -> Callable[[str], str]:
-    """Return what makes names that nobody else in the graph has."""
+    """Return a function that creates names unused in the graph."""
     host = "".join(char if char.isalnum() else "_" for char in socket.gethostname())
     made = 0
 
@@ -251,7 +251,7 @@ def anonymous() -> Callable[[str], str]:
 
 
 def answer(given: Values, plan: Plan, packages: PackageIndex) -> Lines:
-    """Return what was asked for. Raises ``LaunchError``."""
+    """Return the answer to the query. Raises ``LaunchError``."""
     from rosmini.ros.launch.executables import missing_programs, program
 
     if given.check:
@@ -280,7 +280,7 @@ def answer(given: Values, plan: Plan, packages: PackageIndex) -> Lines:
 
 
 def check(plan: Plan, missing: Sequence[Missing]) -> Lines:
-    """Return the warnings and all that is missing; the status is 1 if anything is."""
+    """Return the warnings and all missing things; the status is 1 if anything is missing."""
     from rosmini.ros.launch.errors import not_there
 
     warnings = [f"WARNING: {line}" for line in plan.warnings]
@@ -291,7 +291,7 @@ def check(plan: Plan, missing: Sequence[Missing]) -> Lines:
 
 
 def changed(plan: Plan, given: Values) -> Plan:
-    """Return the plan as --screen, --log and --required change it."""
+    """Return the plan changed by --screen, --log and --required."""
     from dataclasses import replace
 
     more: dict[str, Any] = {}
@@ -305,7 +305,7 @@ def changed(plan: Plan, given: Values) -> Plan:
 
 
 def in_one_process(plan: Plan, given: Values, nodes: Sequence[str]) -> int:
-    """Run all nodes in one graph, and the scripts after a `+` with them; the status is that of what failed first."""
+    """Run all nodes in one graph, with the scripts after a `+`; the status is that of the first failure."""
     from rosmini.core.graph import Graph
     from rosmini.ros.launch.running import Launch, differences, in_graph
     from rosmini.ros.scripts import run_scripts

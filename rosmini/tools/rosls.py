@@ -1,4 +1,4 @@
-"""`rosmini rosls`: what is in the folder of a package."""
+"""`rosmini rosls`: lists the folder of a package."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _parser() -> ArgumentParser:
 
 
 def names(path: Path) -> list[str]:
-    """What is in a folder, as ls lists it: sorted, hidden files left out; of a file, its path."""
+    """Return the contents of a folder like ls: sorted, without hidden files; for a file, its path."""
     return (
         [name for name in files.names_in(path) if not name.startswith(".")] if path.is_dir() else [str(path)]
     )
@@ -37,5 +37,5 @@ def names(path: Path) -> list[str]:
 
 @TOOL.verb("list what is in the folder of a package", name="list", parser=_parser, takes="location")
 def _list(given: argparse.Namespace, _call: Call) -> Lines:
-    """What is in it."""
+    """List the contents."""
     return Lines(lines=tuple(names(located(given.location, "access") if given.location else Path())))

@@ -1,6 +1,6 @@
 """`rosmini rosmsg` and `rosmini rossrv`: definitions of types, as ROS's tools show them (http://wiki.ros.org/rosmsg).
 
-They read packages, and bags; they need no Master. In Python they return data:
+They read packages and bags; they need no Master. In Python they return data:
 ``TOOL.run("show", "geometry_msgs/Pose").definitions``.
 """
 
@@ -26,7 +26,7 @@ UNREADABLE = (DefinitionError, IllegalName, UnknownPackage, UnknownType)
 
 @dataclass(frozen=True, kw_only=True)
 class Definitions(Result):
-    """Definitions by the names of their types; ``with_names`` if the name of the type was not given in full."""
+    """Definitions by type name; ``with_names`` if the name of the type was not given in full."""
 
     definitions: dict[str, str]
     with_names: bool = False
@@ -39,7 +39,7 @@ class Definitions(Result):
 
 @dataclass(frozen=True, kw_only=True)
 class Sums(Result):
-    """The md5 sums of types, by name; ``with_names`` if the name of the type was not given in full."""
+    """Md5 sums by type name; ``with_names`` if the name of the type was not given in full."""
 
     sums: dict[str, str]
     with_names: bool = False
@@ -75,7 +75,7 @@ class _Verbs:
         return Parser(self.tool, f"%prog {usage}", description, example=f"  rosmini {self.tool} {example}")
 
     def the_word(self, given: Values, call: Call, parser: Parser, what: str) -> str:
-        """Return the one word of a command line, or what is written on standard input. Raises ``UsageError``."""
+        """Return the only word of a command line, or the text on standard input. Raises ``UsageError``."""
         if len(given.words) > 1:
             parser.error(f"you may only specify one {what}")
         if given.words:

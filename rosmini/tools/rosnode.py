@@ -1,7 +1,7 @@
 """`rosmini rosnode`: the verbs of ROS's tool, with its options and output (http://wiki.ros.org/rosnode).
 
 In a terminal they act on the graph of the Master at ``ROS_MASTER_URI``; in Python on a graph of this process:
-``TOOL.run("list", graph=graph).names``. `rosmini rosnode list + rosmini_sim/simulator` acts on what stands after the +.
+``TOOL.run("list", graph=graph).names``. `rosmini rosnode list + rosmini_sim/simulator` acts on the nodes after the +.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ TOOL = Tool(
 )  # fmt: skip
 
 PINGS = 3
-"""How many pings are sent in Python if nobody says how many."""
+"""Default number of pings in Python."""
 
 
 def _parser(usage: str, description: str, example: str) -> Parser:
@@ -34,7 +34,7 @@ def _parser(usage: str, description: str, example: str) -> Parser:
 
 
 def _hint(name: str, known: Iterable[str]) -> tuple[str, ...]:
-    """Return the nearest name, as a line of its own, if there is one."""
+    """Return the most similar name on a separate line, if there is one."""
     hint = nearest(name, known)
     return (hint,) if hint else ("`rosnode list` lists the nodes that there are.",)
 
@@ -44,7 +44,7 @@ def _hint(name: str, known: Iterable[str]) -> tuple[str, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class Pings(Result):
-    """How long nodes took to answer [ms], by name; a node that does not answer has none."""
+    """Response times of nodes [ms], by name; empty for a node that does not answer."""
 
     times: dict[str, tuple[float, ...]]
 
@@ -60,7 +60,7 @@ def _ping_parser() -> Parser:
 
 @TOOL.verb("test connectivity to node", parser=_ping_parser, only_asks=True, takes="node")
 def ping(given: Values, call: Call) -> Pings:
-    """Ping a node, or all."""
+    """Ping one node or all nodes."""
     words, usage = given.words, _ping_parser()
     if given.ping_all:
         if words:
@@ -117,7 +117,7 @@ def _ping(call: Call, name: str, count: int | None) -> Pings:
 
 
 def _way_out(uri: str, error: TransportException) -> str:
-    """Return what to do about a node that the Master lists and that does not answer."""
+    """Return a hint for a node that the Master lists but that does not answer."""
     from rosmini.ros.net.addresses import addresses
 
     reason = error.__cause__ or ConnectionRefusedError()  # nobody has an address in this process any more
@@ -129,7 +129,7 @@ def _way_out(uri: str, error: TransportException) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class NodeList(Result):
-    """The names of nodes, sorted, and their addresses if they were asked for."""
+    """Names of nodes, sorted, and their addresses if requested."""
 
     names: tuple[str, ...]
     uris: tuple[str, ...] | None = None
@@ -168,7 +168,7 @@ def list_(given: Values, call: Call) -> NodeList:
 
 @dataclass(frozen=True)
 class NodeInfo:
-    """What the Master knows of a node, its address (None: unknown), and what it says itself if it was asked."""
+    """The Master's information on a node, its address (None: unknown), and its own information if requested."""
 
     description: Description
     uri: str | None = None
@@ -184,7 +184,7 @@ class NodeInfo:
 
 @dataclass(frozen=True, kw_only=True)
 class NodeInfos(Result):
-    """What is known of nodes."""
+    """Information on nodes."""
 
     nodes: tuple[NodeInfo, ...]
 
@@ -257,7 +257,7 @@ def machine(given: Values, call: Call) -> Lines:
 
 @dataclass(frozen=True, kw_only=True)
 class Killed(Result):
-    """The nodes that were asked to shut down."""
+    """Nodes that were asked to shut down."""
 
     names: tuple[str, ...]
     wanted: tuple[str, ...]
@@ -302,7 +302,7 @@ def kill(given: Values, call: Call) -> Killed:
 
 
 def _chosen(there: list[str], call: Call) -> str:
-    """Return the node whose number somebody types."""
+    """Return the node whose number the user types."""
     if call.read_line is None:
         _kill_parser().error("name the nodes, or give -a for all of them")
     listed = "\n".join(f"{number}. {name}" for number, name in enumerate(there, 1))
@@ -317,7 +317,7 @@ def _chosen(there: list[str], call: Call) -> str:
 
 
 def _settle(call: Call) -> None:
-    """Let nodes of this process do what they were asked to."""
+    """Let nodes of this process carry out the request."""
     settle: Any = getattr(call.peers.scheduler, "give_way", None)
     if settle is not None:
         settle()
@@ -325,7 +325,7 @@ def _settle(call: Call) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class Cleaned(Result):
-    """The nodes that the Master has forgotten, because they did not answer."""
+    """Nodes that were unregistered because they did not answer."""
 
     names: tuple[str, ...] = ()
 
@@ -340,7 +340,7 @@ def _cleanup_parser() -> Parser:
 
 @TOOL.verb("purge registration information of unreachable nodes", parser=_cleanup_parser, only_asks=True)
 def cleanup(_given: Values, call: Call) -> Cleaned:
-    """Make the Master forget the nodes that do not answer."""
+    """Unregister the nodes that do not answer."""
     silent = nodes.silent(call.peers, nodes.names(call.peers))
     if not silent:
         return Cleaned()
@@ -357,7 +357,7 @@ def cleanup(_given: Values, call: Call) -> Cleaned:
     for name in silent:
         uri = nodes.uri_of(call.peers, name)
         if not nodes.silent(call.peers, [name]) or nodes.uri_of(call.peers, name) != uri:
-            # It was busy, or has been started again meanwhile.
+            # It was busy, or has been restarted meanwhile.
             call.say(f"{name} answers now, and stays")
             continue
         call.say(f"Unregistering {name}")

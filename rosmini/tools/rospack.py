@@ -1,4 +1,4 @@
-"""`rosmini rospack`: packages, as ROS's tool tells of them (http://wiki.ros.org/rospack)."""
+"""`rosmini rospack`: information on packages, like ROS's tool (http://wiki.ros.org/rospack)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ VERSION_CONTROL = "vcs vcs0"
     parser=QUERIES.parser("list-duplicates"),
 )
 def list_duplicates(_given: argparse.Namespace, _call: Call) -> Lines:
-    """Return each package that is found more than once, with its folders; the first is taken."""
+    """Return each package that is found more than once, with its folders; the first is used."""
     found = QUERIES.known().index.duplicates()
     return Lines(
         lines=tuple(
@@ -45,7 +45,7 @@ def list_duplicates(_given: argparse.Namespace, _call: Call) -> Lines:
     parser=QUERIES.parser("plugins", "attrib", "top", named="package"),
 )
 def plugins(given: argparse.Namespace, _call: Call) -> Lines:
-    """Return what packages export under the name of one: the value of an attribute of each, ``${prefix}`` filled in."""
+    """Return the exports of packages for another one: an attribute's value of each, with ``${prefix}`` replaced."""
     if not given.attrib:
         raise QUERIES.error("no package / attrib given")
 
@@ -68,7 +68,7 @@ def plugins(given: argparse.Namespace, _call: Call) -> Lines:
     parser=QUERIES.parser("export", "lang", "attrib", "deps-only?", named="package"),
 )
 def export(given: argparse.Namespace, _call: Call) -> Lines:
-    """Return an attribute of the exports of a package and of all that it needs, in one line."""
+    """Return an attribute of the exports of a package and its dependencies, on one line."""
     if not (given.lang and given.attrib):
         raise QUERIES.error("no package / lang / attrib given")
 
@@ -82,14 +82,14 @@ def export(given: argparse.Namespace, _call: Call) -> Lines:
 
 
 def _exported(known: Dependencies, package: str, tag: str, attribute: str) -> list[str]:
-    """The values of an attribute of the exports with this tag."""
+    """Return the values of an attribute of the exports with this tag."""
     found = known.index.find(package)
     values = (each.get(attribute) for each in found.exports if each.tag == tag)
     return [value.replace("${prefix}", str(found.path)) for value in values if value is not None]
 
 
 def _refuse(names: str, summary: str, reason: str) -> None:
-    """Add verbs that say why they are not here."""
+    """Add verbs that only say why they are not supported."""
 
     def refuse(_given: argparse.Namespace, _call: Call) -> Lines:
         raise QUERIES.error(reason)

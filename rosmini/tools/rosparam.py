@@ -1,7 +1,7 @@
 """`rosmini rosparam`: the verbs of ROS's tool, with its options and output (http://wiki.ros.org/rosparam).
 
-In a terminal they act on the Parameter Server at ``ROS_MASTER_URI``; in Python on that of a graph of this process, and
-they return data: ``TOOL.run("get", "/gains", graph=graph).value``.
+In a terminal they act on the Parameter Server at ``ROS_MASTER_URI``; in Python on that of a graph of this process,
+where they return data: ``TOOL.run("get", "/gains", graph=graph).value``.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ TOOL = Tool(
 
 
 class _Parser(Parser):
-    """A parser for which -5 is a number, not an option, as for the real tool."""
+    """A parser for which -5 is a number, not an option, as in the real tool."""
 
     def parse(self, words: Sequence[str], /) -> Values:
-        """Return the options, with the words that are none as ``words``. Raises ``UsageError``."""
+        """Return the options, and the other words as ``words``. Raises ``UsageError``."""
         numbers = {
             f"\0{at}": word for at, word in enumerate(words) if word[:1] == "-" and word[1:2].isdigit()
         }
@@ -51,7 +51,7 @@ def _parser(usage: str, description: str, example: str) -> Parser:
 
 
 def _words(given: Values, usage: Parser, what: str, most: int, least: int = 1) -> list[str]:
-    """Return the words of a command line, as many as ``most``: empty ones for what was not given."""
+    """Return the words of a command line, padded with empty words to ``most``."""
     words: list[str] = given.words
     if len(words) < least:
         usage.error(f"invalid arguments. Please specify {what}")
@@ -93,7 +93,7 @@ def _lines(name: str, value: Any) -> Iterable[str]:
 
 @dataclass(frozen=True, kw_only=True)
 class Changed(Result):
-    """The parameters that were set or deleted; what was set has its value."""
+    """Parameters that were set or deleted; those that were set have values."""
 
     names: tuple[str, ...]
     values: tuple[Any, ...] = ()
@@ -136,7 +136,7 @@ def set_(given: Values, call: Call) -> Changed:
 
 
 def _content(path: str, usage: Parser, *, text: bool) -> str | bytes:
-    """Return what is in a file. Raises ``UsageError`` and ``VerbError``."""
+    """Return the contents of a file. Raises ``UsageError`` and ``VerbError``."""
     if not Path(path).is_file():
         usage.error(f"file '{path}' does not exist")
     try:
@@ -166,7 +166,7 @@ class Parameter(Result):
 
 @dataclass(frozen=True, kw_only=True)
 class Empty(Parameter):
-    """A value of which an empty line is printed."""
+    """A value that is printed as an empty line."""
 
     always_printed: ClassVar[bool] = True
 
@@ -239,7 +239,7 @@ def load(given: Values, call: Call) -> Changed:
 
 
 def _typed(call: Call, usage: Parser) -> str:
-    """Return what is written on standard input."""
+    """Return the text on standard input."""
     if call.read_line is None:
         usage.error("there is no standard input here: name a file")
     return "".join(iter(call.read_line, ""))
@@ -298,7 +298,7 @@ def delete(given: Values, call: Call) -> Changed:
 
 @dataclass(frozen=True, kw_only=True)
 class ParameterList(Result):
-    """The names of parameters, sorted; with their values if those were asked for."""
+    """Names of parameters, sorted; with their values if requested."""
 
     names: tuple[str, ...]
     values: tuple[Any, ...] | None = None

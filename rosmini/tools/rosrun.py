@@ -57,7 +57,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run it to its end; the exit status is its own."""
+    """Run the executable to its end and return its exit status."""
     from rosmini.ros.launch.executables import ROSRUN
 
     program = _program(args.package, args.executable)
@@ -94,7 +94,7 @@ def run_node(package: str, executable: str, arguments: Sequence[str]) -> int:
 
 
 def _program(package: str, executable: str) -> str:
-    """Return the path of what is no Python script and no built-in node; empty if it is one, or is not there."""
+    """Return the path of an executable that is neither a Python script nor a built-in node; otherwise empty."""
     from rosmini.core.errors import RosminiError
     from rosmini.core.packages import PackageIndex
     from rosmini.ros.launch.executables import ROSRUN, program_of
@@ -107,11 +107,11 @@ def _program(package: str, executable: str) -> str:
 
 
 def _warn_of_a_robot(path: Path) -> None:
-    """Say what would keep ROS from starting a script that rosmini starts: no run bit, no or a wrong first line."""
+    """Warn if ROS could not start a script that rosmini starts: not executable, or no valid shebang line."""
     from rosmini.core.packages import assets_dir
     from rosmini.ros.catkin.scripts import check_script
 
-    if path.is_relative_to(assets_dir()):  # ours: an installer may have taken the run bit away
+    if path.is_relative_to(assets_dir()):  # ours: an installer may have made it not executable
         return
     for finding in check_script(path):
         if finding.line in (None, 1):
@@ -123,7 +123,7 @@ def _warn_of_a_robot(path: Path) -> None:
 
 
 def _become(words: Sequence[str]) -> int:
-    """Run a command in place of this process, where the system can; else beside it, with its exit status.
+    """Replace this process by a command, if the system can; otherwise run it and return its exit status.
 
     Raises ``ScriptError`` if there is no such program.
     """

@@ -1,4 +1,4 @@
-"""`rosmini rossequence`: a sequence diagram of what happened in a graph. ROS has no such command.
+"""`rosmini rossequence`: draws a sequence diagram of a graph's recording. ROS has no such command.
 
 ``TOOL.run("/chatter", graph=graph).view`` is the picture in Python.
 """
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 TOOL = Tool("rossequence", "who called whom, and sent what to whom, as it happened", only_verb="draw")
 
 MOST = 40
-"""How many calls are drawn if nobody says how many."""
+"""Default number of calls drawn."""
 
 
 def _parser() -> Parser:
@@ -41,7 +41,7 @@ def _parser() -> Parser:
 
 @TOOL.verb("draw what happened", parser=_parser, needs_graph=True, takes="topic")
 def draw(given: Values, call: Call) -> Shown:
-    """Draw what happened."""
+    """Draw the diagram."""
     if given.count < 1:
         _parser().error(f"-n takes a number from 1 on, not {given.count}")
     recording = recorded(call, given.duration)

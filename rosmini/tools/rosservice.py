@@ -1,7 +1,7 @@
 """`rosmini rosservice`: the verbs of ROS's tool, with its options and output (http://wiki.ros.org/rosservice).
 
-In a terminal they act on the graph of the Master at ``ROS_MASTER_URI``; in Python on a graph of this process, and they
-return data: ``TOOL.run("call", "/set_bool", "true", graph=graph).response.success``.
+In a terminal they act on the graph of the Master at ``ROS_MASTER_URI``; in Python on a graph of this process, where
+they return data: ``TOOL.run("call", "/set_bool", "true", graph=graph).response.success``.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def _parser(usage: str, description: str, example: str) -> Parser:
 
 
 def _one_service(parser: Parser, given: Values) -> str:
-    """Return the name of the one service that a command line names. Raises ``UsageError``."""
+    """Return the only service named on a command line. Raises ``UsageError``."""
     if not given.words:
         parser.error("service must be specified")
     if len(given.words) > 1:
@@ -65,7 +65,7 @@ def _type_of(call: Call, name: str) -> str | None:
 
 
 def _class_of(call: Call, name: str) -> Any:
-    """Return the class of a service. Raises ``VerbError`` if nobody offers it, or its type is not known here."""
+    """Return the class of a service. Raises ``VerbError`` if no node offers it, or its type is unknown."""
     from rosmini.ros.introspection.fields import service_class_of
 
     kind = _type_of(call, name)
@@ -99,7 +99,7 @@ def args(given: Values, call: Call) -> Lines:
 
 @dataclass(frozen=True, kw_only=True)
 class Arguments(Lines):
-    """The fields of a request, as one line."""
+    """The fields of a request, on one line."""
 
     always_printed: ClassVar[bool] = True
 
@@ -145,7 +145,7 @@ def call_(given: Values, call: Call) -> Result:
                 node.wait_for_service(name)
             except KeyboardInterrupt:
                 return Result()  # as ROS does
-            except ROSException as error:  # such as a graph in which nothing more can happen
+            except ROSException as error:  # for instance, no event is left in the graph
                 raise _failed(str(error)) from error
         cls = _class_of(call, name)
         ask = partial(_called, node, name, cls, verbose=given.verbose)
@@ -157,7 +157,7 @@ def call_(given: Values, call: Call) -> Result:
 
 
 def _call_each(call: Call, ask: Callable[[Any], Called]) -> Result:
-    """Call with each of the documents on standard input; print all responses but the last."""
+    """Call the service with each document on standard input; print all responses but the last."""
     last: Called | None = None
     for value in typed(call):
         if last is not None:
@@ -198,14 +198,14 @@ def _called(node: Node, name: str, cls: Any, values: list[Any], *, verbose: bool
 
 @dataclass(frozen=True, kw_only=True)
 class ServiceList(Result):
-    """Services, sorted by name; their nodes are in the text if they were asked for."""
+    """Services, sorted by name; with their nodes in the text if requested."""
 
     services: tuple[services.Service, ...]
     with_nodes: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the services."""
+        """Names of the services."""
         return tuple(each.name for each in self.services)
 
     def __str__(self) -> str:
@@ -222,7 +222,7 @@ class Found(Lines):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the services."""
+        """Names of the services."""
         return self.lines
 
 
@@ -255,7 +255,7 @@ def _info_parser() -> Parser:
 
 @dataclass(frozen=True, kw_only=True)
 class ServiceInfo(Result):
-    """Who offers a service, its address, its type and the fields of its request."""
+    """The node that offers a service, its address, its type and the fields of its request."""
 
     node: str
     uri: str

@@ -1,4 +1,4 @@
-"""`rosmini rossrv`: what `rosmini rosmsg` is for messages, for services (http://wiki.ros.org/rossrv)."""
+"""`rosmini rossrv`: definitions of services, as `rosmini rosmsg` does for messages (http://wiki.ros.org/rossrv)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`rosmini rosstack`: stacks and metapackages, as ROS's tool tells of them (http://wiki.ros.org/rosstack)."""
+"""`rosmini rosstack`: information on stacks and metapackages, like ROS's tool (http://wiki.ros.org/rosstack)."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ add_parser, main = Terminal(TOOL).add_parser, QUERIES.main
 
 
 def _container(index: PackageIndex, package: str) -> str:
-    """The stack that a package is in; a package of catkin is its own. Raises ``VerbError`` if there is none."""
+    """Return the stack that contains a package; a catkin package is its own. Raises ``VerbError`` without a stack."""
     if package in index:
         if package in QUERIES.known().names():
             return package
@@ -33,7 +33,7 @@ def _container(index: PackageIndex, package: str) -> str:
 
 @TOOL.verb("list the packages in a stack", parser=QUERIES.parser("contents", named="stack"))
 def contents(given: argparse.Namespace, _call: Call) -> Lines:
-    """Return the packages below the folder of a stack; for a metapackage, those that it gathers."""
+    """Return the packages below the folder of a stack; for a metapackage, its dependencies."""
     known = QUERIES.known()
     name = QUERIES.name(given, known)
     index = known.index
@@ -47,7 +47,7 @@ def contents(given: argparse.Namespace, _call: Call) -> Lines:
 
 @TOOL.verb("print the stack that a package is in", parser=QUERIES.parser("contains", named="package"))
 def contains(given: argparse.Namespace, _call: Call) -> Lines:
-    """Return the name of the stack that a package is in."""
+    """Return the name of the stack that contains a package."""
     index = PackageIndex()
     return Lines(lines=(_container(index, given.name or QUERIES.name(given, QUERIES.known())),))
 
@@ -58,7 +58,7 @@ def contains(given: argparse.Namespace, _call: Call) -> Lines:
     parser=QUERIES.parser("contains-path", named="package"),
 )
 def contains_path(given: argparse.Namespace, _call: Call) -> Lines:
-    """Return the folder of the stack that a package is in."""
+    """Return the folder of the stack that contains a package."""
     known = QUERIES.known()
     name = _container(known.index, given.name or QUERIES.name(given, known))
     return Lines(lines=(str(known.path(name)),))

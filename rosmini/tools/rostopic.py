@@ -1,6 +1,6 @@
 """`rosmini rostopic`: the verbs of ROS's tool, with its options and output (http://wiki.ros.org/rostopic).
 
-In a terminal they act on the graph of the Master at ``ROS_MASTER_URI``, and those that listen or publish go on until
+In a terminal they act on the graph of the Master at ``ROS_MASTER_URI``, and those that listen or publish run until
 Ctrl-C. In Python they act on a graph of this process, for some of its time, and return data:
 ``TOOL.run("echo", "-n", 3, "/scan/ranges[0]", graph=graph).messages``.
 """

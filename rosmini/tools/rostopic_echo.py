@@ -1,4 +1,4 @@
-"""``rostopic echo``: messages, or fields of them, as text or as comma-separated values; live, or from a bag."""
+"""``rostopic echo``: prints messages or their fields as text or as comma-separated values, live or from a bag."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ if TYPE_CHECKING:
     from rosmini.core.verbs import Parser
 
 CLEAR = "\033[2J\033[;H"
-"""What makes a terminal empty."""
+"""Escape sequence that clears a terminal."""
 
 NO_MESSAGES_NS = 2 * SECOND
-"""After how long in simulated time it is said that nothing came."""
+"""Simulated time without messages after which a notice is printed [ns]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Echoed(Result):
-    """The messages that were heard, or the fields of them that were asked for, in order of arrival."""
+    """The received messages, or their requested fields, in order of arrival."""
 
     messages: tuple[Any, ...] = ()
 
@@ -69,7 +69,7 @@ def echo_parser() -> Parser:
 
 @dataclass(frozen=True)
 class _Options:
-    """What a command line asks for."""
+    """Options of a command line."""
 
     topic: str
     count: int | None
@@ -148,7 +148,7 @@ def _echo_bag(given: Values, options: _Options, call: Call) -> Echoed:
 
 
 class _Echo:
-    """Prints messages as the options ask."""
+    """Prints messages according to the options."""
 
     def __init__(self, given: Values, options: _Options, call: Call, node: Node | None) -> None:
         from rosmini.ros.introspection.fields import chosen
@@ -166,7 +166,7 @@ class _Echo:
         self._clear = CLEAR if given.clear and call.in_terminal else ""
 
     def look_at(self, kind: str, path: str) -> None:
-        """Read the field at a path from messages of a type. Raises ``VerbError`` if they have none."""
+        """Select the field at a path of messages of a type. Raises ``VerbError`` if they have no such field."""
         from rosmini.ros.introspection.fields import FieldError, field_type, reader
 
         try:
@@ -181,19 +181,19 @@ class _Echo:
             self._kind = None if ":" not in path.rpartition("[")[2] else self._kind
 
     def when_done(self, tell: Callable[[], None]) -> None:
-        """Call ``tell`` when nothing more is to be heard."""
+        """Call ``tell`` when no more messages are needed."""
         self._tell = tell
         if self.is_done:
             tell()
 
     def result(self) -> Echoed:
-        """Return what was heard. Raises ``VerbError`` if something was wrong with it."""
+        """Return the received messages. Raises ``VerbError`` if an error occurred."""
         if self._problem is not None:
             raise self._problem
         return Echoed(messages=tuple(self._kept))
 
     def hear(self, topic: str, message: Any, when: Time | None = None) -> None:
-        """Print a message, if it is one of those that are wanted."""
+        """Print a message if it is selected."""
         from rosmini.core.expressions import ExpressionError
         from rosmini.ros.introspection.fields import FieldError
 
@@ -212,7 +212,7 @@ class _Echo:
         self.count += 1
         try:
             self._print(value, when)
-        except BrokenPipeError as error:  # what reads the output, such as `head`, has had enough
+        except BrokenPipeError as error:  # the reader of the output, such as `head`, has ended
             self._end(error)
             return
         if not self.call.in_terminal:

@@ -1,4 +1,4 @@
-"""The verbs of ``rostopic`` that only ask: list, info, type, find."""
+"""Verbs of ``rostopic`` that only query: list, info, type, find."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ def parser_of(usage: str, description: str, example: str) -> Parser:
 
 @dataclass(frozen=True, kw_only=True)
 class TopicList(Result):
-    """The names of topics, sorted; with their types and nodes in ``topics``, and by host if that was asked."""
+    """Names of topics, sorted; with their types and nodes in ``topics``, and by host if requested."""
 
     names: tuple[str, ...]
     topics: Topics | None = None
     hosts: dict[str, Topics] | None = None
     sides: tuple[bool, bool] = (True, True)
-    """Whether published topics, and topics that are subscribed to, were asked for."""
+    """Whether to list published topics, and topics with subscribers."""
     verbose: bool = False
     always_printed: ClassVar[bool] = True
 
@@ -100,7 +100,7 @@ def list_(given: Values, call: Call) -> TopicList:
 
 @dataclass(frozen=True, kw_only=True)
 class BagTopic(TopicList):
-    """How many messages of a topic, or of those in its namespace, are in a bag, and from when to when."""
+    """Number of messages of a topic, or of those in its namespace, in a bag, with the first and last time."""
 
     count: int = 0
     span: tuple[float, float] = (0.0, 0.0)
@@ -131,7 +131,7 @@ def _in_bag(path: str, name: str | None) -> TopicList:
 
 
 def check_bag(path: str) -> None:
-    """Raise ``VerbError`` unless there is a file."""
+    """Raise ``VerbError`` unless the file exists."""
     from pathlib import Path
 
     if not Path(path).is_file():
@@ -143,23 +143,23 @@ def check_bag(path: str) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class TopicInfo(Result):
-    """A topic's type, and who publishes it and subscribes to it: names with addresses."""
+    """A topic's type, its publishers and its subscribers: names with addresses."""
 
     about: topics.About
 
     @property
     def type(self) -> str:
-        """The topic's type."""
+        """Type of the topic."""
         return self.about.type
 
     @property
     def publishers(self) -> dict[str, str]:
-        """Who publishes it: names and addresses."""
+        """Publishers of the topic: names and addresses."""
         return self.about.publishers
 
     @property
     def subscribers(self) -> dict[str, str]:
-        """Who subscribes to it: names and addresses."""
+        """Subscribers of the topic: names and addresses."""
         return self.about.subscribers
 
     def __str__(self) -> str:
@@ -190,7 +190,7 @@ def info(given: Values, call: Call) -> TopicInfo:
 
 @dataclass(frozen=True, kw_only=True)
 class TopicType(Result):
-    """The type of a topic, and of one of its fields if the name goes on with one."""
+    """The type of a topic, and of one of its fields if the name continues with one."""
 
     type: str
     field: str = ""

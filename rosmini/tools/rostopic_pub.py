@@ -1,4 +1,4 @@
-"""``rostopic pub``: messages from YAML on the command line, in a file or on standard input."""
+"""``rostopic pub``: publishes messages from YAML on the command line, in a file or on standard input."""
 
 from __future__ import annotations
 
@@ -39,18 +39,18 @@ if TYPE_CHECKING:
     from rosmini.core.verbs import Parser
 
 ONCE_S = 3.0
-"""How long a message that is published once stays there for late subscribers [s]."""
+"""How long a message published once remains available to late subscribers [s]."""
 
 SUBSCRIBER_S = 5.0
-"""How long a subscriber is waited for before messages of a file or of standard input are published [s]."""
+"""How long to wait for a subscriber before publishing messages from a file or standard input [s]."""
 
 RATE_HZ = 10.0
-"""How often messages of a file or of standard input are published."""
+"""Rate of publishing messages from a file or standard input [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Published(Result):
-    """How many messages were published, and the last one."""
+    """Number of messages published, and the last one."""
 
     count: int = 0
     message: Any = None
@@ -80,7 +80,7 @@ def pub_parser() -> Parser:
 
 
 class _Wish(NamedTuple):
-    """What a command line asks for."""
+    """Options of a command line."""
 
     topic: str
     type: str
@@ -144,7 +144,7 @@ def pub(given: Values, call: Call) -> Published:
 
 
 def _class_of(kind: str) -> Any:
-    """Return the class of a message type. Raises ``VerbError`` if it is not known here."""
+    """Return the class of a message type. Raises ``VerbError`` if it is unknown."""
     from rosmini.msgs import message_class
 
     try:
@@ -158,7 +158,7 @@ def _class_of(kind: str) -> Any:
 
 
 def _in_file(path: str) -> Iterator[Any]:
-    """The documents of a YAML file. Raises ``VerbError``."""
+    """Yield the documents of a YAML file. Raises ``VerbError``."""
     from pathlib import Path
 
     if not Path(path).is_file():
@@ -172,7 +172,7 @@ def _in_file(path: str) -> Iterator[Any]:
 
 
 class _Work:
-    """Publishes messages as the options ask."""
+    """Publishes messages according to the options."""
 
     def __init__(
         self, given: Values, wish: _Wish, call: Call, node: Node, publisher: Publisher, cls: Any
@@ -191,7 +191,7 @@ class _Work:
         return Published(count=self._count, message=self._last)
 
     def publish_one(self, values: list[Any]) -> Published:
-        """Publish one message: once, latched, or again and again."""
+        """Publish one message: once, latched, or repeatedly."""
         message = self._filled(self._class(), values)
         is_brief = self._given.once and self._given.duration is None
         duration = round(ONCE_S * SECOND) if is_brief else duration_ns(self._given, self._call)
@@ -204,7 +204,7 @@ class _Work:
         return self._result()
 
     def publish_all(self, messages: Iterator[Any]) -> Published:
-        """Publish the messages of a file or of standard input, one after another."""
+        """Publish the messages of a file or of standard input one after another."""
         rate = self._rate
         if rate is None and not self._given.latch and not self._given.once:
             rate = RATE_HZ
@@ -267,7 +267,7 @@ class _Work:
                 return
 
     def _filled(self, message: Any, values: list[Any]) -> Any:
-        """Return the message, filled with values. Raises ``VerbError``."""
+        """Return the message filled with values. Raises ``VerbError``."""
         try:
             fill(message, values, self._now())
         except (MessageException, ValueError) as error:

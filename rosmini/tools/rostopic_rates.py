@@ -1,4 +1,4 @@
-"""The verbs of ``rostopic`` that measure: hz, delay, bw. They print each second what was heard of late."""
+"""Verbs of ``rostopic`` that measure: hz, delay, bw; once a second they print recent results."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ BANDWIDTH_WINDOW = 100
 
 
 def _subscribe(node: Node, topic: str, cls: Any, hear: Callable[[Any], object], *, raw: bool) -> None:
-    """Hear messages as rospy gives them, or as the bytes that they have on a wire."""
+    """Subscribe to messages as in rospy, or as serialised bytes."""
     from rosmini.ros.rospy.msg import AnyMsg
 
     if raw:
@@ -70,13 +70,13 @@ def _warn_of_simulated_time(node: Node, call: Call) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class Rates(Result):
-    """How often messages came on topics, as it was last printed; what nothing was heard of is not there."""
+    """Rates of messages on topics, as last printed; topics without messages are omitted."""
 
     topics: dict[str, Statistics]
 
     @property
     def hz(self) -> float | None:
-        """The rate of the first topic [Hz]; None if fewer than two messages came."""
+        """Rate of the first topic [Hz]; None if fewer than two messages came."""
         return next((found.rate for found in self.topics.values()), None)
 
 
@@ -91,7 +91,7 @@ def hz_parser() -> Parser:
 
 
 def hz(given: Values, call: Call) -> Rates:
-    """Measure how often messages come."""
+    """Measure the rate of messages."""
     from rosmini.ros.introspection.rates import Arrivals, rate_table, rate_text
 
     usage = hz_parser()
@@ -154,7 +154,7 @@ def _counter(
 
 @dataclass(frozen=True, kw_only=True)
 class Delay(Result):
-    """How old messages were when they came [s]; None if nothing was heard."""
+    """Age of messages on arrival [s]; None if no message came."""
 
     statistics: Statistics | None = None
 
@@ -168,7 +168,7 @@ def delay_parser() -> Parser:
 
 
 def delay(given: Values, call: Call) -> Delay:
-    """Measure how old messages are when they come."""
+    """Measure the age of messages on arrival."""
     from rosmini.ros.introspection.rates import Delays, delay_text
 
     usage = delay_parser()
@@ -205,7 +205,7 @@ def delay(given: Values, call: Call) -> Delay:
 
 @dataclass(frozen=True, kw_only=True)
 class Bandwidth(Result):
-    """How many bytes came; None if fewer than two messages did."""
+    """Bandwidth; None if fewer than two messages came."""
 
     weight: Weight | None = None
 
@@ -216,7 +216,7 @@ def bw_parser() -> Parser:
 
 
 def bw(given: Values, call: Call) -> Bandwidth:
-    """Measure how many bytes come."""
+    """Measure the bandwidth."""
     from rosmini.ros.introspection.rates import Sizes
 
     usage = bw_parser()

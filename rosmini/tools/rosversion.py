@@ -1,4 +1,4 @@
-"""`rosmini rosversion`: the version of a package, or the name of the distribution."""
+"""`rosmini rosversion`: prints the version of a package, or the name of the distribution."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import argparse
 
 DISTRIBUTION = "noetic"
-"""The ROS that rosmini is, where ROS_DISTRO names no other."""
+"""Default of ROS_DISTRO: the ROS distribution that rosmini follows."""
 
 TOOL = Tool("rosversion", "the version of a package", needs_graph=False, only_verb="version")
 
@@ -33,7 +33,7 @@ def _parser() -> ArgumentParser:
 
 
 def version(package: str, index: PackageIndex) -> str:
-    """The version of a package or of a stack. Raises `UnknownPackage`."""
+    """Return the version of a package or of a stack. Raises `UnknownPackage`."""
     if package in index.stacks():
         return index.find_stack(package).version or "<unversioned>"
     return index.find(package).version or "<unversioned>"
@@ -41,7 +41,7 @@ def version(package: str, index: PackageIndex) -> str:
 
 @TOOL.verb("the version of a package", name="version", parser=_parser, takes="location")
 def _version(given: argparse.Namespace, _call: Call) -> Lines:
-    """The version; the status is 1 if there is no such package."""
+    """Return the version; the status is 1 if there is no such package."""
     end = "" if given.skip_newline else "\n"
     if given.distro:
         return Lines(lines=(os.environ.get("ROS_DISTRO") or DISTRIBUTION,), end=end)

@@ -1,4 +1,4 @@
-"""`rosmini roswhy`: why the last message on a topic came, or a service was called. ROS has no such command.
+"""`rosmini roswhy`: explains why the last message on a topic or call of a service came. ROS has no such command.
 
 ``TOOL.run("/cmd_vel", graph=graph).found`` is the chain of causes in Python.
 """
@@ -24,7 +24,7 @@ TOOL = Tool("roswhy", "why the last message on a topic came: the chain of its ca
 
 @dataclass(frozen=True, kw_only=True)
 class Explained(Result):
-    """The chains of causes of the last messages, the last one last; in a notebook that one is drawn."""
+    """Chains of causes of the last messages, the latest at the end; a notebook draws that one."""
 
     found: tuple[Why, ...]
     title: str | None = None
@@ -36,7 +36,7 @@ class Explained(Result):
 
     @property
     def view(self) -> Any:
-        """The picture of the last one."""
+        """Picture of the last chain."""
         return self.found[-1].show(title=self.title)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
@@ -62,7 +62,7 @@ def _parser() -> Parser:
 
 @TOOL.verb("tell the chain of causes", name="explain", parser=_parser, needs_graph=True, takes="topic")
 def explain_(given: Values, call: Call) -> Explained:
-    """Tell the chain of causes."""
+    """Explain the chain of causes."""
     if len(given.words) != 1:
         _parser().error("name one topic, service or node")
     if given.count < 1 or given.depth < 0:

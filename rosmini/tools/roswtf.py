@@ -1,6 +1,6 @@
-"""`rosmini roswtf`: what is probably wrong with the environment, a launch file and the graph, and what to do about it.
+"""`rosmini roswtf`: finds probable faults of the environment, a launch file and the graph, and suggests fixes.
 
-``TOOL.run(graph=graph).findings`` is the same in Python (http://wiki.ros.org/roswtf).
+``TOOL.run(graph=graph).findings`` does the same in Python (http://wiki.ros.org/roswtf).
 """
 
 from __future__ import annotations
@@ -30,15 +30,15 @@ TOOL = Tool(
 )  # fmt: skip
 
 LISTEN_S = 1.0
-"""How long transforms and errors are listened for, if nobody says how long [s]."""
+"""Default time to receive transforms and errors [s]."""
 RULE = "=" * 80
 ROSOUT_WARN, ROSOUT_ERROR = 4, 8
-"""rosgraph_msgs/Log: WARN and ERROR; FATAL is above them."""
+"""Levels WARN and ERROR of rosgraph_msgs/Log; FATAL is above them."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnosis(Result):
-    """What was found: before anything runs (``static``), and in the graph (``online``; None without a Master)."""
+    """All findings: before anything runs (``static``), and in the graph (``online``; None without a Master)."""
 
     context: str
     static: tuple[Finding, ...]
@@ -47,7 +47,7 @@ class Diagnosis(Result):
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """Everything that was found."""
+        """All findings."""
         return (*self.static, *(self.online or ()))
 
     def __str__(self) -> str:
@@ -75,7 +75,7 @@ def _parser() -> Parser:
 
 @TOOL.verb("look for what is wrong", parser=_parser, only_asks=lambda given: given.offline)
 def look(given: Values, call: Call) -> Diagnosis:
-    """Look at everything."""
+    """Run all checks."""
     packages = PackageIndex()
     context, static = _static(packages)
     plan = _plan(given.words, packages)
@@ -106,7 +106,7 @@ def look(given: Values, call: Call) -> Diagnosis:
 
 
 def _plan(words: list[str], packages: PackageIndex) -> Plan | Finding | None:
-    """Return what the launch file means that the words name, or what is wrong with it; None without words."""
+    """Return the plan of the launch file that the words name, or its fault; None without words."""
     if not words:
         return None
     from rosmini.ros.launch.wtf import load
@@ -115,7 +115,7 @@ def _plan(words: list[str], packages: PackageIndex) -> Plan | Finding | None:
 
 
 def _static(packages: PackageIndex) -> tuple[str, list[Finding]]:
-    """Return which package this folder belongs to, and what is wrong with the environment."""
+    """Return the package that this folder belongs to, and faults of the environment."""
     from rosmini.ros.net.addresses import addresses
 
     here = package_around(Path.cwd() / "package.xml")
@@ -132,7 +132,7 @@ def _static(packages: PackageIndex) -> tuple[str, list[Finding]]:
 
 
 def _listen(call: Call, seconds: float) -> Heard:
-    """Listen to transforms and to errors in the log for some time of the graph."""
+    """Receive transforms and log errors for some time of the graph."""
     from rosmini.msgs import message_class
 
     heard, graph = Heard(), call.graph

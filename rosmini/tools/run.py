@@ -42,7 +42,7 @@ for example: rosmini run rosmini_sim/simulator _world:=house + square.py --durat
 
 
 def positive(text: str) -> float:
-    """Read a number of seconds above zero."""
+    """Parse a positive number of seconds."""
     try:
         value = float(text)
     except ValueError:
@@ -53,7 +53,7 @@ def positive(text: str) -> float:
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options, which may stand at both ends of the command line."""
+    """Add the options, which may be at both ends of the command line."""
     clock = parser.add_mutually_exclusive_group()
     clock.add_argument(
         "--sim-time", action="store_true", help="simulated time: as fast as possible, the same on each run"
@@ -85,7 +85,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def split_options(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Split ``words`` into the scripts with their arguments, and the options of ours at the end."""
+    """Split ``words`` into the scripts with their arguments, and rosmini's options at the end."""
     end = len(words)
     if end and words[-1] == "--":
         return list(words[:-1]), []
@@ -104,7 +104,7 @@ def split_options(words: Sequence[str]) -> tuple[list[str], list[str]]:
 def nodes_in(words: Sequence[str]) -> list[ScriptSpec | NodeSpec]:
     """Split ``words`` at the plus signs into scripts and built-in nodes, with their arguments.
 
-    Raises `RosminiError` where one is missing, and if a package or an executable is not known.
+    Raises `RosminiError` if one is missing, or a package or an executable is unknown.
     """
     groups: list[list[str]] = [[]]
     for word in words:
@@ -122,14 +122,14 @@ def nodes_in(words: Sequence[str]) -> list[ScriptSpec | NodeSpec]:
 
 
 def spec_of(name: str, args: tuple[str, ...]) -> ScriptSpec | NodeSpec:
-    """Return what ``name`` stands for: a file where there is one, else PACKAGE/EXECUTABLE if it has that form."""
+    """Return the script or node for ``name``: an existing file, or PACKAGE/EXECUTABLE if it has that form."""
     from rosmini.ros.scripts import NodeSpec, ScriptSpec, find
 
     words = EXECUTABLE.fullmatch(name)
     if words is None or Path(name).exists():
         return ScriptSpec(name, args)
     if name.endswith(".py") and words["package"] not in PackageIndex():
-        return ScriptSpec(name, args)  # a file in a folder, which is not there
+        return ScriptSpec(name, args)  # a missing file in a folder
     found = find(name)
     return NodeSpec(found, args) if found.path is None else ScriptSpec(str(found.path), args)
 
@@ -155,7 +155,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def tell(result: RunResult) -> None:
-    """Say what the nodes were waiting for, if the run ended because nothing was left to happen."""
+    """Print what the nodes were waiting for, if the run ended because no event was left."""
     report = result.report
     if result.reason == "drained" and report is not None and report.waiting:
         print(f"rosmini: {report}", file=sys.stderr)

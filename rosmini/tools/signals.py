@@ -1,4 +1,4 @@
-"""How the programs of the command line are ended."""
+"""Handling of signals that end command-line programs."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import threading
 
 
 def end_as_ctrl_c() -> None:
-    """Let SIGTERM, by which roslaunch and process managers end a program, do what Ctrl-C does.
+    """Make SIGTERM, by which roslaunch and process managers end a program, act like Ctrl-C.
 
-    Ctrl-C works also where the shell that started the program in the background wants it ignored, as with ROS's nodes.
-    Does nothing outside the main thread.
+    As with ROS's nodes, Ctrl-C works even if a shell started the program in the background with SIGINT ignored.
+    Has no effect outside the main thread.
     """
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -35,7 +35,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def main(args: argparse.Namespace) -> int:
-    """Write them; 1 if the types of a package could not be read."""
+    """Write the stubs; return 1 if the types of a package could not be read."""
     texts, problems = stub_files()
     written = write(args.folder, texts)
     for problem in problems:
@@ -45,7 +45,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def stub_files() -> tuple[dict[str, str], list[str]]:
-    """Return the stub files by their path, and what is wrong with the types of packages, which are left out then."""
+    """Return the stub files by path, and the problems of packages, which are then omitted."""
     from rosmini.core.packages import PackageIndex, assets_dir
     from rosmini.msgs.registry import registry
     from rosmini.msgs.sources import PackageSource
@@ -76,7 +76,7 @@ def stub_files() -> tuple[dict[str, str], list[str]]:
 
 
 def aliases(modules: dict[str, str]) -> dict[str, str]:
-    """Return stub files for modules that are others under a name of ROS's, by their path."""
+    """Return stub files, by path, for modules that ROS knows under another name."""
     packages = {name.rpartition(".")[0] for name in modules} - {""}
     texts = {}
     for name in sorted({*modules, *packages}):
@@ -91,7 +91,7 @@ def aliases(modules: dict[str, str]) -> dict[str, str]:
 
 
 def exported(module: str) -> set[str]:
-    """Return the names that ``from module import *`` binds and that are imported there; what is not found has none."""
+    """Return the imported names that ``from module import *`` binds; empty if the module is not found."""
     found = importlib.util.find_spec(module)
     if found is None or found.origin is None or not found.origin.endswith(".py"):
         return set()
@@ -106,9 +106,9 @@ def exported(module: str) -> set[str]:
 
 
 def write(folder: Path, texts: dict[str, str]) -> int:
-    """Write the files that are not there as they should be, and return how many these were.
+    """Write the files that are missing or outdated, and return their number.
 
-    Raises ``RosminiError`` if another file is in the way; then none is written.
+    Raises ``RosminiError``, without writing any, if another file is in the way.
     """
     changed = {}
     for name, text in texts.items():

@@ -1,4 +1,4 @@
-"""Tools in a terminal: a verb acts on the graph of the Master, on nodes named after a ``+``, or on files."""
+"""Tools in a terminal: a verb acts on the graph of the Master, on the nodes after a ``+``, or on files."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Terminal:
     tool: Tool
 
     def _overview(self) -> str:
-        """Return the list of verbs as a tool of ROS prints it."""
+        """Return the list of verbs in the format of ROS's tools."""
         heading = f"{self.tool.name} is a command-line tool for {self.tool.purpose}.\n\n"
         listed = "\n".join(
             f"\t{self.tool.name} {verb.name}\t{verb.summary}"
@@ -44,7 +44,7 @@ class Terminal:
         )
 
     def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
-        """Add the tool to the parser of `rosmini`: no word of it is an option for that one."""
+        """Add the tool to the parser of `rosmini`, which treats none of its words as options."""
         parser = subparsers.add_parser(
             self.tool.name, help=self.tool.summary, add_help=False, prefix_chars="\0"
         )
@@ -52,7 +52,7 @@ class Terminal:
         return parser
 
     def main(self, args: argparse.Namespace) -> int:
-        """Do what the words say, print it, and return the exit status."""
+        """Run the command line, print the result, and return the exit status."""
         words: list[str] = args.words
         own, nodes = _before_plus(words)
         own = self.tool.with_verb(own)
@@ -66,7 +66,7 @@ class Terminal:
             if asked is not None:
                 print(asked)
                 if words and not nodes and words[0] in ("-h", "--help"):
-                    raise SystemExit(0)  # as argparse ends after a help text
+                    raise SystemExit(0)  # like argparse after a help text
                 return 0
             verb = self.tool.find(own[0])
             if verb.in_terminal is not None:
@@ -77,7 +77,7 @@ class Terminal:
         return self.reported(act)
 
     def reported(self, act: Callable[[], Result | int]) -> int:
-        """Print what was done, or why it was not, and return the exit status."""
+        """Print the result or the error, and return the exit status."""
         try:
             result = act()
         except VerbError as error:
@@ -101,7 +101,7 @@ class Terminal:
         return result.status
 
     def _not_a_verb(self, words: Sequence[str]) -> int:
-        """Print the overview, and what was probably meant."""
+        """Print the overview, and a similar verb."""
         print(self._overview())
         if words and words[0] not in ("-h", "--help"):
             hint = nearest(words[0], self.tool.verbs)
@@ -148,12 +148,12 @@ class Terminal:
         with connect(announce=False) as graph:
             try:
                 return verb.do(given, Call(graph, say, read_line=sys.stdin.readline))
-            except KeyboardInterrupt:  # it came between two waits: no failure, as in ROS's tools
+            except KeyboardInterrupt:  # it came between two waits: not a failure, as in ROS
                 return Lines()
 
 
 def _before_plus(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Split words at the first `+`: the tool's, and those of the nodes that it acts on."""
+    """Split words at the first `+`: those of the tool, and those of the nodes that it acts on."""
     if "+" not in words:
         return list(words), []
     at = words.index("+")
@@ -161,7 +161,7 @@ def _before_plus(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _start(nodes: Sequence[str], graph: Graph) -> None:
-    """Start what stands after a `+`, and let it settle."""
+    """Start the nodes after a `+`, and let them settle."""
     from rosmini.ros.scripts import NodeHandle, rosrun
 
     while nodes:

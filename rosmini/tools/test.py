@@ -35,7 +35,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run them, and print how they went."""
+    """Run the tests and print the results."""
     from rosmini.core.packages import PackageIndex
     from rosmini.ros.launch import find_file, read
     from rosmini.ros.launch.testing import run_tests

@@ -1,4 +1,4 @@
-"""Values of messages on a command line or on standard input, as YAML: for ``rostopic pub`` and ``rosservice call``."""
+"""Message values in YAML on a command line or standard input, for ``rostopic pub`` and ``rosservice call``."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class WrongYaml(RosminiError):
-    """A text is no YAML."""
+    """A text is not valid YAML."""
 
 
 def parse(text: str) -> Any:
@@ -23,7 +23,7 @@ def parse(text: str) -> Any:
 
 
 def documents_of(text: str, source: str) -> Iterator[Any]:
-    """Yield the values of the documents in a YAML text; ``source`` is what errors call it. Raises ``WrongYaml``."""
+    """Yield the values of the documents in a YAML text; errors name ``source``. Raises ``WrongYaml``."""
     from rosmini.core.yaml_text import documents
 
     def failure(message: str, where: str, line: int | None) -> WrongYaml:
@@ -34,7 +34,7 @@ def documents_of(text: str, source: str) -> Iterator[Any]:
 
 
 def typed(call: Call) -> Iterator[Any]:
-    """Yield the values that come on standard input, each ended by ---; what is no YAML is warned of."""
+    """Yield the values on standard input, each ended by ---; warn of invalid YAML."""
     read, text = call.read_line, ""
     while read is not None and (line := call.graph.scheduler.in_thread(read)):
         if line.strip() != "---":
@@ -51,19 +51,19 @@ def typed(call: Call) -> Iterator[Any]:
 
 
 def listed(value: Any) -> list[Any]:
-    """Return a value as the list of arguments that it stands for."""
+    """Return a value as a list of arguments."""
     return value if isinstance(value, list) else [value]
 
 
 def fields_of(message: Any) -> str:
-    """Return the names of the fields of a message or of a class, as one line."""
+    """Return the field names of a message or a class, on one line."""
     from rosmini.ros.rospy.aliases.genpy.message import get_printable_message_args
 
     return get_printable_message_args(message() if isinstance(message, type) else message)
 
 
 def fill(message: Any, values: list[Any], now: Time) -> None:
-    """Fill a message; the text ``now`` stands for a time, and ``auto`` for a header with it.
+    """Fill a message; the text ``now`` means a time, and ``auto`` a header with that time.
 
     Raises ``MessageException`` and ``ValueError`` for values that do not fit.
     """

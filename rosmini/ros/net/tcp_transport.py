@@ -58,7 +58,7 @@ class NetworkPort(Protocol):
 
 
 class TcpTransport:
-    """TCPROS transport; a node has one port for its slave API and one for topics and services, as roscpp requires."""
+    """TCPROS transport; each node has one port for its slave API and one for topics and services, as roscpp needs."""
 
     protocol = "TCPROS"
 

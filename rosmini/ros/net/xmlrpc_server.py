@@ -1,4 +1,4 @@
-"""A server of XML-RPC: the Master's API, the Parameter Server's, and each node's slave API."""
+"""XML-RPC server for the Master's API, the Parameter Server's, and each node's slave API."""
 
 from __future__ import annotations
 
@@ -27,41 +27,41 @@ if TYPE_CHECKING:
     Handler = Callable[[str, tuple[Any, ...]], Any | Awaitable[Any]]
 
 PAUSE_S = 1.0
-"""How long no connection is accepted after the machine has refused one."""
+"""How long no connection is accepted after the system has refused one [s]."""
 
 FIRST_S = 30.0
-"""How long the first call of a connection may take to arrive."""
+"""How long the first call of a connection may take to arrive [s]."""
 
 IDLE_S = 300.0
-"""How long each later one, and the reading of an answer, may take before the connection is closed."""
+"""How long each later call, and reading an answer, may take before the connection is closed [s]."""
 
 WAITING = 256
-"""How many connections may be silent; beyond that, the one that has been for the longest is closed."""
+"""Maximum number of idle connections; beyond that, the one idle for the longest is closed."""
 
 CLIENTS = 1_000
-"""How many clients' mistakes are logged, once each."""
+"""Maximum number of clients whose faults are logged, once each."""
 
 
 class EncodedAnswer(bytes):
-    """The document of an answer, which a handler has encoded itself."""
+    """Document of an answer that a handler has encoded itself."""
 
 
 class XmlRpcServer:
-    """Answers calls at a port of this machine, from when it is made; requests that a web page can send are refused.
+    """Answers calls at a port of this machine from its creation on; requests that a web page can send are refused.
 
     Args:
         io: the thread that reads and writes.
         handler: called in that thread with a method's name and the arguments; returns the value, an
-            :class:`EncodedAnswer`, or an awaitable for one of them. It must not block. An :class:`XmlRpcFault` that it
+            :class:`EncodedAnswer`, or an awaitable of either. It must not block. An :class:`XmlRpcFault` that it
             raises is answered as such, any other exception as fault 1, as rospy does.
-        bind: the address at which to listen; "" or "0.0.0.0": all of the machine's.
-        port: 0 for any that is free.
-        names: the names and addresses that the user gave this machine; see
+        bind: the address to listen on; "" or "0.0.0.0": all addresses of the machine.
+        port: 0 for any free port.
+        names: names and addresses that the user gave this machine; see
             :class:`~rosmini.ros.net.request_check.RequestCheck`.
-        warn: called in that thread with a client's host and what is wrong with its request: once for each host's
+        warn: called in that thread with a client's host and the fault of its request: once for each host's
             refused requests, and once for those that are not XML-RPC.
 
-    Raises ``OSError`` at once when the port is in use or the address is not the machine's.
+    Raises ``OSError`` at once if the port is in use or the address is not the machine's.
 
     """
 
@@ -84,10 +84,10 @@ class XmlRpcServer:
         self._warned: set[tuple[str, bool]] = set()
         self._tasks: set[asyncio.Task[None]] = set()
         self._waiting: dict[asyncio.Task[None], None] = {}
-        """Those that wait for a call, the oldest first."""
+        """Tasks that wait for a call, the oldest first."""
         self._closed = False
         self.caller = ""
-        """The address from which the call came that the handler is answering."""
+        """Address of the client whose call the handler is answering."""
         io.call(self._begin)
 
     def _begin(self) -> None:
@@ -98,7 +98,7 @@ class XmlRpcServer:
             self._socket.close()
 
     def close(self) -> None:
-        """Stop listening, and close all connections. From any thread; harmless when repeated."""
+        """Stop listening and close all connections; may be called repeatedly and from any thread."""
         if not self._closed:
             self._closed = True
             if self._io.runs:
@@ -118,7 +118,7 @@ class XmlRpcServer:
             sock, peer = self._socket.accept()
         except (BlockingIOError, InterruptedError, ConnectionAbortedError):
             return
-        except OSError:  # no descriptors are left: those who wait are taken later
+        except OSError:  # no descriptors are left: accept the connection later
             loop = asyncio.get_running_loop()
             loop.remove_reader(self._socket)
             loop.call_later(PAUSE_S, self._begin)
@@ -130,7 +130,7 @@ class XmlRpcServer:
 
     def _forget(self, sock: socket.socket, task: asyncio.Task[None]) -> None:
         self._tasks.discard(task)
-        sock.close()  # for one whose task was ended before it began
+        sock.close()  # for a task that was ended before it began
 
     async def _serve(self, sock: socket.socket, host: str) -> None:
         """Answer the calls of one connection, one after another."""
@@ -156,7 +156,7 @@ class XmlRpcServer:
         host: str,
         patience: float,
     ) -> bool:
-        """Answer the next call; return whether a further one may come."""
+        """Answer the next call; return True if another one may follow."""
         document = Document()
         try:
             with self._its_turn():
@@ -178,7 +178,7 @@ class XmlRpcServer:
         return connection.our_state is h11.DONE and connection.their_state is h11.DONE
 
     def _complain(self, host: str, error: Exception) -> None:
-        """Log what is wrong with a client's request, unless that was logged before."""
+        """Log the fault of a client's request, unless it was logged before."""
         cause = (host, isinstance(error, Refused))
         if self._warn is not None and cause not in self._warned and len(self._warned) < CLIENTS:
             self._warned.add(cause)
@@ -186,7 +186,7 @@ class XmlRpcServer:
 
     @contextmanager
     def _its_turn(self) -> Iterator[None]:
-        """Count this task among those that wait for a call; too many of them are closed, the oldest first."""
+        """Register this task as waiting for a call; if there are too many, the oldest are closed."""
         task = cast("asyncio.Task[None]", asyncio.current_task())
         self._waiting[task] = None
         if len(self._waiting) > WAITING:
@@ -213,14 +213,14 @@ class XmlRpcServer:
 
 
 def _status(error: Exception) -> int:
-    """Return the status with which an error is answered."""
+    """Return the HTTP status for an error."""
     if isinstance(error, Refused):
         return error.status
     return int(getattr(error, "error_status_hint", HTTPStatus.BAD_REQUEST))
 
 
 def _response(status: int, reason: str, body: bytes) -> h11.Response:
-    """Return the head of an answer. The reason is what ROS's own clients show of a refusal."""
+    """Return the head of an answer; ROS's clients show the reason of a refusal."""
     fields = [
         ("Server", "rosmini"),
         ("Content-Type", "text/xml" if status == HTTPStatus.OK else "text/plain; charset=utf-8"),

@@ -1,4 +1,4 @@
-"""XML-RPC documents: calls and answers as text. Parsing one takes memory in proportion to its length.
+"""XML-RPC documents: calls and answers as text. Parsing needs memory in proportion to the length.
 
 See http://wiki.ros.org/ROS/Master_API and http://xmlrpc.com/spec.md.
 """
@@ -15,20 +15,20 @@ from defusedxml.xmlrpc import DefusedExpatParser
 from rosmini.core.errors import TransportException
 
 NOT_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
-"""Characters that no XML document can hold."""
+"""Characters that an XML document cannot contain."""
 
 ANSWER_HEAD = b"<?xml version='1.0'?>\n<methodResponse>\n<params>\n<param>\n"
 ANSWER_TAIL = b"</param>\n</params>\n</methodResponse>\n"
 PARAMS_HEAD, PARAMS_TAIL = "<params>\n<param>\n", "</param>\n</params>\n"
-"""What Python's own encoder writes around a value."""
+"""Text that Python's own encoder writes around a value."""
 LIST_HEAD, LIST_TAIL = b"<value><array><data>\n", b"</data></array></value>\n"
 
 DEEPEST = 100
-"""How many elements of a document may be inside one another: three for a level of a list, five for one of a struct."""
+"""Maximum nesting of a document's elements: three per level of a list, five per level of a struct."""
 
 
 class XmlRpcFault(TransportException):
-    """The peer answered that the call went wrong there."""
+    """The peer answered with a fault."""
 
     def __init__(self, code: int, text: str) -> None:
         super().__init__(f"the call went wrong there: {text}")
@@ -37,27 +37,27 @@ class XmlRpcFault(TransportException):
 
 
 class _Values(xmlrpc.client.Unmarshaller):
-    """Makes values of a document; what is nested so deeply that no caller could go through it is refused."""
+    """Decodes the values of a document; refuses nesting too deep for callers to traverse."""
 
     def __init__(self) -> None:
         super().__init__(use_builtin_types=True)
         self._depth = 0
 
     def start(self, tag: str, attrs: Any) -> None:
-        """Begin an element."""
+        """Handle the start of an element."""
         self._depth += 1
         if self._depth > DEEPEST:
             raise TransportException(f"the document has more than {DEEPEST} levels of elements")
         super().start(tag, attrs)
 
     def end(self, tag: str) -> None:
-        """End an element."""
+        """Handle the end of an element."""
         self._depth -= 1
         super().end(tag)
 
 
 class _Parser(DefusedExpatParser):
-    """Passes on a text in large pieces; one for each line and entity of it would take nine times its memory."""
+    """Passes on text in large pieces; one for each line and entity would take nine times the memory."""
 
     def __init__(self, target: _Values, *, forbid_dtd: bool) -> None:
         super().__init__(target, forbid_dtd=forbid_dtd)
@@ -73,7 +73,7 @@ def _document(text: str) -> bytes:
 
 
 def encode_call(method: str, arguments: tuple[Any, ...]) -> bytes:
-    """Return the document of a call. Raises ``TransportException`` for a value that XML-RPC does not have."""
+    """Return the document of a call. Raises ``TransportException`` for a value that XML-RPC cannot represent."""
     try:
         return _document(xmlrpc.client.dumps(arguments, method))
     except (TypeError, OverflowError, RecursionError) as error:
@@ -81,17 +81,17 @@ def encode_call(method: str, arguments: tuple[Any, ...]) -> bytes:
 
 
 def encode_answer(value: Any) -> bytes:
-    """Return the document of an answer. Raises ``TransportException`` for a value that XML-RPC does not have."""
+    """Return the document of an answer. Raises ``TransportException`` for a value that XML-RPC cannot represent."""
     return b"".join((ANSWER_HEAD, encode_value(value), ANSWER_TAIL))
 
 
 def encode_answers(values: list[bytes]) -> bytes:
-    """Return the document of an answer that is a list, of elements that :func:`encode_value` has encoded."""
+    """Return the document of an answer that is a list of elements encoded by :func:`encode_value`."""
     return b"".join((ANSWER_HEAD, LIST_HEAD, *values, LIST_TAIL, ANSWER_TAIL))
 
 
 def encode_value(value: Any) -> bytes:
-    """Return the element of a value. Raises ``TransportException`` for a value that XML-RPC does not have."""
+    """Return the element of a value. Raises ``TransportException`` for a value that XML-RPC cannot represent."""
     try:
         document = xmlrpc.client.dumps((value,))
     except (TypeError, OverflowError, RecursionError) as error:
@@ -100,14 +100,14 @@ def encode_value(value: Any) -> bytes:
 
 
 def encode_fault(code: int, text: str) -> bytes:
-    """Return the document that says that a call went wrong."""
+    """Return the document of a fault."""
     return _document(xmlrpc.client.dumps(xmlrpc.client.Fault(code, NOT_XML.sub("?", text))))
 
 
 def decode(document: bytes) -> tuple[tuple[Any, ...], str | None]:
     """Return the values of a document, and the method's name if it is a call.
 
-    Raises :class:`XmlRpcFault` for an answer that says so, and ``TransportException`` for what is not XML-RPC.
+    Raises :class:`XmlRpcFault` for a fault, and ``TransportException`` for a document that is not XML-RPC.
     """
     parsed = Document()
     parsed.feed(document)
@@ -123,15 +123,15 @@ class Document:
         self._error: Exception | None = None
 
     def feed(self, chunk: bytes) -> None:
-        """Parse the next chunk. An error waits for :meth:`close`; what follows it is dropped."""
+        """Parse the next chunk; an error is raised by :meth:`close`, and further chunks are ignored."""
         if self._error is None:
             try:
                 self._parser.feed(chunk)
-            except Exception as error:  # the parser lets out ExpatError, ValueError, IndexError, KeyError ...
+            except Exception as error:  # the parser raises ExpatError, ValueError, IndexError, KeyError ...
                 self._error = error
 
     def close(self) -> tuple[tuple[Any, ...], str | None]:
-        """Return what :func:`decode` returns of the whole document, or raise as it does."""
+        """Return the result of :func:`decode` for the whole document, or raise its errors."""
         try:
             if self._error is not None:
                 raise self._error

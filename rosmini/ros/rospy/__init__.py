@@ -1,8 +1,8 @@
 """The module that scripts import as ``rospy``: http://wiki.ros.org/rospy.
 
-Names, signatures and behaviour are those of rospy 1.15 (Noetic). Which node a call means follows from the lane that
-makes it, see :mod:`rosmini.ros.rospy.session`; so several scripts, each with its node, run in one process. After
-:func:`rosmini.install` a plain program or a notebook can ``import rospy``; scripts run by rosmini can always.
+Names, signatures and behaviour are those of rospy 1.15 (Noetic). The lane that makes a call determines the node, see
+:mod:`rosmini.ros.rospy.session`; so several scripts, each with its node, run in one process. After
+:func:`rosmini.install` a program or a notebook can ``import rospy``; scripts run by rosmini always can.
 """
 
 from __future__ import annotations
@@ -172,7 +172,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Say where else rospy has what it has not here, or what has nearly this name."""
+    """Raise an error that says where rospy has a name that is missing here, or suggests a similar one."""
     if name.startswith("__"):
         raise AttributeError(f"module 'rospy' has no attribute '{name}'", name=name)
     if name == "impl":

@@ -1,4 +1,4 @@
-"""Modules of ROS that scripts import and rosmini does not have: what each is, and what to write instead."""
+"""Modules of ROS that scripts import but rosmini lacks: their purpose, and alternatives."""
 
 from __future__ import annotations
 
@@ -161,17 +161,17 @@ _ABSENT = {
     ),
     "urdf_parser_py": ("reads URDF", "read it with rosmini.sim.urdf"),
 }
-"""What a module does, and what to do instead, by its name."""
+"""Purpose of each module, and the alternative, by name."""
 
 
 class AbsentModule(RosminiError, ModuleNotFoundError):
-    """A module of ROS that rosmini does not have."""
+    """A module of ROS that rosmini lacks."""
 
 
 def absent_module(name: str) -> AbsentModule | None:
-    """Return the error for an import of ``name``, a module or one within it.
+    """Return the error for an import of ``name``, a module or a submodule.
 
-    None for what is no module of ROS that is known to be absent.
+    Return None if it is not a ROS module known to be absent.
     """
     parts = name.split(".")
     known = next(

@@ -1,4 +1,4 @@
-"""``rospy.init_node`` and what is around a node: http://wiki.ros.org/rospy/Overview/Initialization%20and%20Shutdown."""
+"""``rospy.init_node`` and what is around it: http://wiki.ros.org/rospy/Overview/Initialization%20and%20Shutdown."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ _unspecified = _Unspecified()
 
 
 class _Arguments(NamedTuple):
-    """The arguments of ``init_node`` that have to be the same in a second call."""
+    """The arguments of ``init_node`` that must be the same in a second call."""
 
     name: str
     argv: list[str]
@@ -63,7 +63,7 @@ class _Arguments(NamedTuple):
 
 
 def myargv(argv: Sequence[str] | None = None) -> list[str]:
-    """Return the arguments without ROS's remappings; ``sys.argv`` if ``argv`` is not given."""
+    """Return the arguments without ROS's remappings; ``sys.argv`` by default."""
     return Remappings.other_arguments(sys.argv if argv is None else argv)
 
 
@@ -85,10 +85,10 @@ def init_node(
 
     Args:
         name: its base name, without '/'.
-        argv: command-line arguments with remappings; ``sys.argv`` if not given.
-        anonymous: append a number to the name, so that many nodes may start from one script.
-        log_level: ``rospy.DEBUG`` ... ``rospy.FATAL``: what is logged.
-        disable_rostime: accepted, as scripts give it; without effect here, like all that follow.
+        argv: command-line arguments with remappings; ``sys.argv`` by default.
+        anonymous: append a number to the name, so that one script can start many nodes.
+        log_level: lowest level that is logged: ``rospy.DEBUG`` ... ``rospy.FATAL``.
+        disable_rostime: accepted for compatibility; without effect, like all that follow.
         disable_rosout: without effect.
         disable_signals: without effect.
         xmlrpc_port: without effect.
@@ -145,7 +145,7 @@ def _start(session: Session, arguments: _Arguments) -> Node:
 
 
 def _introduce(context: Any, node: Node) -> None:
-    """Tell the script's runner which node it has."""
+    """Tell the script's runner about its node."""
     context.node = node
     node.process = getattr(context, "process", None)
     set_node_name: Callable[[str], object] | None = getattr(context, "set_node_name", None)
@@ -183,9 +183,9 @@ def _second_call(session: Session, arguments: _Arguments) -> str:
 
 
 def spin() -> None:
-    """Block until the node is shut down; callbacks go on meanwhile.
+    """Block until the node is shut down, while callbacks run.
 
-    Raises ``ROSInitException`` before ``init_node``, and ``ROSException`` in a plain cell of a notebook, which would
+    Raises ``ROSInitException`` before ``init_node``, and ``ROSException`` in a normal notebook cell, which would
     never end.
     """
     node, session = current_node(), current_session()
@@ -209,7 +209,7 @@ def spin() -> None:
 
 
 def on_shutdown(h: Callable[[], object]) -> None:
-    """Call ``h()`` when the node shuts down, while it can still publish; at once if it is down already.
+    """Call ``h()`` when the node shuts down, while it can still publish; at once if it is already shut down.
 
     Raises ``TypeError``.
     """
@@ -222,15 +222,15 @@ def get_master(env: Any = None) -> MasterProxy:  # noqa: ARG001 - rospy's signat
 
 
 def get_published_topics(namespace: str = "/") -> list[list[str]]:
-    """Return ``[topic, type]`` pairs of what is published under ``namespace``."""
+    """Return ``[topic, type]`` pairs of the published topics under ``namespace``."""
     return published_topics(namespace)
 
 
 def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration | None = None) -> Any:
-    """Block until one message arrives on ``topic`` and return it.
+    """Block until a message arrives on ``topic`` and return it.
 
     Raises ``ROSException`` after ``timeout`` seconds, ``ROSInterruptException`` at shutdown, ``ROSInitException``
-    before ``init_node`` and ``ValueError`` for what is no name or no message class.
+    before ``init_node`` and ``ValueError`` for an invalid name or message class.
     """
     node = require_node(f"waiting for a message on {topic}")
     check_message_class(topic_type)
@@ -259,9 +259,9 @@ def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration
 
 
 def get_param(param_name: str, default: Any = _unspecified) -> Any:
-    """Return a parameter's value, or ``default`` if it is not set; a tree of them as a dictionary.
+    """Return a parameter's value, or ``default`` if it is not set; a namespace is a dictionary.
 
-    Bytes come as an ``xmlrpc.client.Binary``, as in rospy. Raises ``KeyError``.
+    Bytes are returned as an ``xmlrpc.client.Binary``, as in rospy. Raises ``KeyError``.
     """
     node = any_node()
     found = node.get_param(param_name) if default is _unspecified else node.get_param(param_name, default)
@@ -279,7 +279,7 @@ def _with_binaries(value: Any) -> Any:
 
 
 def get_param_cached(param_name: str, default: Any = _unspecified) -> Any:
-    """Do what ``get_param`` does: the Parameter Server is so near that nothing needs to be kept.
+    """Return what ``get_param`` returns: the Parameter Server is so fast that no cache is needed.
 
     Raises ``KeyError``.
     """
@@ -292,12 +292,12 @@ def get_param_names() -> list[str]:
 
 
 def set_param(param_name: str, param_value: Any) -> None:
-    """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
+    """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for a value that ROS cannot store."""
     any_node().set_param(param_name, param_value)
 
 
 def search_param(param_name: str) -> str | None:
-    """Return the full name of the nearest parameter of this name upwards from the node, or None."""
+    """Return the full name of the nearest parameter with this name upwards from the node, or None."""
     return get_master().search_param(param_name)
 
 
@@ -307,5 +307,5 @@ def delete_param(param_name: str) -> None:
 
 
 def has_param(param_name: str) -> bool:
-    """Return whether a parameter, or a tree of them, is set."""
+    """Return True if a parameter, or a tree of them, is set."""
     return any_node().has_param(param_name)

@@ -1,4 +1,4 @@
-"""What rospy keeps in ``rospy.core``: log functions, the state of the node, shutdown."""
+"""The module ``rospy.core``: log functions, the state of the node, shutdown."""
 
 from __future__ import annotations
 
@@ -53,11 +53,11 @@ logerror = logerr
 rospydebug, rospyinfo, rospywarn, rospyerr = (internally(level) for level in (DEBUG, INFO, WARN, ERROR))
 
 TICKS_PER_LOOK = 10
-"""A loop that polls ``is_shutdown`` alone takes a few microseconds a turn."""
+"""Ticks between checks, for a loop that only polls ``is_shutdown``: a turn takes a few microseconds."""
 
 
 class ParameterInvalid(RosminiError):
-    """An argument of a call across the wire is not what it should be."""
+    """An argument of a remote call is invalid."""
 
 
 def parse_rosrpc_uri(uri: str) -> tuple[str, int]:
@@ -71,7 +71,7 @@ def parse_rosrpc_uri(uri: str) -> tuple[str, int]:
 
 
 def get_ros_root(required: bool = False, env: Any = None) -> str | None:
-    """Return the environment's ``ROS_ROOT``, which nothing needs any more. Raises ``ROSException`` if ``required``."""
+    """Return the environment's ``ROS_ROOT``, which is no longer used. Raises ``ROSException`` if ``required``."""
     found: str | None = (os.environ if env is None else env).get("ROS_ROOT")
     if required and found is None:
         raise ROSException("ROS_ROOT is not set")
@@ -85,12 +85,12 @@ def get_node_uri() -> str | None:
 
 
 def xmlrpcapi(uri: str | None, cache: bool = True) -> SlaveProxy | None:  # noqa: ARG001 - as in ROS
-    """Return what calls the slave API of the node at ``uri``; None for what is not an http address."""
+    """Return a proxy for the slave API of the node at ``uri``; None if it is not an http address."""
     return SlaveProxy(uri) if uri is not None and SlaveProxy.accepts(uri) else None
 
 
 def is_initialized() -> bool:
-    """Return whether the caller has a node."""
+    """Return True if the caller has a node."""
     return current_node() is not None
 
 
@@ -98,7 +98,7 @@ def is_initialized() -> bool:
 
 
 def is_shutdown() -> bool:
-    """Return whether the node was shut down; false before ``init_node``."""
+    """Return True if the node was shut down; False before ``init_node``."""
     node = current_node()
     if node is None:
         return current_session().is_shutdown()
@@ -107,14 +107,14 @@ def is_shutdown() -> bool:
 
 
 def is_shutdown_requested() -> bool:
-    """Return whether the shutdown has begun: true also while the ``on_shutdown`` hooks run."""
+    """Return True if the shutdown has begun, including while the ``on_shutdown`` hooks run."""
     node = current_node()
     reason = current_session().shutdown_reason if node is None else node.shutdown_reason
     return reason is not None
 
 
 def signal_shutdown(reason: str) -> None:
-    """Shut the node down: ``on_shutdown`` hooks run first, then blocked calls end. Harmless when repeated."""
+    """Shut the node down: ``on_shutdown`` hooks run first, then blocked calls end. May be called repeatedly."""
     session, node = current_session(), current_node()
     if node is None or node is session.node:
         session.shutdown(str(reason))
@@ -123,7 +123,7 @@ def signal_shutdown(reason: str) -> None:
 
 
 def add_client_shutdown_hook(h: Callable[[], object]) -> None:
-    """Call ``h()`` when the node shuts down, while it can still publish; at once if it is down already.
+    """Call ``h()`` when the node shuts down, while it can still publish; at once if it is already shut down.
 
     Raises ``TypeError`` if ``h`` cannot be called.
     """

@@ -1,7 +1,7 @@
-"""``import rospy``: our modules under the names that scripts use.
+"""Makes rosmini's modules importable under the names that scripts use: ``import rospy``.
 
-Scripts run by rosmini are given :func:`modules`, and ``sys.modules`` is left alone. :func:`install` is for everything
-else.
+Scripts run by rosmini get :func:`modules`, and ``sys.modules`` is not changed. :func:`install` is for all
+other programs.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _ALIASES = {
     "tf2_ros": "buffer_client buffer_interface buffer_server",
     "tf2_sensor_msgs": "",
 }
-"""The packages of `rosmini.ros.rospy.aliases`, and the modules in them that are files of their own."""
+"""Packages of `rosmini.ros.rospy.aliases`, with those of their modules that are separate files."""
 _THE_SAME = {
     "actionlib": "action_client action_server exceptions goal_id_generator handle_tracker_deleter server_goal_handle "
     "simple_action_client simple_action_server status_tracker",
@@ -88,11 +88,11 @@ _HOMES = {
     "tf.srv": "rosmini.msgs.tf.srv",
     "tf.transformations": "rosmini.core.tf.transformations",
 }
-"""Where each module really is, by the name under which scripts import it."""
+"""Actual location of each module, by the name under which scripts import it."""
 
 
 def homes() -> dict[str, str]:
-    """Return where each module really is, by the name under which scripts import it."""
+    """Return the actual location of each module, by the name under which scripts import it."""
     return dict(_HOMES)
 
 
@@ -102,7 +102,7 @@ def modules() -> dict[str, ModuleType]:
 
 
 class _AliasLoader(Loader):
-    """Gives the module that exists already, so that ``rospy.msg`` and ``rosmini.ros.rospy.msg`` are one object."""
+    """Loads the existing module, so that ``rospy.msg`` and ``rosmini.ros.rospy.msg`` are the same object."""
 
     def __init__(self, home: str) -> None:
         self._home = home
@@ -114,12 +114,12 @@ class _AliasLoader(Loader):
         return module
 
     def exec_module(self, module: ModuleType) -> None:
-        """Undo what the import system wrote into the module: it keeps its own name."""
+        """Undo what the import system wrote into the module, so that it keeps its own name."""
         module.__spec__ = self._spec
 
 
 class _AliasFinder(MetaPathFinder):
-    """Finds our modules under the names that scripts use."""
+    """Finds rosmini's modules under the names that scripts use."""
 
     def __init__(self, *, shadow: bool) -> None:
         self.shadow = shadow
@@ -130,7 +130,7 @@ class _AliasFinder(MetaPathFinder):
         path: Sequence[str] | None,  # noqa: ARG002 - the protocol's signature
         target: ModuleType | None = None,  # noqa: ARG002
     ) -> ModuleSpec | None:
-        """As :meth:`importlib.abc.MetaPathFinder.find_spec`."""
+        """Implement :meth:`importlib.abc.MetaPathFinder.find_spec`."""
         home = _HOMES.get(fullname)
         if home is None or not (self.shadow or not ros_is_installed()):
             return None
@@ -138,7 +138,7 @@ class _AliasFinder(MetaPathFinder):
 
 
 class _AbsentFinder(MetaPathFinder):
-    """Comes when all others have failed: says what to do without a module of ROS that rosmini does not have."""
+    """Runs after all other finders: raises an error with an alternative for ROS modules that rosmini lacks."""
 
     def find_spec(
         self,
@@ -146,7 +146,7 @@ class _AbsentFinder(MetaPathFinder):
         path: Sequence[str] | None,  # noqa: ARG002 - the protocol's signature
         target: ModuleType | None = None,  # noqa: ARG002
     ) -> ModuleSpec | None:
-        """As :meth:`importlib.abc.MetaPathFinder.find_spec`. Raises ``AbsentModule``."""
+        """Implement :meth:`importlib.abc.MetaPathFinder.find_spec`. Raises ``AbsentModule``."""
         error = absent_module(fullname)
         if error is not None:
             raise error
@@ -154,16 +154,16 @@ class _AbsentFinder(MetaPathFinder):
 
 
 def ros_is_installed() -> bool:
-    """Return whether Python finds the real rospy by itself."""
+    """Return True if Python finds the real rospy without rosmini."""
     found = PathFinder.find_spec("rospy", sys.path)
     return found is not None and found.origin is not None
 
 
 def install(*, shadow: bool = False) -> None:
-    """Let ``import rospy`` and ``from std_msgs.msg import String`` find what is in rosmini.
+    """Make rosmini's modules available to ``import rospy`` and ``from std_msgs.msg import String``.
 
-    ``rospy``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and the messages of every ROS package that can be
-    found. Where a real ROS is installed it wins, unless ``shadow`` is true. A second call changes ``shadow``.
+    It covers ``rospy``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and the messages of every ROS package that is
+    found. An installed ROS takes precedence, unless ``shadow`` is true. A second call changes ``shadow``.
     """
     uninstall()
     msgs.install(shadow=shadow)
@@ -172,7 +172,7 @@ def install(*, shadow: bool = False) -> None:
 
 
 def uninstall() -> None:
-    """Undo :func:`install`: forget the finders and the modules that came through them."""
+    """Undo :func:`install`: remove the finders and the modules imported through them."""
     ours = (_AliasFinder, _AbsentFinder)
     sys.meta_path[:] = [finder for finder in sys.meta_path if not isinstance(finder, ours)]
     for name, home in _HOMES.items():
@@ -182,15 +182,15 @@ def uninstall() -> None:
 
 
 def installed() -> bool:
-    """True between :func:`install` and :func:`uninstall`."""
+    """Return True between :func:`install` and :func:`uninstall`."""
     return any(isinstance(finder, _AliasFinder) for finder in sys.meta_path)
 
 
 @contextmanager
 def importable() -> Iterator[None]:
-    """Let ROS's modules be imported by their names inside, if they cannot be already.
+    """Make ROS's modules importable by their names within the block, if they are not already.
 
-    Plugins of the Navigation Stack find this by the entry point `rosmini.imports`.
+    Plugins of the Navigation Stack find this function through the entry point `rosmini.imports`.
     """
     is_mine = not installed()
     if is_mine:

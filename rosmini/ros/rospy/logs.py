@@ -1,4 +1,4 @@
-"""``rospy.loginfo`` and its relatives: http://wiki.ros.org/rospy/Overview/Logging."""
+"""``rospy.loginfo`` and related functions: http://wiki.ros.org/rospy/Overview/Logging."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from .session import current_node, current_session, require_node
 DEBUG, INFO, WARN, ERROR, FATAL = (LEVELS[name] for name in ("DEBUG", "INFO", "WARN", "ERROR", "FATAL"))
 
 KEYWORDS = frozenset({"logger_name", "exc_info", "stack_info", "stacklevel", "extra"})
-"""What Python's ``logging``, on which rospy's log calls are built, takes beside the text and its arguments."""
+"""Keyword arguments of Python's ``logging``, on which rospy's log calls are based."""
 
 
 class LogFunction(Protocol):
-    """``rospy.loginfo(msg, *args, **kwargs)`` and its like."""
+    """Type of ``rospy.loginfo(msg, *args, **kwargs)`` and similar functions."""
 
     def __call__(self, msg: Any, *args: Any, **kwargs: Any) -> None:
         """Log."""
 
 
 class ThrottledLogFunction(Protocol):
-    """``rospy.loginfo_throttle(period, msg, *args, **kwargs)`` and its like."""
+    """Type of ``rospy.loginfo_throttle(period, msg, *args, **kwargs)`` and similar functions."""
 
     def __call__(self, period: float, msg: Any, *args: Any, **kwargs: Any) -> None:
-        """Log, if it is time."""
+        """Log, if the period has passed."""
 
 
 def log(level: int, text: Any, args: tuple[Any, ...], options: dict[str, Any], base: str = "rosout") -> None:
-    """Log ``text % args``. Before ``init_node`` only warnings are shown, plainly, on standard error, as in rospy.
+    """Log ``text % args``. Before ``init_node`` only warnings are shown, on standard error, as in rospy.
 
-    ``base`` is the logger, or the one above that of the option ``logger_name``.
+    ``base`` is the logger, or the parent of the one in the option ``logger_name``.
 
     Raises ``TypeError`` for an unknown option.
     """
@@ -59,7 +59,7 @@ def log(level: int, text: Any, args: tuple[Any, ...], options: dict[str, Any], b
 
 
 def _call_handlers(level: int, text: str, name: str) -> None:
-    """Call the handlers that the script has added to Python's logger ``name`` or above, such as ``rosout``."""
+    """Call the handlers that the script has added to Python's logger ``name`` or its parents, such as ``rosout``."""
     importer = getattr(current_session().context, "importer", None)
     # A script has a logging of its own, once it has imported it.
     logging = sys.modules.get("logging") if importer is None else importer.private.get("logging")
@@ -106,7 +106,7 @@ def _trace(exc_info: Any) -> str:
 
 
 def _caller(depth: int) -> FrameType:
-    """Return the frame of the code that called the log function: the first one outside this package."""
+    """Return the frame that called the log function: the first one outside this package."""
     frame = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
     while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
         frame = frame.f_back
@@ -114,13 +114,13 @@ def _caller(depth: int) -> FrameType:
 
 
 def place() -> tuple[str, int, int]:
-    """Return where in the user's code a log call stands."""
+    """Return the location of a log call in the user's code."""
     frame = _caller(1)
     return frame.f_code.co_filename, frame.f_lineno, frame.f_lasti
 
 
 def is_due(where: Any, period: float) -> bool:
-    """Return whether ``period`` seconds of the node's time have passed since this line logged last.
+    """Return True if ``period`` seconds of the node's time have passed since this line last logged.
 
     Raises ``ROSInitException`` before ``init_node``, as rospy does.
     """
@@ -129,17 +129,17 @@ def is_due(where: Any, period: float) -> bool:
 
 
 def is_new(where: Any, text: Any) -> bool:
-    """Return whether this line logs another text than last time."""
+    """Return True if this line logs another text than last time."""
     return current_session().log_gates.is_new(where, str(text))
 
 
 def is_first(where: Any) -> bool:
-    """Return whether this line logs for the first time."""
+    """Return True if this line logs for the first time."""
     return current_session().log_gates.is_first(where)
 
 
 def warn_once(text: str) -> None:
-    """Log a warning of rosmini's own, the first time only that the script causes this text."""
+    """Log a warning of rosmini, but only the first time that the script causes this text."""
     if is_first(text):
         log(WARN, text, (), {})
 

@@ -1,4 +1,4 @@
-"""The ``main`` functions of ROS's modules, such as ``rostopic.rostopicmain``: command lines that a script runs."""
+"""The ``main`` functions of ROS's modules, such as ``rostopic.rostopicmain``: command lines run by a script."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ GROUP = "rosmini.tools"
 
 
 def run_tool(name: str, argv: Sequence[str] | None) -> None:
-    """Do what a command line says, ``sys.argv`` if it is None, on the graph that runs the script, and print it.
+    """Run a command line (``sys.argv`` if None) on the graph that runs the script, and print the result.
 
     Raises ``SystemExit`` with the exit status if that is not 0.
     """

@@ -1,4 +1,4 @@
-"""Messages as rospy handles them: of any type, and made from the arguments of ``publish``."""
+"""Messages in rospy's style: of any type, and made from the arguments of ``publish``."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
 
 class AnyMsg(Message):
-    """A message of any type, as the bytes that came over the wire, in ``_buff``.
+    """A message of any type, as received bytes in ``_buff``.
 
-    A subscriber with this type takes every topic; ``_connection_header['type']`` of what it receives says which type it
-    is.
+    A subscriber with this type accepts every topic; ``_connection_header['type']`` of a received message gives its
+    type.
     """
 
     __slots__ = ("_buff",)
@@ -33,13 +33,13 @@ class AnyMsg(Message):
         self._buff: bytes | None = None
 
     def serialize(self, buff: BytesIO) -> None:
-        """Write the bytes. Raises ``ROSException`` if there are none yet."""
+        """Write the bytes. Raises ``ROSException`` if no bytes were received."""
         if self._buff is None:
             raise ROSException("this AnyMsg holds nothing: deserialize() bytes into it first")
         buff.write(self._buff)
 
     def deserialize(self, str: bytes) -> Self:
-        """Take the bytes as they are."""
+        """Store the bytes unchanged."""
         self._buff = bytes(str)
         return self
 
@@ -58,7 +58,7 @@ class AnyMsg(Message):
 
     @classmethod
     def received(cls, frozen: Any) -> AnyMsg:
-        """Return what a subscriber of any type gets for a frozen message."""
+        """Return the message that a subscriber of any type receives for a frozen message."""
         return cls().deserialize(type(frozen)._encode(frozen))
 
 
@@ -69,10 +69,10 @@ def _restore_any(data: bytes | None) -> AnyMsg:
 
 
 def args_kwds_to_message(data_class: Any, args: tuple[Any, ...], kwds: dict[str, Any]) -> Any:
-    """Return the message that ``publish(*args, **kwds)`` means.
+    """Return the message for ``publish(*args, **kwds)``.
 
-    A message of ``data_class``, or of another type with its md5 sum, is taken as it is; else the arguments are all of
-    its fields in order, or some by name. Raises ``TypeError`` for another message, or for both kinds of arguments at
+    A message of ``data_class``, or of another type with its md5 sum, is returned as it is; otherwise the arguments are
+    all fields in order, or some by name. Raises ``TypeError`` for another message, or for both kinds of arguments at
     once.
     """
     if args and kwds:

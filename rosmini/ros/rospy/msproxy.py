@@ -1,4 +1,4 @@
-"""The Master and the Parameter Server as rospy shows them: ``rospy.get_master()``."""
+"""Proxies for the Master and the Parameter Server as in rospy: ``rospy.get_master()``."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from .session import any_node
 
 
 class MasterProxy:
-    """The Master's API, with the caller's name filled in; answers are (code, status, value).
+    """The Master's API with the caller's name added; answers are (code, status, value).
 
-    ``proxy["/rate"]``, ``proxy["/rate"] = 10``, ``"/rate" in proxy``, ``del proxy["/rate"]`` and iteration are about
+    ``proxy["/rate"]``, ``proxy["/rate"] = 10``, ``"/rate" in proxy``, ``del proxy["/rate"]`` and iteration access
     parameters.
     """
 
@@ -46,7 +46,7 @@ class MasterProxy:
         return iter(any_node().param_names())
 
     def search_param(self, key: str) -> str | None:
-        """Return the full name of the nearest parameter of this name upwards from the node, or None."""
+        """Return the full name of the nearest parameter with this name upwards from the node, or None."""
         node = any_node()
         mapped = node.remappings.names.get(key, key)
         return node.search_param(resolve_name(mapped) if mapped.startswith("~") else mapped)
@@ -59,7 +59,7 @@ class MasterProxy:
 class SlaveProxy:
     """The slave API of the node at ``uri`` (http://wiki.ros.org/ROS/Slave_API): ``proxy.getPid("/me")``.
 
-    Answers are [code, status, value]. A call raises ``TransportException`` when nobody answers.
+    Answers are [code, status, value]. A call raises ``TransportException`` if there is no answer.
     """
 
     def __init__(self, uri: str) -> None:
@@ -67,7 +67,7 @@ class SlaveProxy:
 
     @staticmethod
     def accepts(uri: str) -> bool:
-        """Return whether this is an address such as nodes have."""
+        """Return True if this has the form of a node's address."""
         parts = urlsplit(uri)
         return parts.scheme in ("http", "https") and bool(parts.netloc)
 
@@ -78,7 +78,7 @@ class SlaveProxy:
 
 
 def published_topics(namespace: str) -> list[list[str]]:
-    """Return the ``[topic, type]`` pairs of what is published under ``namespace``. Raises ``ROSException``."""
+    """Return the ``[topic, type]`` pairs of published topics under ``namespace``. Raises ``ROSException``."""
     code, status, value = any_node().master.call("getPublishedTopics", namespace)
     if code != 1:
         raise ROSException(f"unable to get published topics: {status}")

@@ -1,4 +1,4 @@
-"""The names of the caller's node, and resolving others: http://wiki.ros.org/Names."""
+"""Names of the caller's node, and name resolution: http://wiki.ros.org/Names."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def get_namespace() -> str:
 
 
 def resolve_name(name: str, caller_id: str | None = None) -> str:
-    """Return the global name that ``name`` means for the node, or for ``caller_id``, remappings applied.
+    """Return the global name of ``name`` for the node, or for ``caller_id``, after remapping.
 
     Raises ``IllegalName``.
     """
@@ -69,9 +69,9 @@ def resolve_name(name: str, caller_id: str | None = None) -> str:
 
 
 def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -> str:
-    """Return what ``name`` is remapped to, resolved unless ``resolved`` is false.
+    """Return the remapped name for ``name``, resolved unless ``resolved`` is false.
 
-    ``name`` itself if nothing remaps it.
+    Return ``name`` itself if it is not remapped.
     """
     caller_id = caller_id or get_name()
     mappings = get_mappings()
@@ -82,9 +82,9 @@ def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -
 
 
 def scoped_name(caller_id: str, name: str) -> str:
-    """Return the global ``name`` as it is called within the namespace of ``caller_id``.
+    """Return the global ``name`` relative to the namespace of ``caller_id``.
 
-    Raises ``ROSException`` if that is not global.
+    Raises ``ROSException`` if ``name`` is not global.
     """
     if not is_global(caller_id):
         raise ROSException(f"caller_id must be global: {caller_id} is not")

@@ -10,7 +10,7 @@ import numpy as np
 
 @cache
 def numpy_msg(msg_type: Any) -> Any:
-    """Return a class of ``msg_type`` with read-only numpy arrays of numbers when it was received or deserialized."""
+    """Return a subclass of ``msg_type`` whose received or deserialised messages have read-only numpy arrays."""
     thaw = msg_type._thaw_genpy_numpy  # noqa: SLF001 - the contract of message classes
 
     def receive(frozen: Any) -> Any:

@@ -12,7 +12,7 @@ from rosmini.core.graph.clock import TopicClock
 from .session import any_node, current_node, current_session
 
 TICKS_PER_LOOK = 50
-"""A loop that polls the time takes about 50 microseconds a turn with rospy."""
+"""Ticks between checks, for a loop that polls the time: with rospy a turn takes about 50 microseconds."""
 
 
 class Duration(base.Duration):
@@ -39,12 +39,12 @@ class Time(base.Time):
 
     @classmethod
     def from_seconds(cls, float_secs: float) -> Self:
-        """Do what ``from_sec`` does, under its old name."""
+        """Return ``from_sec(float_secs)``; an old name of that method."""
         return cls.from_sec(float_secs)
 
 
 def get_rostime() -> Time:
-    """Return the node's time: that of ``/clock`` with ``/use_sim_time``, else the graph's.
+    """Return the node's time: from ``/clock`` with ``/use_sim_time``, otherwise the graph's.
 
     Raises ``ROSInitException`` before ``init_node``.
     """
@@ -69,18 +69,18 @@ def _now_ns() -> int:
 
 
 def set_rostime_initialized(val: bool) -> None:
-    """Allow a script without a node to read the time, or forbid it: tests that run offline do this."""
+    """Allow a script without a node to read the time, or forbid it; used by offline tests."""
     current_session().has_time = bool(val)
 
 
 def is_rostime_initialized() -> bool:
-    """Return whether the time can be read: there is a node, or ``set_rostime_initialized`` has allowed it."""
+    """Return True if the time can be read: there is a node, or ``set_rostime_initialized`` has allowed it."""
     said = current_session().has_time
     return current_node() is not None if said is None else said
 
 
 def _set_rostime(t: base.Time) -> None:
-    """Set the time by hand, as a message on ``/clock`` does. Raises ``ValueError`` for what is not a time."""
+    """Set the time manually, like a message on ``/clock``. Raises ``ValueError`` if ``t`` is not a time."""
     if not isinstance(t, base.Time):
         raise ValueError(f"must be Time instance: {type(t)}")  # noqa: TRY004 - as in rospy
     node = current_node()
@@ -91,17 +91,17 @@ def _set_rostime(t: base.Time) -> None:
 
 
 def is_wallclock() -> bool:
-    """Return whether the time comes neither from the topic ``/clock`` nor from ``_set_rostime``."""
+    """Return True if the time comes neither from the topic ``/clock`` nor from ``_set_rostime``."""
     return current_session().set_time_ns is None and not isinstance(any_node().clock, TopicClock)
 
 
 def switch_to_wallclock() -> None:
-    """Forget the time that ``_set_rostime`` has set. ``/use_sim_time`` chooses a node's clock when the node starts."""
+    """Discard the time set by ``_set_rostime``; a node chooses its clock by ``/use_sim_time`` when it starts."""
     current_session().set_time_ns = None
 
 
 def wallsleep(duration: float | base.Duration) -> None:
-    """Sleep in the graph's time, whatever ``/clock`` says."""
+    """Sleep in the graph's time, ignoring ``/clock``."""
     seconds = duration.to_sec() if isinstance(duration, base.Duration) else duration
     scheduler = any_node().scheduler
     if seconds > 0:

@@ -27,10 +27,10 @@ __all__ = ["Service", "ServiceException", "ServiceProxy", "wait_for_service"]
 
 
 def wait_for_service(service: str, timeout: float | base.Duration | None = None) -> None:
-    """Block until somebody offers ``service``; works before ``init_node``, too.
+    """Block until ``service`` is offered; also works before ``init_node``.
 
     Raises ``ROSException`` after ``timeout`` seconds, ``ROSInterruptException`` at shutdown, ``ValueError`` for a
-    time-out of zero.
+    timeout of zero.
     """
     limit = timeout.to_sec() if isinstance(timeout, base.Duration) else timeout
     if limit == 0:
@@ -49,7 +49,7 @@ def _check_service_class(service_class: Any) -> None:
 
 
 class _Service:
-    """What both ends of a service have in common."""
+    """Base class of both sides of a service."""
 
     def __init__(self, name: str, service_class: Any) -> None:
         self.resolved_name = resolve_early(name, "service")
@@ -69,11 +69,11 @@ class Service(_Service):
     Args:
         name: the service.
         service_class: its type.
-        handler: answers a request; what it raises reaches the caller as a ``ServiceException``.
-        buff_size: accepted, as scripts give it; without effect in one process.
-        error_handler: called with (error, its class, it again, traceback) instead of the log when the handler raises.
+        handler: answers a request; its exceptions reach the caller as a ``ServiceException``.
+        buff_size: accepted for compatibility; without effect in one process.
+        error_handler: called with (error, its class, the error, traceback) instead of logging when the handler raises.
 
-    Raises ``ValueError`` for an illegal name or for what is no service class, ``ServiceException`` if the node offers
+    Raises ``ValueError`` for an illegal name or an invalid service class, ``ServiceException`` if the node offers
     the service already.
 
     """
@@ -116,7 +116,7 @@ class Service(_Service):
             self._error_handler(error, type(error), error, error.__traceback__)
 
     def spin(self) -> None:
-        """Block until the service, or the node, is shut down."""
+        """Block until the service or the node is shut down."""
         server = self._server
         if server is None:
             raise ROSException(
@@ -132,7 +132,7 @@ class Service(_Service):
             return
 
     def shutdown(self, reason: str = "") -> None:
-        """Withdraw the service. Harmless when repeated."""
+        """Withdraw the service; may be called repeatedly."""
         self._ended = True
         for waiter in self._spinning:
             waiter.wake()
@@ -143,10 +143,10 @@ class Service(_Service):
 class ServiceProxy(_Service):
     """Calls a service like a function: ``proxy(request)``, ``proxy(1, 2)`` or ``proxy(a=1, b=2)``.
 
-    Works before ``init_node``, too. A ``persistent`` proxy keeps its connection: faster, and deaf to a server that is
-    replaced. ``headers`` are further fields of the connection header, which the handler finds in
-    ``request._connection_header``. Raises ``ValueError`` for an illegal name, for what is no service class and for
-    headers that are no texts.
+    Also works before ``init_node``. A ``persistent`` proxy keeps its connection: faster, but it does not find a server
+    that replaces the first. ``headers`` are additional fields of the connection header, which the handler finds in
+    ``request._connection_header``. Raises ``ValueError`` for an illegal name, an invalid service class and for
+    headers that are not texts.
     """
 
     def __init__(
@@ -158,7 +158,7 @@ class ServiceProxy(_Service):
         self._client: ServiceClient | None = None
 
     def wait_for_service(self, timeout: float | base.Duration | None = None) -> None:
-        """Block until the service is there. Raises as :func:`wait_for_service` does."""
+        """Block until the service is available. Raises the errors of :func:`wait_for_service`."""
         wait_for_service(self.resolved_name, timeout)
 
     def __call__(self, *args: Any, **kwds: Any) -> Any:
@@ -166,11 +166,11 @@ class ServiceProxy(_Service):
         return self.call(*args, **kwds)
 
     def call(self, *args: Any, **kwds: Any) -> Any:
-        """Send a request and block until the response is there.
+        """Send a request and block until the response arrives.
 
-        Raises ``ServiceException`` when there is no server, its handler fails, or it goes away meanwhile; ``TypeError``
-        for a request of another service; ``genpy.SerializationError`` for a field of the wrong type (rospy turns it
-        into its own for topics only).
+        Raises ``ServiceException`` if there is no server, its handler fails, or it ends meanwhile; ``TypeError``
+        for a request of another service; ``genpy.SerializationError`` for a field of the wrong type (rospy converts it
+        to its own error for topics only).
         """
         client = self._client
         if client is None or client.node is not any_node():

@@ -1,8 +1,8 @@
-"""Whose rospy call it is: the node, the script and the graph behind a plain function like ``rospy.loginfo``.
+"""Finds the node, the script and the graph behind a call of a plain function such as ``rospy.loginfo``.
 
-rospy keeps one node in the globals of a process. Here many scripts share a process, so what rospy would keep there is
-a :class:`Session`, an attribute of the script's context (or of the graph, for the main program and notebook cells);
-this package has no state of its own. What runs the caller says which graph and which script; the main program's graph
+rospy keeps one node in the globals of a process. Here many scripts share a process, so this state is kept in
+a :class:`Session`, an attribute of the script's context (or of the graph: for the main program and notebook cells);
+this package has no global state. The graph and the script follow from what runs the caller; the main program's graph
 is the default one.
 """
 
@@ -29,17 +29,17 @@ _ATTRIBUTE = "_rospy_session"
 
 
 class UnnamedNode(Node):
-    """Asks the Master for things in the name of a script without a node: parameters, services. Nobody else sees it."""
+    """Calls the Master for a script without a node, for parameters and services; invisible to others."""
 
     def _start(self, *, has_rosout: bool) -> None:
-        """Register nothing: only ``init_node`` does."""
+        """Do not register: only ``init_node`` does."""
 
     def shutdown(self, reason: str = "", *, hooks: bool = True) -> None:
         """Do nothing: there is nothing to shut down."""
 
 
 class Session:
-    """What rospy would keep in a process: the node, what was asked for before there was one, and what was logged."""
+    """The state that rospy keeps in a process: the node, requests made before it existed, and log calls."""
 
     def __init__(self, graph: Graph, context: LaneContext | None) -> None:
         self.graph = graph
@@ -55,35 +55,35 @@ class Session:
         self.stopped = False
         self.log_gates = LogGates()
         self.has_time: bool | None = None
-        """Whether the time may be read, if the script has said so; else it may be when there is a node."""
+        """True or False if the script has set whether the time can be read; None: it can once there is a node."""
         self.set_time_ns: int | None = None
-        """The time that the script has set itself."""
+        """The time set by the script."""
         self._unnamed: UnnamedNode | None = None
         self._armed = False
 
     @property
     def is_main(self) -> bool:
-        """True for the main program or a notebook, false for a script run by rosmini."""
+        """True for the main program or a notebook, False for a script run by rosmini."""
         return self.context is None
 
     def argv(self) -> list[str]:
-        """Return the arguments that rospy reads remappings from."""
+        """Return the arguments that contain remappings."""
         if self.given_argv is not None:
             return self.given_argv
         remaining: Callable[[], list[str]] | None = getattr(self.context, "remaining_argv", None)
         return sys.argv if remaining is None else remaining()
 
     def remappings(self) -> Remappings:
-        """Return what the arguments remap. Raises ``ROSInitException`` for a bad argument."""
+        """Return the remappings of the arguments. Raises ``ROSInitException`` for an invalid argument."""
         return Remappings.from_argv(self.argv())
 
     def namespace(self) -> str:
-        """Return the namespace in which relative names start."""
+        """Return the namespace of relative names."""
         given = self.remappings().namespace or canonicalize("/" + os.environ.get("ROS_NAMESPACE", ""))
         return given or "/"
 
     def unnamed(self) -> UnnamedNode:
-        """Return who calls before ``init_node``."""
+        """Return the caller before ``init_node``."""
         if self._unnamed is None:
             names = Remappings(self.remappings().names)
             self._unnamed = UnnamedNode(
@@ -94,7 +94,7 @@ class Session:
     # -- the end -------------------------------------------------------------------------------------------------
 
     def arm(self) -> None:
-        """See to it that the hooks run when the script, or the program, ends."""
+        """Ensure that the hooks run when the script or the program ends."""
         if self._armed:
             return
         self._armed = True
@@ -112,7 +112,7 @@ class Session:
             atexit.register(at_exit)
 
     def shutdown(self, reason: str) -> None:
-        """Shut the node down, or note that there is to be none any more."""
+        """Shut the node down, or record that no node may start any more."""
         if self.node is not None:
             self.node.shutdown(reason)
         elif self.shutdown_reason is None:
@@ -121,9 +121,9 @@ class Session:
             self.stopped = True
 
     def run_hooks(self) -> None:
-        """Call the shutdown hooks, in the order in which they came.
+        """Call the shutdown hooks in the order of registration.
 
-        One that fails does not keep the others from running.
+        If one fails, the others still run.
         """
         node = self.node or self.unnamed()
         reason = node.shutdown_reason or self.shutdown_reason or ""
@@ -136,11 +136,11 @@ class Session:
             node.guarded(reasoned, reason, what="shutdown hook")
 
     def is_shutdown(self) -> bool:
-        """Return whether the node was shut down."""
+        """Return True if the node was shut down."""
         return self.stopped if self.node is None else self.node.is_shutdown()
 
     def restart(self) -> None:
-        """Forget a node that was shut down. For the main program: a notebook's cell may be run again."""
+        """Discard a node that was shut down; in the main program, a notebook cell may be run again."""
         self.node = None
         self.arguments = None
         self.shutdown_reason = None
@@ -160,9 +160,9 @@ def current_session() -> Session:
 
 
 def current_node() -> Node | None:
-    """Return the caller's node: that of its lane (a callback's is the subscriber's), else that of its script.
+    """Return the caller's node: that of its lane (in a callback, the subscriber's), or that of its script.
 
-    None before ``init_node``.
+    Return None before ``init_node``.
     """
     node: Node | None = running_graph().scheduler.current().node
     return current_session().node if node is None else node
@@ -174,10 +174,10 @@ def any_node() -> Node:
 
 
 def answer_interrupt(node: NodePort, error: KeyboardInterrupt) -> BaseException:
-    """Return what a blocking call raises at Ctrl-C.
+    """Return the exception that a blocking call raises on Ctrl-C.
 
-    In a program of its own rospy answers it by shutting the node down, unless ``init_node`` was told to leave signals
-    alone; in a notebook it ends the cell and nothing else, and scripts run by rosmini get it from their runner.
+    In a standalone program rospy shuts the node down, unless ``init_node`` was told not to handle signals;
+    in a notebook only the cell ends, and scripts run by rosmini get it from their runner.
     """
     session = current_session()
     signals = session.arguments is not None and not session.arguments[-1]
@@ -188,7 +188,7 @@ def answer_interrupt(node: NodePort, error: KeyboardInterrupt) -> BaseException:
 
 
 def require_node(what: str) -> Node:
-    """Return the caller's node. Raises ``ROSInitException`` before ``init_node``, saying that ``what`` needs one."""
+    """Return the caller's node. Raises ``ROSInitException`` before ``init_node``: ``what`` needs a node."""
     node = current_node()
     if node is None:
         raise ROSInitException(

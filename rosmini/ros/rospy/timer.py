@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 def sleep(duration: float | base.Duration) -> None:
-    """Sleep for seconds of the node's time; not at all for zero or less.
+    """Sleep for some seconds of the node's time; returns at once for zero or less.
 
-    Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when
+    Raises ``ROSInterruptException`` if the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` if
     ``/clock`` jumps back.
     """
     node = any_node()
@@ -29,7 +29,7 @@ def sleep(duration: float | base.Duration) -> None:
 
 
 class Rate(clock.Rate):
-    """Keeps a loop at ``hz`` turns a second: call :meth:`sleep` at the end of each turn.
+    """Runs a loop at ``hz`` turns per second: call :meth:`sleep` at the end of each turn.
 
     Raises ``ROSInitException`` before ``init_node``.
     """
@@ -39,7 +39,7 @@ class Rate(clock.Rate):
 
     @property
     def sleep_dur(self) -> Duration:
-        """How long a turn is."""
+        """Duration of a turn."""
         return Duration.from_nsec(self._period)
 
     @sleep_dur.setter
@@ -51,9 +51,9 @@ class Rate(clock.Rate):
         return Duration.from_nsec(super().remaining().to_nsec())
 
     def sleep(self) -> None:
-        """Sleep to the end of this turn; after a turn that took too long, start afresh.
+        """Sleep to the end of this turn; after a turn that took too long, the cycle starts again.
 
-        Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when ``/clock``
+        Raises ``ROSInterruptException`` if the node shuts down, ``ROSTimeMovedBackwardsException`` if ``/clock``
         jumps back.
         """
         try:
@@ -63,14 +63,14 @@ class Rate(clock.Rate):
 
     @property
     def last_time(self) -> Time:
-        """When this turn began."""
+        """Start time of this turn."""
         return Time.from_nsec(self._last)
 
 
 class Timer:
-    """Calls ``callback(event)`` every ``period``, once only with ``oneshot``; the times of an event are ``rospy.Time``.
+    """Calls ``callback(event)`` every ``period``, or once with ``oneshot``; the times of an event are ``rospy.Time``.
 
-    With ``reset`` a clock that jumps back restarts the cycle. Raises ``ROSInitException`` before ``init_node``.
+    With ``reset``, a clock that jumps back restarts the cycle. Raises ``ROSInitException`` before ``init_node``.
     """
 
     def __init__(
@@ -102,7 +102,7 @@ class Timer:
         self._timer.shutdown()
 
     def is_alive(self) -> bool:
-        """Return whether callbacks may still come."""
+        """Return True if callbacks may still come."""
         return self._timer.is_alive()
 
     def join(self, timeout: float | None = None) -> None:

@@ -48,12 +48,12 @@ def check_message_class(data_class: Any) -> None:
 
 
 def registered_class(data_class: Any) -> Any:
-    """Return the class of the topic: for ``numpy_msg(T)`` it is ``T``."""
+    """Return the class of the topic: ``T`` for ``numpy_msg(T)``."""
     return getattr(data_class, "_plain_type", data_class)
 
 
 def receipt_of(data_class: Any) -> Callable[[Any], Callable[[Any], Any] | None] | None:
-    """Return how a subscriber with ``data_class`` wants its messages: see ``Subscriber.thaw_for`` of the graph."""
+    """Return the conversion of received messages for ``data_class``: see ``Subscriber.thaw_for`` of the graph."""
     if issubclass(data_class, AnyMsg):
         return lambda _: AnyMsg.received
     receive = getattr(data_class, "_receive", None)
@@ -61,9 +61,9 @@ def receipt_of(data_class: Any) -> Callable[[Any], Callable[[Any], Any] | None] 
 
 
 def resolve_early(name: Any, what: str) -> str:
-    """Return the global name of a topic or service, also before ``init_node``.
+    """Return the global name of a topic or service; also works before ``init_node``.
 
-    Raises ``ValueError`` for what is no name, and for a private one before ``init_node``.
+    Raises ``ValueError`` for an invalid name, and for a private one before ``init_node``.
     """
     if not isinstance(name, str) or not name:
         raise ValueError(f"{what} name is not a non-empty string: {name!r}")
@@ -78,7 +78,7 @@ def resolve_early(name: Any, what: str) -> str:
 
 
 class Topic(ABC):
-    """What publishers and subscribers have in common."""
+    """Base class of publishers and subscribers."""
 
     def __init__(self, name: str, data_class: Any) -> None:
         check_message_class(data_class)
@@ -100,7 +100,7 @@ class Topic(ABC):
         return f"<rospy.{type(self).__name__} {self.resolved_name} [{self.type}]>"
 
     def _begin(self) -> None:
-        """Register with the node, or when there is one."""
+        """Register with the node now, or as soon as there is one."""
         node = current_node()
         if node is not None:
             self._register(node)
@@ -113,10 +113,10 @@ class Topic(ABC):
 
     @abstractmethod
     def _register(self, node: Node) -> None:
-        """Make the node's own publisher or subscriber."""
+        """Create the node's own publisher or subscriber."""
 
     def get_num_connections(self) -> int:
-        """Return to how many nodes this topic is connected."""
+        """Return the number of nodes to which this topic is connected."""
         handle = self._handle
         if handle is None:
             return 0
@@ -124,7 +124,7 @@ class Topic(ABC):
         return int(handle.num_connections())
 
     def unregister(self) -> None:
-        """Leave the topic. Harmless when repeated."""
+        """Leave the topic; may be called repeatedly."""
         self._unregistered = True
         handle, self._handle = self._handle, None
         if handle is not None:
@@ -132,15 +132,15 @@ class Topic(ABC):
 
 
 class SubscribeListener:
-    """Hears who subscribes to what a publisher publishes: give one as ``subscriber_listener``."""
+    """Receives notice of a publisher's subscribers; pass one as ``subscriber_listener``."""
 
     def peer_subscribe(
         self, topic_name: str, topic_publish: Callable[..., object], peer_publish: Callable[..., object]
     ) -> None:
-        """Learn of a new subscriber; ``topic_publish`` publishes to all, ``peer_publish`` to the new one only."""
+        """Handle a new subscriber; ``topic_publish`` publishes to all, ``peer_publish`` to the new one only."""
 
     def peer_unsubscribe(self, topic_name: str, num_peers: int) -> None:
-        """Learn that a subscriber has gone and that ``num_peers`` are left."""
+        """Handle the departure of a subscriber; ``num_peers`` remain."""
 
 
 class Publisher(Topic):
@@ -149,13 +149,13 @@ class Publisher(Topic):
     Args:
         name: the topic.
         data_class: the type of its messages.
-        subscriber_listener: hears of subscribers.
-        tcp_nodelay: accepted, as scripts give it: what is published is always sent at once.
-        latch: give late subscribers the last message.
-        headers: further fields of the connection header, which subscribers find in ``message._connection_header``.
-        queue_size: how many messages wait for one subscriber before the oldest is dropped; 0: no bound.
+        subscriber_listener: notified of subscribers.
+        tcp_nodelay: accepted for compatibility: messages are always sent at once.
+        latch: send late subscribers the last message.
+        headers: additional fields of the connection header, which subscribers find in ``message._connection_header``.
+        queue_size: maximum number of messages queued for a subscriber before the oldest is dropped; 0: no limit.
 
-    Raises ``ValueError`` for an illegal name, for what is no message class and for headers that are no texts.
+    Raises ``ValueError`` for an illegal name, an invalid message class and for headers that are not texts.
 
     """
 
@@ -206,7 +206,7 @@ class Publisher(Topic):
         """Publish a message, or one made from its fields: all in order, or some by name.
 
         Raises ``ROSException`` before ``init_node`` and after :meth:`unregister`, ``ROSSerializationException`` for a
-        field of the wrong type and ``TypeError`` for a message of another type. After the shutdown the message is lost,
+        field of the wrong type and ``TypeError`` for a message of another type. After a shutdown the message is lost,
         as in rospy.
         """
         handle = self._handle
@@ -233,7 +233,7 @@ class Publisher(Topic):
         )
 
     def _refused(self, error: ROSException) -> None:
-        """Say once that a message after the shutdown is lost; rospy says nothing, and does not raise either."""
+        """Log once that a message after the shutdown is lost; rospy neither logs it nor raises."""
         node: Node = self._handle.node
         if not node.is_shutdown():
             raise error
@@ -261,15 +261,15 @@ class Subscriber(Topic):
 
     Args:
         name: the topic.
-        data_class: the type of its messages; ``rospy.AnyMsg`` takes any, ``numpy_msg(T)`` gives numpy arrays.
-        callback: what to call; numeric arrays are tuples, and ``uint8[]`` is bytes.
+        data_class: the type of its messages; ``rospy.AnyMsg`` accepts any, ``numpy_msg(T)`` gives numpy arrays.
+        callback: called for each message; numeric arrays are tuples, and ``uint8[]`` is bytes.
         callback_args: a second argument for the callback, unless it is None.
-        queue_size: how many messages wait while a callback is busy before the oldest is dropped; None: no bound.
-        buff_size: accepted, as scripts give it; what has come is read at once, however much.
-        tcp_nodelay: ask publishers in other processes to send each message at once; those of rosmini always do.
+        queue_size: maximum number of messages queued during a callback before the oldest is dropped; None: no limit.
+        buff_size: accepted for compatibility; available data is always read at once.
+        tcp_nodelay: ask publishers in other processes to send each message at once; rosmini's always do.
 
-    Raises ``ValueError`` for an illegal name or for what is no message class, ``ROSException`` for a queue size that is
-    none.
+    Raises ``ValueError`` for an illegal name or an invalid message class, ``ROSException`` for an invalid queue
+    size.
 
     """
 

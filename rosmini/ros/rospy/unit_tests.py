@@ -1,4 +1,4 @@
-"""Unit tests that write their results as JUnit XML: what ``rosunit`` and ``rostest`` run."""
+"""Unit tests with results as JUnit XML, for ``rosunit`` and ``rostest``."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 OPTION = "--gtest_output=xml:"
-"""How a test is told where its results belong."""
+"""Option of a test for the path of its results file."""
 
 
 class _Result(unittest.TextTestResult):
-    """Remembers the tests in the order in which they ran."""
+    """Records the tests in the order in which they ran."""
 
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
@@ -26,7 +26,7 @@ class _Result(unittest.TextTestResult):
 
 
 def suite_of(test: Any) -> unittest.TestSuite:
-    """Return the tests of a class, of a dotted name (``"module.Class"``), or of a list of them."""
+    """Return the tests of a class, a dotted name (``"module.Class"``), or a list of them."""
     loader = unittest.defaultTestLoader
     if isinstance(test, list | tuple):
         return unittest.TestSuite(suite_of(each) for each in test)
@@ -38,7 +38,7 @@ def suite_of(test: Any) -> unittest.TestSuite:
 
 
 def run(package: str, test_name: str, test: Any, words: Sequence[str] | None) -> None:
-    """Run tests as `rosunit.unitrun` does. Raises ``SystemExit`` with 1 if one failed."""
+    """Run tests like `rosunit.unitrun`. Raises ``SystemExit`` with 1 if a test failed."""
     runner = unittest.TextTestRunner(sys.stdout, verbosity=2, resultclass=_Result)
     result: Any = runner.run(suite_of(test))
     given = sys.argv if words is None else words
@@ -51,7 +51,7 @@ def run(package: str, test_name: str, test: Any, words: Sequence[str] | None) ->
 
 
 def write_results(file: str, classname: str, result: Any) -> None:
-    """Write what tests gave as JUnit XML."""
+    """Write the results of tests as JUnit XML."""
     found = list(_told(result))
     counts = {kind: sum(what == kind for _, what, _ in found) for kind in ("failure", "error", "skipped")}
     root = ET.Element(
@@ -71,7 +71,7 @@ def write_results(file: str, classname: str, result: Any) -> None:
 
 
 def _told(result: Any) -> Iterator[tuple[str, str, str]]:
-    """Yield each test with what it gave: nothing, or a kind and a text; errors outside of tests come last."""
+    """Yield each test with its result: empty, or a kind and a text; errors outside of tests come last."""
     given: dict[Any, tuple[str, str]] = {}
     for kind, found in (("error", result.errors), ("failure", result.failures), ("skipped", result.skipped)):
         given |= {test: (kind, text) for test, text in found}

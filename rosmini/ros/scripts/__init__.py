@@ -1,7 +1,7 @@
-"""Scripts written for rospy, unmodified and several at once, inside one process.
+"""Runs unmodified rospy scripts, several at once, inside one process.
 
-:func:`run_scripts` is `rosmini run`; :func:`run_source` runs a text; :func:`rosrun` starts what
-package has and returns its handle.
+:func:`run_scripts` is `rosmini run`; :func:`run_source` runs a text; :func:`rosrun` starts an executable of a
+package and returns its handle.
 """
 
 from __future__ import annotations

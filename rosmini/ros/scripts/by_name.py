@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 
 def find(name: str) -> Executable:
-    """Return what ``package/executable`` names.
+    """Return the executable named by ``package/executable``.
 
-    Raises ``ScriptError`` if the name has another form, or if there is no such executable, and ``UnknownPackage``.
+    Raises ``ScriptError`` if the name is invalid or there is no such executable, and ``UnknownPackage``.
     """
     package, slash, executable = name.partition("/")
     if not (package and slash and executable) or "/" in executable:
@@ -38,25 +38,25 @@ def rosrun(
     seed: int = 0,
     **console: Any,
 ) -> ScriptHandle | NodeHandle:
-    """Start an executable of a package, as `rosrun package executable args &` does, and return its handle at once.
+    """Start an executable of a package, like `rosrun package executable args &`, and return its handle at once.
 
     It runs while the graph is driven: by ``graph.run()``, by ``handle.wait()`` until it ends, or by
-    ``handle.instance()`` until a built-in node is set up, which returns the object that the node made.
+    ``handle.instance()`` until a built-in node is set up, which returns the object created by the node.
 
     Args:
         package: the package's name.
         executable: the name of a built-in node, or of a script in the package.
         args: ROS's arguments (``"scan:=/laser"``, ``"__name:=sim2"``, ``"__ns:=/robot1"``, ``"_rate:=10"``), and
             words and paths for the executable itself.
-        graph: where to run; if not given, the graph that runs the caller, else the default one.
-        seed: what a script's random numbers start from in simulated time.
+        graph: where to run; by default the graph that runs the caller, or else the default graph.
+        seed: seed of a script's random numbers in simulated time.
         console: ``stdin``, ``stdout``, ``stderr``, ``prefix`` and ``capture_output`` of
             :class:`~rosmini.ros.scripts.Console`.
 
     Raises:
         UnknownPackage: there is no such package.
-        ScriptError: it has no such executable, or that does not take these arguments, or is not Python.
-        RosminiError: a name or a parameter among the arguments is wrong.
+        ScriptError: the package has no such executable, or it does not accept these arguments, or is not Python.
+        RosminiError: a name or a parameter in the arguments is invalid.
 
     """
     found = find(f"{package}/{executable}")

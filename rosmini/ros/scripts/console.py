@@ -1,4 +1,4 @@
-"""The standard streams of what runs together: output in whole lines, and one input."""
+"""The standard streams of scripts and nodes that run together: output in whole lines, and one input."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ if TYPE_CHECKING:
 
 
 class Console:
-    """Where scripts and nodes write to and read from.
+    """Input and output of scripts and nodes.
 
     Args:
-        scheduler: the graph's, which goes on while a script waits for input.
+        scheduler: the graph's scheduler, which continues while a script waits for input.
         stdin: a text, pieces of text with the second at which each arrives, a file, a function that returns a line, or
             None for the host's; or a :class:`~rosmini.ros.scripts.stdin.Feed`.
-        stdout: where output goes; the host's if not given.
-        stderr: where errors and warnings go; the host's if not given.
+        stdout: stream for output; by default the host's.
+        stderr: stream for errors and warnings; by default the host's.
         prefix: put ``[name]`` before each line.
-        capture_output: keep output and errors in :attr:`captured` instead.
-        sink: where several consoles write to together, instead of all that.
+        capture_output: store output and errors in :attr:`captured` instead.
+        sink: shared output of several consoles, instead of the other arguments.
 
     """
 
@@ -42,7 +42,7 @@ class Console:
     ) -> None:
         self._captured = io.StringIO() if capture_output else None
         self.is_apart = capture_output or stdout is not None or stderr is not None
-        """Whether it writes somewhere else than the host does."""
+        """True if it writes elsewhere than the host."""
         self.sink = sink or OutputSink(
             self._captured or stdout or sys.stdout, self._captured or stderr or sys.stderr, prefix=prefix
         )
@@ -50,7 +50,7 @@ class Console:
 
     @property
     def captured(self) -> str | None:
-        """What was written so far, if it is kept."""
+        """Output captured so far, or None."""
         return None if self._captured is None else self._captured.getvalue()
 
     def drop_output(self) -> None:
@@ -59,7 +59,7 @@ class Console:
         self.is_apart = True
 
     def report(self, name: str, error: BaseException) -> None:
-        """Write the traceback of what ended ``name``, the user's frames only."""
+        """Write the traceback of the error that ended ``name``, with only the user's frames."""
         ScriptOutput(self.sink, lambda: name, is_error=True).write(user_traceback(error))
 
     def flush(self) -> None:
@@ -67,6 +67,6 @@ class Console:
         self.sink.flush()
 
     def close(self) -> None:
-        """Release whoever still reads, and flush all output."""
+        """Release waiting readers, and flush all output."""
         self.feed.close()
         self.flush()

@@ -1,25 +1,25 @@
-"""One script inside the process: everything that it believes to be its own.
+"""The context of one script in the shared process: all state that it takes for its own.
 
 The scheduler calls :meth:`ScriptContext.enter` and :meth:`ScriptContext.leave` whenever the running lane belongs to
-another script. They swap what the standard library and other packages look up in the process: ``sys.argv`` and the
+another script. They swap the process state that the standard library and other packages use: ``sys.argv`` and the
 standard streams, ``__main__`` and the modules beside the script, ``os.environ``, the warning filters, numpy's legacy
-random generator. What blocks or keeps state in a module of its own (``time``, ``threading``, ``logging``, ...) is
+random generator. Modules that block or keep global state (``time``, ``threading``, ``logging``, ...) are
 replaced by the script's importer instead.
 
-Shared by all scripts, as threads of one process share it: the current folder (``os.chdir``), open files,
-``sys.setrecursionlimit``, the locale. A blocking call that is not named in :mod:`rosmini.ros.scripts.shims`
-(sockets, ``asyncio.run``) holds up the other scripts while it lasts.
+Scripts share, like threads of one process: the current folder (``os.chdir``), open files,
+``sys.setrecursionlimit``, the locale. A blocking call that is not covered by :mod:`rosmini.ros.scripts.shims`
+(sockets, ``asyncio.run``) blocks the other scripts while it lasts.
 
 For the client library (rospy), which finds its caller's script as ``scheduler.current().context``:
 
 - ``argv``: the arguments with the script's name first, as ``sys.argv`` was at the start, remappings included;
-  ``remaining_argv()`` is the present ``sys.argv``.
+  ``remaining_argv()`` is the current ``sys.argv``.
 - ``name``: the prefix of the output: the stem of the file, until :meth:`set_node_name`.
 - ``node``: the node that the script initialised, set by the client library; threads of the script inherit it.
-- ``at_shutdown``: a list of functions ``f(reason)``, called once, last in first out: after the script's ``atexit``
-  functions when it ends, or when it is asked to end (Ctrl-C, the end of the duration). A client library puts "shut my
-  node down" there.
-- ``threads``: how many still run does not matter to it; the runner ends them.
+- ``at_shutdown``: a list of functions ``f(reason)``, called once, last in, first out: after the script's ``atexit``
+  functions when it ends, or when it is asked to end (Ctrl-C, the end of the duration). A client library adds a
+  function that shuts its node down.
+- ``threads``: the client library can ignore them; the runner ends them.
 """
 
 from __future__ import annotations
@@ -61,16 +61,16 @@ if TYPE_CHECKING:
 
 
 class ScriptContext:
-    """The state of one script; see the module's text.
+    """The state of one script, as the module describes.
 
     Args:
-        graph: runs its lanes.
-        filename: where the script stands, or a name like ``<talker>`` for a text.
+        graph: the graph that runs its lanes.
+        filename: path of the script, or a name like ``<talker>`` for a text.
         argv: ``sys.argv``, the script's name first.
-        sink: takes its output.
+        sink: receives its output.
         feed: its standard input.
-        seed: what its random numbers start from in simulated time.
-        folders: where else its modules may be, after its own folder.
+        seed: seed of its random numbers in simulated time.
+        folders: folders with further modules, searched after its own folder.
         modules: the client library: modules by the names under which the script imports them.
 
     """
@@ -97,7 +97,7 @@ class ScriptContext:
         self.seed = seed
         self.node: Any = None
         self.process: Any = None
-        """The handle that runs the script."""
+        """Handle that runs the script."""
         self.at_shutdown: list[Callable[[str], object]] = []
         self.exit_calls: list[tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]] = []
         self.handlers: dict[int, Any] = {}
@@ -105,7 +105,7 @@ class ScriptContext:
         self.on_threads_ended: Callable[[], object] = lambda: None
         """Called when the last of its threads has ended after the script."""
         self.was_cut_short = False
-        """A second Ctrl-C ended it, or what it was running."""
+        """True if a second Ctrl-C ended it, or what it was running."""
         self._knows_that_it_polls = False
         self._sink = sink
         self._setup_modules(folders, modules or {})
@@ -117,7 +117,7 @@ class ScriptContext:
         is_file = not self.filename.startswith("<")
         own = [str(Path(self.filename).absolute().parent)] if is_file else []
         self.package = package_around(self.filename) if is_file else None
-        """The folder of the ROS package that the script is in, if it is in one."""
+        """Folder of the ROS package that contains the script, if any."""
         self._own_folders = (*own, *folders)
         self._host_path = frozenset(sys.path) - frozenset(folders_of_the_users())
         self._folders: tuple[str, ...] = ()
@@ -167,19 +167,19 @@ class ScriptContext:
     # -- for rospy -----------------------------------------------------------------------------------------------
 
     def set_node_name(self, name: str) -> None:
-        """Put ``name`` (without the leading slash) before the script's output from now on."""
+        """Use ``name`` (without the leading slash) as the prefix of the script's output from now on."""
         self.stdout.finish()
         self.stderr.finish()
         self.name = name.removeprefix("/")
 
     def remaining_argv(self) -> list[str]:
-        """Return the script's present ``sys.argv``."""
+        """Return the script's current ``sys.argv``."""
         return list(self.get_own("argv"))
 
     # -- swapping ------------------------------------------------------------------------------------------------
 
     def enter(self) -> None:
-        """Make the process look like this script's."""
+        """Set the process state to this script's."""
         own = self._own
         self._host = (sys.argv, sys.stdin, sys.stdout, sys.stderr, os.environ, warnings.filters)
         sys.argv, sys.stdin = own["argv"], own["stdin"]
@@ -193,7 +193,7 @@ class ScriptContext:
             self._numpy.enter()
 
     def leave(self) -> None:
-        """Restore what was there before, and keep what the script changed."""
+        """Restore the previous process state, and save what the script changed."""
         own = self._own
         own["argv"], own["stdin"] = sys.argv, sys.stdin
         own["stdout"], own["stderr"] = sys.stdout, sys.stderr
@@ -208,7 +208,7 @@ class ScriptContext:
 
     @contextmanager
     def put_aside(self) -> Iterator[None]:
-        """Return the process to the host for a while, if this script has it and the hub's thread calls."""
+        """Return the process state to the host for a while, if this script has it and the hub's thread calls."""
         if not self._entered or not self.scheduler.is_hub_thread():
             yield
             return
@@ -219,7 +219,7 @@ class ScriptContext:
             self.enter()
 
     def after_import(self, name: str) -> None:
-        """Take care of numpy's random generator once the script has imported a package (``name``) that may use it."""
+        """Handle numpy's random generator after the script has imported a package (``name``) that may use it."""
         if self._numpy is not None or "numpy" not in sys.modules or not self.scheduler.is_hub_thread():
             return
         if name.partition(".")[0] not in sys.stdlib_module_names:
@@ -227,13 +227,13 @@ class ScriptContext:
                 self._numpy = NumpyRandom(self)
 
     def get_own(self, name: str) -> Any:
-        """Return the script's ``sys.argv``, ``path``, ``stdin``, ``stdout`` or ``stderr``, from any thread."""
+        """Return the script's ``sys.argv``, ``path``, ``stdin``, ``stdout`` or ``stderr``; from any thread."""
         if self._entered and name != "path" and self.scheduler.is_hub_thread():
             return getattr(sys, name)
         return self._own[name]
 
     def set_own(self, name: str, value: Any) -> None:
-        """Set what :meth:`get_own` returns."""
+        """Set the value that :meth:`get_own` returns."""
         self._own[name] = value
         if self._entered and name != "path":
             setattr(sys, name, value)
@@ -261,7 +261,7 @@ class ScriptContext:
             sys.modules[name] = before
 
     def local_folders(self) -> tuple[str, ...]:
-        """Return the folders whose modules are this script's alone: its own, and what it added to ``sys.path``."""
+        """Return the folders whose modules belong to this script alone: its own, and those it added to ``sys.path``."""
         path = self._own["path"]
         if path != self._folders_for:
             self._folders_for = list(path)
@@ -272,7 +272,7 @@ class ScriptContext:
         return self._folders
 
     def _import_for_library(self, name: str, *args: Any, **kwargs: Any) -> ModuleType:
-        """``__import__`` of the private copies: their hooks into ``fork`` would keep a script alive for ever."""
+        """Import for the private copies: their ``fork`` hooks would otherwise keep a script alive for ever."""
         if name == "os":
             module = copy_of(os)
             if hasattr(os, "register_at_fork"):
@@ -283,11 +283,11 @@ class ScriptContext:
     # -- blocking ------------------------------------------------------------------------------------------------
 
     def pause(self, reason: str, timeout_ns: int | None) -> bool:
-        """Wait for ``timeout_ns`` of graph time, or for ever; returns False when the time is over."""
+        """Wait for ``timeout_ns`` of graph time, or for ever; return False when the time is over."""
         return self.block(self.scheduler.waiter(reason), timeout_ns)
 
     def block(self, waiter: Waiter, timeout_ns: int | None = None) -> bool:
-        """Wait for ``waiter`` so that the script can be interrupted or ended meanwhile."""
+        """Wait for ``waiter`` in such a way that the script can be interrupted or ended meanwhile."""
         self.check()
         if self.scheduler.is_hub_thread():
             lane = self.scheduler.current()
@@ -304,7 +304,7 @@ class ScriptContext:
             self._foreign.discard(waiter)
 
     def outside(self, function: Callable[[], Any]) -> Any:
-        """Return ``function()``, which waits for another process; where that can reach the graph, this goes on."""
+        """Return ``function()``, which waits for another process; the graph runs meanwhile if that can reach it."""
         if not self.scheduler.is_hub_thread() or (self.graph.simulated and not self.graph.is_online):
             return function()
         waiter = self.scheduler.waiter("another process", remote=True)
@@ -322,11 +322,11 @@ class ScriptContext:
         return waiter.value
 
     def keep_pace(self, condition: Callable[[], bool]) -> None:
-        """Let simulated time go no faster than real time while ``condition()`` is true, if others see the graph."""
+        """Limit simulated time to real time while ``condition()`` is true, if others can see the graph."""
         self.graph.keep_pace(condition)
 
     def check(self) -> None:
-        """Raise what the caller was asked to raise: the end of the script, or an interrupt in its main thread."""
+        """Raise the pending exception: the end of the script, or an interrupt in its main thread."""
         if self.ended:
             raise LaneExit(f"{self.name} has ended")
         if self._to_raise is not None and self.scheduler.current() is self.main_lane:
@@ -346,11 +346,11 @@ class ScriptContext:
     # -- signals -------------------------------------------------------------------------------------------------
 
     def deliver(self, signum: int, *, in_place: bool = False) -> bool:
-        """Give the script a signal; return whether it does something about it.
+        """Deliver a signal to the script; return True if the script handles it.
 
-        A handler runs in a lane of the script, or at once with ``in_place``; what it raises, and the
-        ``KeyboardInterrupt`` of a SIGINT without a handler, is raised in the main thread, which need not be at a
-        blocking call. A SIGINT of a script with a node and no handler is rospy's to answer, by shutting the node
+        A handler runs in a lane of the script, or at once with ``in_place``; its exceptions, and the
+        ``KeyboardInterrupt`` of a SIGINT without a handler, are raised in the main thread, which need not be in a
+        blocking call. rospy handles a SIGINT of a script with a node and without a handler, by shutting the node
         down.
         """
         number = signal.Signals(signum)
@@ -381,11 +381,11 @@ class ScriptContext:
             self.raise_in_main(error)
 
     def cut_short(self) -> None:
-        """Learn that a second Ctrl-C ended what the script was running."""
+        """Record that a second Ctrl-C ended what the script was running."""
         self.was_cut_short = True
 
     def keeps_polling(self) -> None:
-        """Warn, once, of a loop that never sleeps."""
+        """Warn, once, about a loop that never sleeps."""
         if self._knows_that_it_polls:
             return
         self._knows_that_it_polls = True
@@ -402,7 +402,7 @@ class ScriptContext:
             self.stderr.write(f"Warning: {text}\n")
 
     def raise_in_main(self, error: BaseException) -> None:
-        """Raise ``error`` in the script's main thread, where it blocks or at its next turn of a loop."""
+        """Raise ``error`` in the script's main thread, in its blocking call or at the next turn of a loop."""
         waiter = None if self.main_lane is None else self._blocked.get(self.main_lane)
         if waiter is not None and not waiter.done:
             waiter.fail(error)
@@ -410,16 +410,16 @@ class ScriptContext:
             self._to_raise = error
 
     def raise_signal(self, signum: int, /) -> None:
-        """Do what ``os.kill(os.getpid(), signum)`` does: call its handler at once, or end what has none."""
+        """Do the same as ``os.kill(os.getpid(), signum)``: call its handler at once, or end the script without one."""
         number = signal.Signals(signum)
         self._on_hub(lambda: self.process.signal_itself(number))
 
     def leave_process(self, returncode: int) -> None:
-        """Do what ``os._exit`` does: end the script here, and nothing else of the process."""
+        """End the script like ``os._exit``, without ending the process."""
         self._on_hub(lambda: self.process.leave(returncode))
 
     def _on_hub(self, function: Callable[[], object]) -> None:
-        """Call what may end the script in the thread that drives the graph, and leave the caller if it has."""
+        """Call a function that may end the script in the thread that drives the graph; leave the caller if it did."""
         if self.scheduler.is_hub_thread():
             function()
         else:
@@ -427,7 +427,7 @@ class ScriptContext:
         self.check()
 
     def await_signal(self) -> None:
-        """Wait until a signal is delivered: ``signal.pause``."""
+        """Wait until a signal is delivered, like ``signal.pause``."""
         self._signal_waiter = self.scheduler.waiter("a signal")
         try:
             self.block(self._signal_waiter)
@@ -437,7 +437,7 @@ class ScriptContext:
     # -- the end -------------------------------------------------------------------------------------------------
 
     def run_exit_calls(self) -> None:
-        """Call the functions registered with ``atexit``, last in first out; an error in one is reported."""
+        """Call the functions registered with ``atexit``, last in, first out; errors in them are reported."""
         while self.exit_calls:
             function, args, kwargs = self.exit_calls.pop()
             try:
@@ -463,11 +463,11 @@ class ScriptContext:
                 self.stderr.write(user_traceback(error))
 
     def lane_failed(self, error: BaseException) -> None:
-        """Report an exception that a lane of the script let out."""
+        """Report an uncaught exception of a lane of the script."""
         self.stderr.write(user_traceback(error))
 
     def end(self) -> None:
-        """End what is left of the script: its threads, at their next blocking call or turn of a loop."""
+        """End the rest of the script: its threads, at their next blocking call or turn of a loop."""
         if self.ended:
             return
         self.ended = True
@@ -477,16 +477,16 @@ class ScriptContext:
             waiter.fail(LaneExit(f"{self.name} has ended"))
 
     def other_threads(self) -> bool:
-        """Return whether a thread beside the main one may still run."""
+        """Return True if a thread other than the main one may still run."""
         return any(thread.busy for thread in self.threads.alive() if thread is not self.threads.main)
 
     def thread_ended(self) -> None:
-        """Learn that one of its threads has ended."""
+        """Handle the end of one of its threads."""
         if self.ended and not self.other_threads():
             self.on_threads_ended()
 
     def close(self) -> None:
-        """Forget the script's modules and restore the environment."""
+        """Discard the script's modules and restore the environment."""
         self.stdout.finish()
         self.stderr.finish()
         self._environ.give_back()
@@ -503,7 +503,7 @@ class ScriptContext:
 
 
 def _leave_child() -> None:
-    """See to it that the child of a script that forked ends where it blocks or has ended: the graph is its parent's."""
+    """Make the child of a forking script end when it blocks or has ended, since the graph belongs to its parent."""
     scheduler = running_scheduler()
     context = None if scheduler is None else scheduler.current().context
     if isinstance(context, ScriptContext):
@@ -515,10 +515,10 @@ if hasattr(os, "register_at_fork"):
 
 
 def _no_fork_hook(**_hooks: object) -> None:
-    """Stand in for ``os.register_at_fork``."""
+    """Replace ``os.register_at_fork``, without effect."""
 
 
 def current_script(scheduler: Scheduler) -> ScriptContext | None:
-    """Return the script that the caller's lane or thread belongs to, or None."""
+    """Return the script of the caller's lane or thread, or None."""
     context = scheduler.current().context
     return context if isinstance(context, ScriptContext) else None

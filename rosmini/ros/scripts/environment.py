@@ -1,4 +1,4 @@
-"""``os.environ`` of one script: changes are the script's own, and child processes that it starts see them."""
+"""``os.environ`` of one script: changes are private to the script and its child processes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _Environ: Any = type(os.environ)
 
 
 class ScriptEnviron(_Environ):  # type: ignore[misc]  # the class of os.environ has no public name
-    """A copy of the host's ``os.environ`` that remembers what was changed."""
+    """A copy of the host's ``os.environ`` that records changes."""
 
     def __init__(self) -> None:
         host: Any = os.environ
@@ -29,7 +29,7 @@ class ScriptEnviron(_Environ):  # type: ignore[misc]  # the class of os.environ 
         )
 
     def add_package(self, folder: Path) -> None:
-        """Let the script find the package that it is in, as after sourcing its workspace: ``ROS_PACKAGE_PATH``."""
+        """Add the script's own package to ``ROS_PACKAGE_PATH``, as sourcing its workspace does."""
         given = self.get("ROS_PACKAGE_PATH", "")
         if not any(folder.is_relative_to(Path(root).absolute()) for root in given.split(os.pathsep) if root):
             self["ROS_PACKAGE_PATH"] = os.pathsep.join(filter(None, (str(folder), given)))
@@ -43,7 +43,7 @@ class ScriptEnviron(_Environ):  # type: ignore[misc]  # the class of os.environ 
         super().__delitem__(key)
 
     def give_back(self) -> None:
-        """Make the process's environment what the host has, where the script changed it."""
+        """Restore the host's environment of the process where the script changed it."""
         for key in self._changed:
             if key in self._host:
                 self._host[key] = self._host[key]
@@ -53,9 +53,9 @@ class ScriptEnviron(_Environ):  # type: ignore[misc]  # the class of os.environ 
 
 
 class OwnEnviron:
-    """The context of a built-in node's lanes, where its environment is not the host's.
+    """Context of a built-in node's lanes whose environment differs from the host's.
 
-    ``changes`` are what it has more or else; ``inner`` is the context that it has besides, if any.
+    ``changes`` are added or replaced variables; ``inner`` is an additional context, if any.
     """
 
     def __init__(self, changes: Iterable[tuple[str, str]], inner: LaneContext | None) -> None:
@@ -65,29 +65,29 @@ class OwnEnviron:
         self._host: Any = os.environ
 
     def enter(self) -> None:
-        """Make it ``os.environ``."""
+        """Make this environment ``os.environ``."""
         if self._inner is not None:
             self._inner.enter()
         self._host, os.environ = os.environ, self._own
 
     def leave(self) -> None:
-        """Restore the host's."""
+        """Restore the host's environment."""
         os.environ = self._host  # noqa: B003 - another object, whose environment the process has
         if self._inner is not None:
             self._inner.leave()
 
     def cut_short(self) -> None:
-        """Nothing: a built-in node has no exit status to change."""
+        """Do nothing: a built-in node has no exit status to change."""
 
     def keeps_polling(self) -> None:
-        """Nothing: the loops of built-in nodes are not counted."""
+        """Do nothing: the loops of built-in nodes are not counted."""
 
     def finish(self) -> None:
-        """Give the process its environment back: the node has ended."""
+        """Restore the process's environment at the end of the node."""
         self._own.give_back()
 
 
 def folders_of_the_users() -> list[str]:
-    """Return the folders of ``PYTHONPATH`` that hold a user's own modules, and no installed libraries."""
+    """Return the folders of ``PYTHONPATH`` with the user's own modules, without installed libraries."""
     given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
     return [item for item in given if item and Path(item).name not in ("site-packages", "dist-packages")]

@@ -1,4 +1,4 @@
-"""A script's own traceback: the user's frames, without ours."""
+"""Tracebacks of scripts with only the user's frames."""
 
 from __future__ import annotations
 
@@ -45,13 +45,13 @@ _SECOND_LOOP = (
     "Cannot run the event loop while another loop is running",
     "This event loop is already running",
 )
-"""How asyncio refuses to run in a thread in which it runs already."""
+"""asyncio's messages when it is started in a thread in which it already runs."""
 
 
 def user_traceback(error: BaseException) -> str:
-    """Return the traceback of ``error`` as Python prints it, without the frames inside rosmini.
+    """Return the traceback of ``error`` as Python prints it, without frames inside rosmini.
 
-    Line numbers and source lines are the user's. A name that only Python 2 knows gets a line that says so.
+    Line numbers and source lines are the user's. For a name that exists only in Python 2, a hint is added.
     """
     shown = traceback.TracebackException.from_exception(error)
     _strip(shown, error)
@@ -59,7 +59,7 @@ def user_traceback(error: BaseException) -> str:
 
 
 def _strip(shown: traceback.TracebackException, error: BaseException) -> None:
-    """Take our frames out, in causes and groups too."""
+    """Remove rosmini's frames, including those in causes and groups."""
     if shown.stack is not None:
         shown.stack = traceback.StackSummary.from_list(
             [frame for frame in shown.stack if not _ours(frame.filename)]
@@ -74,7 +74,7 @@ def _strip(shown: traceback.TracebackException, error: BaseException) -> None:
     ):
         if part is not None and source is not None:
             _strip(part, source)
-    # A cause inside rosmini says nothing that the error's own message does not.
+    # A cause inside rosmini adds nothing to the error's own message.
     if shown.__cause__ is not None and not shown.__cause__.stack and not shown.__cause__.__cause__:
         shown.__cause__ = None
         shown.__suppress_context__ = True
@@ -92,11 +92,11 @@ def _pythons(filename: str) -> bool:
 
 
 _BARE_INPUT = re.compile(r"=\s*input\s*\(")
-"""An input that is kept as it is, and not converted to a number."""
+"""An input that is kept as text, and not converted to a number."""
 
 
 def _reads_numbers_as_text(error: BaseException) -> bool:
-    """Return whether a file in which the error arose keeps what ``input()`` returns, as Python 2 scripts do."""
+    """Return True if a file in the traceback keeps the result of ``input()`` as Python 2 scripts do."""
     files = {frame.f_code.co_filename for frame, _ in traceback.walk_tb(error.__traceback__)}
     return any(
         _BARE_INPUT.search(line)

@@ -1,6 +1,6 @@
-"""Handles: whatever runs (a script, a built-in node, later a process) is started, awaited and ended in one way.
+"""Handles: a common way to start, await and end scripts, built-in nodes and processes.
 
-A handle is used as a ``subprocess.Popen`` is; its times are graph time. Waiting parks a lane, and drives the graph in
+A handle is used like a ``subprocess.Popen``; its times are graph time. Waiting parks a lane, or drives the graph in
 the main program or a notebook cell.
 """
 
@@ -25,23 +25,23 @@ if TYPE_CHECKING:
     from .console import Console
 
 SIGINT_TIMEOUT_S = 15.0
-"""How long roslaunch waits between SIGINT and SIGTERM [s] (http://wiki.ros.org/roslaunch/Commandline%20Tools)."""
+"""Time between SIGINT and SIGTERM in roslaunch [s] (http://wiki.ros.org/roslaunch/Commandline%20Tools)."""
 
 SIGTERM_TIMEOUT_S = 2.0
-"""How long it waits between SIGTERM and SIGKILL [s]."""
+"""Time between SIGTERM and SIGKILL in roslaunch [s]."""
 
 KILLED = -9
-"""The return code of what was ended by ``kill`` (SIGKILL, which Windows has no name for)."""
+"""Return code after ``kill`` (SIGKILL, which has no name on Windows)."""
 
 
 class StillRunning(ScriptError, TimeoutError):
-    """``wait(timeout)`` is over, and what was waited for has not ended."""
+    """``wait(timeout)`` has timed out."""
 
 
 class Handle(Protocol):
-    """What can be done with anything that runs.
+    """Interface of anything that runs.
 
-    ``returncode`` is None until it has ended, then its exit status, or ``-N`` when signal N ended it.
+    ``returncode`` is None until the end, then the exit status, or ``-N`` if signal N ended it.
     """
 
     args: tuple[str, ...]
@@ -49,32 +49,32 @@ class Handle(Protocol):
 
     @property
     def name(self) -> str:
-        """What its output and messages call it."""
+        """Name in output and messages."""
 
     @property
     def output(self) -> str | None:
-        """What it has printed so far, if that is captured."""
+        """Captured output so far, or None."""
 
     def start(self) -> None:
-        """Start it, or restart it after it has ended. Raises ``ScriptError`` while it runs."""
+        """Start it, or restart it after its end. Raises ``ScriptError`` while it runs."""
 
     def poll(self) -> int | None:
         """Return ``returncode``."""
 
     def wait(self, timeout: float | None = None) -> int:
-        """Wait until it has ended, for at most ``timeout`` seconds; return ``returncode``. Raises ``StillRunning``."""
+        """Wait until it ends, up to ``timeout`` seconds; return ``returncode``. Raises ``StillRunning``."""
 
     def send_signal(self, signum: int) -> None:
         """Send it a signal."""
 
     def terminate(self, sigint_timeout: float = ..., sigterm_timeout: float = ...) -> None:
-        """End it as roslaunch does, without waiting: SIGINT, after a time-out SIGTERM, after another one ``kill``."""
+        """End it as roslaunch does, without waiting: SIGINT, after a timeout SIGTERM, after another one ``kill``."""
 
     def kill(self) -> None:
-        """End it without asking."""
+        """Kill it without warning."""
 
     def respawn(self, delay: float = 0.0) -> None:
-        """Restart it with the same arguments in ``delay`` seconds. Raises ``ScriptError`` while it runs."""
+        """Restart it with the same arguments after ``delay`` seconds. Raises ``ScriptError`` while it runs."""
 
 
 def shell_status(returncode: int) -> int:
@@ -83,9 +83,9 @@ def shell_status(returncode: int) -> int:
 
 
 class LaneHandle(ABC):
-    """What scripts and built-in nodes have in common: they run in lanes of ``graph`` and write to ``console``.
+    """Base class of the handles of scripts and built-in nodes, which run in lanes of ``graph``.
 
-    ``console`` makes what it writes to; with ``owns_console`` nobody else uses that, and it is closed at the end.
+    ``console`` creates its console; with ``owns_console`` it is used by nothing else, and closed at the end.
     """
 
     def __init__(
@@ -101,21 +101,21 @@ class LaneHandle(ABC):
         self.args = args
         self.returncode: int | None = None
         self.on_end: Callable[[int], object] | None = None
-        """Called with the return code whenever it has ended; it may start it again."""
+        """Called with the return code at each end; may start it again."""
         self.on_start: Callable[[], object] | None = None
-        """Called whenever it has been started."""
+        """Called at each start."""
         self._make_console = console
         self._owns_console = owns_console
         self._console: Console | None = None
         self._running = False
         self._waiters: dict[Waiter, None] = {}
         self._next_step: Any = None
-        """The timer of what comes next: a further signal, or the next start."""
+        """Timer of the next action: a further signal, or the next start."""
 
     @property
     @abstractmethod
     def name(self) -> str:
-        """What its output and messages call it."""
+        """Name in output and messages."""
 
     def __repr__(self) -> str:
         state = (
@@ -127,19 +127,19 @@ class LaneHandle(ABC):
         return f"ended with exit status {self.returncode}"
 
     def instance(self) -> Any:
-        """Return the object that a built-in node made. Raises ``ScriptError`` for a script, which has none."""
+        """Return the object that a built-in node created. Raises ``ScriptError`` for a script, which has none."""
         raise ScriptError(
             f"{self.name} is a script, which has no such object; wait() returns its exit status"
         )
 
     @property
     def output(self) -> str | None:
-        """What it has printed so far, if that is captured."""
+        """Captured output so far, or None."""
         return None if self._console is None else self._console.captured
 
     @property
     def console(self) -> Console:
-        """Where it writes to and reads from; made when it starts."""
+        """Console for input and output, created at the start."""
         if self._console is None:
             self._console = self._make_console()
         return self._console
@@ -147,7 +147,7 @@ class LaneHandle(ABC):
     # -- its life ------------------------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Start it, or restart it after it has ended. Raises ``ScriptError`` while it runs."""
+        """Start it, or restart it after its end. Raises ``ScriptError`` while it runs."""
         self._refuse_while_running()
         self._cancel_step()
         if self._owns_console:
@@ -163,7 +163,7 @@ class LaneHandle(ABC):
             self.on_start()
 
     def respawn(self, delay: float = 0.0) -> None:
-        """Restart it with the same arguments in ``delay`` seconds of graph time; `terminate` and `kill` cancel that.
+        """Restart it with the same arguments after ``delay`` seconds of graph time; `terminate` and `kill` cancel that.
 
         Raises ``ScriptError`` while it runs.
         """
@@ -185,9 +185,9 @@ class LaneHandle(ABC):
         return self.returncode
 
     def wait(self, timeout: float | None = None) -> int:
-        """Wait until it has ended, for at most ``timeout`` seconds of graph time; return ``returncode``.
+        """Wait until it ends, up to ``timeout`` seconds of graph time; return ``returncode``.
 
-        Raises ``StillRunning`` after the time-out, ``GraphEnded`` if nothing is left to happen that could end it, and
+        Raises ``StillRunning`` after the timeout, ``GraphEnded`` if no event is left that could end it, and
         ``ScriptError`` if it was never started.
         """
         if self.returncode is None and not self._running and self._next_step is None:
@@ -208,16 +208,16 @@ class LaneHandle(ABC):
         return returncode
 
     def send_signal(self, signum: int) -> None:
-        """Send it a signal: a script's handler is called, rospy and built-in nodes shut down, else it ends."""
+        """Send it a signal: a script's handler is called, rospy and built-in nodes shut down, otherwise it ends."""
         if self._running:
             self._signal(signal.Signals(signum))
 
     def terminate(
         self, sigint_timeout: float = SIGINT_TIMEOUT_S, sigterm_timeout: float = SIGTERM_TIMEOUT_S
     ) -> None:
-        """End it as roslaunch does, without waiting: SIGINT, after a time-out SIGTERM, after another one ``kill``.
+        """End it as roslaunch does, without waiting: SIGINT, after a timeout SIGTERM, after another one ``kill``.
 
-        The time-outs are seconds of graph time. Harmless when repeated and after the end.
+        Timeouts are in seconds of graph time. May be called repeatedly and after the end.
         """
         if not self._running:
             self._call_off()
@@ -232,7 +232,7 @@ class LaneHandle(ABC):
         self.send_signal(signal.SIGTERM)
 
     def kill(self) -> None:
-        """End it without asking: no handler, no shutdown hook, no ``atexit``. The Master forgets its node."""
+        """Kill it without handlers, shutdown hooks or ``atexit``; its node is unregistered."""
         if self._running:
             self.end_now(KILLED)
         else:
@@ -240,7 +240,7 @@ class LaneHandle(ABC):
 
     @abstractmethod
     def end_now(self, returncode: int) -> None:
-        """End it without asking, with this return code."""
+        """Kill it, with this return code."""
 
     @abstractmethod
     def _launch(self) -> None: ...
@@ -269,13 +269,13 @@ class LaneHandle(ABC):
             self._next_step = None
 
     def _call_off(self) -> None:
-        """Cancel a respawn that is to come."""
+        """Cancel a pending respawn."""
         if self._next_step is not None:
             self._cancel_step()
             self._conclude(KILLED)
 
     def _conclude(self, returncode: int) -> None:
-        """Note the end, and let those who wait for it go on."""
+        """Record the end, and wake those who wait for it."""
         self._running = False
         self.returncode = returncode
         self._cancel_step()

@@ -1,10 +1,10 @@
-"""``import`` as one script sees it.
+"""The import system of one script.
 
 Each script has its own ``__import__`` in its builtins. Modules beside the script (or in a folder that it added to
-``sys.path``) are loaded for this script alone, with ticks in their loops; a few modules of the standard library that
-keep state for the whole process or block (``threading``, ``time``, ``random``, ``logging``, ...) are replaced by
-shims or by private copies; ``rospy`` (given by whoever runs the script) and the messages are rosmini's; everything
-else is the host's, imported while the script's context is put aside, so that nothing of the script sticks to it.
+``sys.path``) are loaded for this script alone, with ticks in their loops. Some modules of the standard library that
+block or keep global state (``threading``, ``time``, ``random``, ``logging``, ...) are replaced by
+shims or by private copies. ``rospy`` (provided by the runner) and the messages are rosmini's. Everything
+else is the host's, imported without the script's context, so that it keeps no state of the script.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Importer:
         fromlist: Sequence[str] | None = (),
         level: int = 0,
     ) -> ModuleType:
-        """Do what ``builtins.__import__`` does, with the script's modules first."""
+        """Import like ``builtins.__import__``, searching the script's modules first."""
         absolute = name if level == 0 else self._absolute(name, globals, level)
         package, _, child = absolute.partition(".")
         if child.partition(".")[0] != "cfg":
@@ -135,7 +135,7 @@ class Importer:
             module = self.private[name] = BUILDERS[name](self._context)
         elif child == "cfg" and (folder := self._reconfigure_folder(parent_name)) is not None:
             module = self._load_reconfigure(name, folder)
-            if parent_name not in self.local:  # the module of the messages, which is not the script's
+            if parent_name not in self.local:  # the message module, which is not the script's
                 return module
         elif parent_name in self.local and child in ("msg", "srv") and self._is_of_messages(name, parent):
             module = self._message_module(name)
@@ -191,12 +191,12 @@ class Importer:
         return bool(known.messages(package) or known.services(package))
 
     def _is_of_messages(self, name: str, parent: ModuleType) -> bool:
-        """Return whether ``my_package.msg`` is that of the definitions: the Python package has none of its own."""
+        """Return True if ``my_package.msg`` is made from the definitions: the Python package has no such module."""
         own = self._find(name, list(getattr(parent, "__path__", ())))
         return self._defines_messages(parent.__name__) and (own is None or own.loader is None)
 
     def _message_module(self, name: str) -> ModuleType:
-        """``std_msgs.msg``, from :mod:`rosmini.msgs`, also where a ROS is installed: ours goes with our rospy."""
+        """Return ``std_msgs.msg`` from :mod:`rosmini.msgs`, even if a ROS is installed, to match our rospy."""
         try:
             module = self.private[name] = importlib.import_module(_MESSAGES + name)
         except ModuleNotFoundError as error:
@@ -207,7 +207,7 @@ class Importer:
         return module
 
     def _not_in_ours(self, name: str, package: str) -> ModuleNotFoundError:
-        """Return the error for a submodule that rosmini's own ``package`` does not have."""
+        """Return the error for a submodule that rosmini's ``package`` lacks."""
         inner = sorted(
             each.removeprefix(f"{package}.") for each in self._given if each.startswith(f"{package}.")
         )
@@ -219,7 +219,7 @@ class Importer:
         return ModuleNotFoundError(f"No module named {name!r}: {has}", name=name)
 
     def _local_spec(self, name: str) -> ModuleSpec | None:
-        """Where the script's own folders have the top-level module ``name``; None if they have not."""
+        """Return the location of the top-level module ``name`` in the script's folders, or None."""
         if name in _NEVER_LOCAL or name in sys.builtin_module_names:
             return None
         found = self._find(name, self._context.local_folders())
@@ -228,9 +228,9 @@ class Importer:
         return self._package_spec(name) or found  # a plain folder gives way to a package
 
     def _package_spec(self, name: str) -> ModuleSpec | None:
-        """Where a ROS package has a Python package: in ``src``, from where ``catkin_python_setup()`` installs it.
+        """Return the location of a ROS package's Python package: in ``src``, as for ``catkin_python_setup()``.
 
-        The script's own may have any, another one that of its name.
+        The script's own package may have any name there, another package only its own.
         """
         source, homes = registry().source, [self._context.package]
         if isinstance(source, PackageSource) and name in source.index:
@@ -244,7 +244,7 @@ class Importer:
         return self._find(name, [str(folder.parent.parent)])
 
     def _reconfigure_folder(self, package: str) -> Path | None:
-        """Where catkin_make has made ``my_package.cfg``."""
+        """Return the folder in which catkin_make has made ``my_package.cfg``."""
         source = registry().source
         return source.reconfigure_folder(package) if isinstance(source, PackageSource) else None
 
@@ -378,7 +378,7 @@ class Importer:
         return self.local.get(spec.name, module)
 
     def _copy(self, name: str) -> ModuleType:
-        """A second instance of a pure-Python module of the standard library, on top of this script's shims."""
+        """Return a private copy of a pure-Python standard library module that uses this script's shims."""
         spec = importlib.util.find_spec(name)
         if spec is None or spec.loader is None:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)
@@ -396,7 +396,7 @@ class Importer:
 
 
 def _explain(name: str | None) -> None:
-    """Raise an error that says what to do instead, if this is a module of ROS that rosmini does not have."""
+    """Raise an error with an alternative, if this is a ROS module that rosmini lacks."""
     from rosmini.ros.rospy.absent import absent_module
 
     known = absent_module(name or "")

@@ -1,8 +1,8 @@
-"""The handle of a built-in node, which may be started several times.
+"""Handle of a built-in node, which may be started several times.
 
 A built-in node is an entry point of the group `rosmini.nodes`: a callable that takes the started
-``Node`` (and the arguments that are no remappings, as strings), sets itself up, and returns the
-object to which the node's topics, services and timers belong. It may block meanwhile, as if it waited for a service.
+``Node`` (and the arguments other than remappings, as strings), sets itself up, and returns the
+object that owns the node's topics, services and timers. It may block meanwhile, for instance to wait for a service.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 PATIENCE = 60.0
-"""How long ``instance()`` waits for a node to be set up [s of graph time]."""
+"""Maximum wait of ``instance()`` for the set-up of a node [s of graph time]."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +46,10 @@ class NodeSpec:
 class NodeHandle(LaneHandle):
     """A built-in node of a graph; see :class:`~rosmini.ros.scripts.handle.Handle`.
 
-    It ends when its node is shut down; its exit status is that of its object, if that has an ``exit_status``, else 0,
-    and 1 if it could not be set up.
+    It ends when its node is shut down. Its exit status is the ``exit_status`` of its object, if there is one, else 0,
+    or 1 if the set-up failed.
 
-    Raises ``ScriptError`` if it does not take these arguments.
+    Raises ``ScriptError`` if the node does not accept these arguments.
     """
 
     def __init__(
@@ -74,14 +74,14 @@ class NodeHandle(LaneHandle):
 
     @property
     def name(self) -> str:
-        """The name of its executable."""
+        """Name of the executable."""
         return self.executable.name
 
     def instance(self) -> Any:
-        """Wait until the node is set up and return the object that it made; raises what it raised meanwhile.
+        """Wait until the node is set up and return the object it created; raises the errors of the set-up.
 
         Raises ``ScriptError`` if it was never started, or is not set up after ``PATIENCE`` of graph time: a costmap
-        waits for its frames as long as it takes. It goes on then, and may be asked again.
+        waits for its frames without a limit. The set-up then continues, and the call may be repeated.
         """
         if self._ready is None:
             raise ScriptError(f"{self.name} was not started; call start() first")
@@ -105,7 +105,7 @@ class NodeHandle(LaneHandle):
     def _launch(self) -> None:
         self._instance = self._problem = self._forced = None
         self._is_set_up = self._awaited = False
-        # gzserver is called gazebo, as ROS's is
+        # gzserver's node is named gazebo, as in ROS
         name = getattr(self._entry, "node_name", self.executable.name)
         namespace = os.environ.get("ROS_NAMESPACE", "")
         label = self._remappings.node_name or name
@@ -153,7 +153,7 @@ class NodeHandle(LaneHandle):
         self._conclude(status if self._forced is None else self._forced)
 
     def ask_to_end(self, reason: str) -> None:
-        """Shut the node down, in a lane of its own."""
+        """Shut the node down, in a separate lane."""
         node = self.node
         if node is not None:
             node.spawn(f"{node.name} shutdown", lambda: node.shutdown(reason))
@@ -163,7 +163,7 @@ class NodeHandle(LaneHandle):
             self.ask_to_end(f"signal-{signum}")
 
     def end_now(self, returncode: int) -> None:
-        """End it without asking, with this return code."""
+        """Kill it, with this return code."""
         self._forced = returncode
         self._set_up_lane.kill()
         node = self.node
@@ -172,7 +172,7 @@ class NodeHandle(LaneHandle):
 
 
 def _check_arguments(executable: Executable, entry: Callable[..., Any], others: Sequence[str]) -> None:
-    """Raise ``ScriptError`` if the built-in node does not take these arguments beside ROS's own."""
+    """Raise ``ScriptError`` if the built-in node does not accept these arguments besides ROS's own."""
     try:
         inspect.signature(entry).bind(None, *others)
     except TypeError as error:

@@ -1,4 +1,4 @@
-"""Running scripts as nodes of one graph: from their files to an exit status."""
+"""Runs scripts as nodes of one graph: from their files to an exit status."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RunResult:
-    """How a run ended.
+    """Result of a run.
 
     ``status`` is that of the first that failed, or 0; ``statuses`` has those of the scripts and then those of the
-    built-in nodes, each in the order given; ``reason`` is "ended" (all scripts have), "time" (the duration is over),
-    "drained" (nothing is left to happen), "stopped" or "interrupted" (Ctrl-C).
+    built-in nodes, each in the given order; ``reason`` is "ended" (all scripts ended), "time" (the duration is over),
+    "drained" (no event is left), "stopped" or "interrupted" (Ctrl-C).
     """
 
     status: int
@@ -50,11 +50,11 @@ class _Run:
         self.grace = grace
 
     def over(self) -> bool:
-        """Return whether all scripts have ended, or, where there are only built-in nodes, all of these."""
+        """Return True if all scripts have ended, or all nodes if there are only built-in nodes."""
         return all(each.poll() is not None for each in self.scripts or self.nodes)
 
     def drive(self, duration: float | None) -> tuple[str, RunReport | None]:
-        """Let the scripts run; return why they stopped and the report."""
+        """Run the scripts; return why they stopped and the report."""
         until_ns = (
             None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
         )
@@ -67,7 +67,7 @@ class _Run:
         return ("ended" if report.reason == "condition" else report.reason), report
 
     def end(self, reason: str) -> None:
-        """Ask what still runs to end; throw out the scripts that do not."""
+        """Ask the running scripts and nodes to end; force out the scripts that do not."""
         why = {
             "interrupted": "Ctrl-C",
             "time": "the time is over",
@@ -122,27 +122,27 @@ def run_scripts(
     folders: Sequence[str] = (),
     modules: Mapping[str, ModuleType] | None = None,
 ) -> RunResult:
-    """Run scripts written for rospy as nodes of one graph, and return how it ended.
+    """Run rospy scripts as nodes of one graph, and return the result.
 
     Args:
-        specs: the scripts, all of which are read before the first starts, and built-in nodes, which start before the
-            scripts and are shut down when these have ended.
-        simulated: simulated time, or wall time (ignored with ``graph``).
-        duration: end after this many seconds of graph time; None: when all have ended, or nothing is left to happen.
-        graph: run in this graph, which stays as it is afterwards; a new one if not given.
-        rate: in wall time, how many seconds of graph time pass in one second (ignored with ``graph``).
-        seed: what the scripts' random numbers start from in simulated time.
+        specs: the scripts, which are all read before the first starts, and built-in nodes, which start before the
+            scripts and are shut down after them.
+        simulated: use simulated time, otherwise wall-clock time (ignored with ``graph``).
+        duration: end after this many seconds of graph time; None: when all have ended, or no event is left.
+        graph: run in this graph and keep it; by default in a new one.
+        rate: in wall-clock time, seconds of graph time per second (ignored with ``graph``).
+        seed: seed of the scripts' random numbers in simulated time.
         stdin: the scripts' standard input: a text, pieces of text with the second at which each arrives, a file, a
             function that returns a line, or None for the host's.
-        stdout: where the output goes; the host's if not given.
-        stderr: where errors and warnings go; the host's if not given.
+        stdout: stream for output; by default the host's.
+        stderr: stream for errors and warnings; by default the host's.
         prefix: put ``[name]`` before each line.
-        grace: how many seconds of graph time a script has to end once asked to.
-        folders: where the scripts' modules may be, besides the folder of each.
-        modules: the client library, by the names under which scripts import it; rosmini's rospy if not given.
+        grace: seconds of graph time that a script has to end once asked to.
+        folders: folders with the scripts' modules, besides the folder of each script.
+        modules: the client library, by the names under which scripts import it; by default rosmini's rospy.
 
     Raises:
-        ScriptError: a script is not there or is not Python.
+        ScriptError: a script is missing or is not Python.
 
     """
     if not specs:
@@ -189,7 +189,7 @@ def run_source(text: str, args: Sequence[str] = (), *, name: str = "script", **o
 
 @contextmanager
 def _graph_for_run(graph: Graph | None, *, simulated: bool, rate: float, seed: int) -> Iterator[Graph]:
-    """Give ``graph``, or a new one that is shut down afterwards."""
+    """Yield ``graph``, or a new one that is shut down afterwards."""
     if graph is not None:
         yield graph
         return

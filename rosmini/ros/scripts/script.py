@@ -1,4 +1,4 @@
-"""What the importer and the shims see of the script for which they work."""
+"""Interfaces of a script for the importer and the shims."""
 
 # ruff: noqa: D102 - `ScriptContext` says what each method does
 
@@ -31,14 +31,14 @@ class ScriptImporter(Protocol):
         fromlist: Sequence[str] | None = (),
         level: int = 0,
     ) -> ModuleType:
-        """Do what ``builtins.__import__`` does."""
+        """Import like ``builtins.__import__``."""
 
     def load(self, name: str) -> ModuleType:
-        """Do what ``importlib.import_module`` does."""
+        """Import like ``importlib.import_module``."""
 
 
 class Script(LaneContext, Protocol):
-    """A script: :class:`~rosmini.ros.scripts.context.ScriptContext`, which says what each of these is."""
+    """Interface of :class:`~rosmini.ros.scripts.context.ScriptContext`, where each member is documented."""
 
     name: str
     seed: str

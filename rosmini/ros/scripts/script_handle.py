@@ -1,4 +1,4 @@
-"""The handle of a script: from its file to an exit status, as often as it is started."""
+"""Handle of a script: from its file to an exit status, for each start."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from .streams import ScriptOutput
 
 END_GRACE_S = 0.2
-"""How long a script may take to end once it was thrown out of its last blocking call, in seconds of graph time."""
+"""Time to end for a script that was forced out of its last blocking call, in graph time [s]."""
 
 INTERRUPTED = -signal.SIGINT
-"""The return code of a script that Ctrl-C ended."""
+"""Return code of a script ended by Ctrl-C."""
 
 _IGNORED_BY_DEFAULT = ("SIGCHLD", "SIGCONT", "SIGURG", "SIGWINCH")
 
@@ -48,7 +48,7 @@ class ScriptSpec:
     environ: tuple[tuple[str, str], ...] = ()
 
     def read(self) -> Source:
-        """Read and compile it. Raises ``ScriptError`` if it is not there or is not Python."""
+        """Read and compile it. Raises ``ScriptError`` if it is missing or is not Python."""
         if self.source is None:
             return read_script(self.path)
         filename = f"<{self.path}>"
@@ -60,11 +60,11 @@ class ScriptSpec:
 class ScriptHandle(LaneHandle):
     """A script of a graph; see :class:`~rosmini.ros.scripts.handle.Handle`.
 
-    ``seed`` is what its random numbers start from in simulated time, ``folders`` are where its modules may be besides
-    its own folder, and ``modules`` is the client library by the names under which it is imported: rosmini's rospy if
-    not given.
+    ``seed`` is the seed of its random numbers in simulated time, ``folders`` are folders with its modules besides
+    its own folder, and ``modules`` is the client library by the names under which it is imported: by default rosmini's
+    rospy.
 
-    Raises ``ScriptError`` if the script is not there or is not Python.
+    Raises ``ScriptError`` if the script is missing or is not Python.
     """
 
     def __init__(
@@ -93,25 +93,25 @@ class ScriptHandle(LaneHandle):
         self._status = 0
         self._forced: int | None = None
         self.ended_itself = False
-        """Whether the script sent itself the signal that ended it, or called ``os._exit``."""
+        """True if the script sent itself the signal that ended it, or called ``os._exit``."""
 
     @property
     def name(self) -> str:
-        """The name of its node, or of its file before it has one."""
+        """Name of its node, or of its file before it has one."""
         return Path(self.spec.path).stem if self._context is None else self._context.name
 
     @property
     def node(self) -> Any:
-        """The node that it initialised at its latest start, or None."""
+        """The node that it initialised since its latest start, or None."""
         return None if self._context is None else self._context.node
 
     def writes(self, stream: ScriptOutput) -> bool:
-        """Return whether a stream is its standard output or error, as it was at its latest start."""
+        """Return True if a stream is its standard output or error since its latest start."""
         return self._context is not None and stream in (self._context.stdout, self._context.stderr)
 
     @property
     def context(self) -> ScriptContext:
-        """Everything that it believes to be its own, of the latest start."""
+        """The context of its latest start."""
         if self._context is None:
             raise ScriptError(f"{self.name} was not started; call start() first")
         return self._context
@@ -167,7 +167,7 @@ class ScriptHandle(LaneHandle):
         except LaneExit:
             pass  # the run is over
         except ROSInterruptException as error:
-            # By the clock on the wall rospy's sleep does not raise it: a loop that asks is_shutdown() just ends
+            # In wall-clock time rospy's sleep does not raise it: a loop that polls is_shutdown() just ends
             if not self._asked and self.scheduler.simulated:
                 self._failed(error)
         except KeyboardInterrupt as error:
@@ -201,7 +201,7 @@ class ScriptHandle(LaneHandle):
         context.get_own("stderr").write(user_traceback(error))
 
     def _finish(self) -> None:
-        """Do what Python does at the end of a program: wait for threads, then ``atexit``; then the node shuts down."""
+        """End like a Python program: wait for threads, then run ``atexit``; then shut the node down."""
         context = self.context
         try:
             while context.threads.at_end:
@@ -225,7 +225,7 @@ class ScriptHandle(LaneHandle):
     # -- its end -------------------------------------------------------------------------------------------------
 
     def _main_ended(self) -> None:
-        """End its threads, and then forget it; a real thread that holds on is not waited for much longer."""
+        """End its threads and discard it; a real thread that does not end is not awaited for long."""
         context = self.context
         if context.ended and self._forced is None:
             return
@@ -247,7 +247,7 @@ class ScriptHandle(LaneHandle):
         self._conclude(status if self._forced is None else self._forced)
 
     def ask_to_end(self, reason: str) -> bool:
-        """Let its client library shut the node down; return False if it has none."""
+        """Make its client library shut the node down; return False if it has none."""
         context = self.context
         if not context.at_shutdown:
             return False
@@ -256,23 +256,23 @@ class ScriptHandle(LaneHandle):
         return True
 
     def interrupt(self, reason: str, *, in_place: bool = False) -> bool:
-        """Do what Ctrl-C does: call its handler, or raise ``KeyboardInterrupt``, or let rospy shut its node down."""
+        """Interrupt it like Ctrl-C: call its handler, raise ``KeyboardInterrupt``, or let rospy shut its node down."""
         delivered = self.context.deliver(signal.SIGINT, in_place=in_place)
         self._asked |= delivered
         return self.ask_to_end(reason) or delivered
 
     def throw_out(self) -> None:
-        """Leave the script where it blocks; its ``atexit`` functions run."""
+        """Force the script out of its blocking call; its ``atexit`` functions run."""
         self.context.raise_in_main(LaneExit("the run is over"))
 
     def signal_itself(self, signum: signal.Signals, *, in_place: bool = True) -> None:
-        """Take a signal that the script sent to itself: its handler is called before this returns, or in a lane."""
+        """Handle a signal that the script sent to itself: its handler is called before this returns, or in a lane."""
         self.ended_itself = True
         self._signal(signum, in_place=in_place)
         self.ended_itself = not self._running or self.context.ended
 
     def leave(self, returncode: int) -> None:
-        """End at once, as the script wants: ``os._exit``."""
+        """End at once at the script's request, like ``os._exit``."""
         self.ended_itself = True
         self.end_now(returncode)
 
@@ -286,13 +286,13 @@ class ScriptHandle(LaneHandle):
         ):
             if signum == signal.SIGTERM and (
                 context.at_shutdown or context.node is not None
-            ):  # rospy's to answer
+            ):  # handled by rospy
                 self.ask_to_end("signal-15")
             elif signum.name not in _IGNORED_BY_DEFAULT:
                 self.end_now(-signum)
 
     def end_now(self, returncode: int) -> None:
-        """End it without asking, with this return code."""
+        """Kill it, with this return code."""
         context = self.context
         self._forced = returncode
         context.at_shutdown.clear()

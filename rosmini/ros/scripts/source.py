@@ -1,4 +1,4 @@
-"""Reading a script: from a file to code, or to an error that says what the file is instead."""
+"""Reads a script: from a file to code, or to an error that says what the file is instead."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ _MIXED_TABS = "Python 3 does not mix tabs and spaces in an indentation"
 
 @dataclass(frozen=True)
 class Source:
-    """A script or a module beside it: where it stands, and its code with ticks."""
+    """A script or a module beside it: its path, and its code with ticks."""
 
     filename: str
     code: CodeType
@@ -77,17 +77,17 @@ class Source:
 def read_script(path: str | Path) -> Source:
     """Read and compile the script at ``path``.
 
-    The encoding is the one that the file declares (PEP 263), a byte order mark and a ``#!`` line are fine.
+    The encoding is the declared one (PEP 263); a byte order mark and a ``#!`` line are allowed.
 
     Raises:
-        ScriptError: nothing is there, or it is a folder, or not Python 3; the message says what it is.
+        ScriptError: it is missing, a folder, or not Python 3; the message says which.
 
     """
     return compile_script(_read(Path(path)), str(Path(path).absolute()))
 
 
 def compile_script(data: bytes, filename: str) -> Source:
-    """Compile the bytes of a script that stands (or pretends to stand) at ``filename``.
+    """Compile the bytes of a script whose path is, or is said to be, ``filename``.
 
     Raises:
         ScriptError: the bytes are not Python 3.
@@ -103,7 +103,7 @@ def compile_script(data: bytes, filename: str) -> Source:
 
 
 def remember_lines(filename: str, text: str) -> None:
-    """Let tracebacks show the lines of a script that is in no file."""
+    """Make tracebacks show the lines of a script that is not in a file."""
     linecache.cache[filename] = (len(text), None, text.splitlines(keepends=True), filename)
 
 
@@ -150,7 +150,7 @@ def _listing(names: list[str], limit: int = 8) -> str:
 
 
 def _other_kind(path: Path, data: bytes) -> str | None:
-    """What the file is, if its first bytes or its name say that it is not Python; else None."""
+    """Return the kind of a file that is not Python by its first bytes or its name; otherwise None."""
     for magic, kind in _BINARY.items():
         if data.startswith(magic):
             return kind
@@ -168,7 +168,7 @@ def _other_kind(path: Path, data: bytes) -> str | None:
 
 def _why_not_python(data: bytes, filename: str, error: Exception) -> str:
     if not isinstance(error, SyntaxError) or not error.lineno or "(unicode error)" in str(error.msg):
-        # A wrong PEP 263 line, or bytes that are not in the declared encoding.
+        # An invalid PEP 263 line, or bytes that are not in the declared encoding.
         hint = "; if it is not in UTF-8, its first line must say so, as in `# -*- coding: latin-1 -*-`"
         return f"{filename} cannot be read as Python: {getattr(error, 'msg', error)}{hint}"
     lines = data.decode("utf-8", "replace").splitlines()
@@ -187,7 +187,7 @@ def _why_not_python(data: bytes, filename: str, error: Exception) -> str:
 
 
 def _shown(line: str, offset: int | None) -> str:
-    """The offending line, with a caret under the place if it is known."""
+    """Return the offending line, with a caret below the position if it is known."""
     stripped = line.strip()
     shown = f"    {stripped}"
     if offset is None:

@@ -1,4 +1,4 @@
-"""Standard input of scripts: from the terminal, or supplied; reading it parks the lane and never stops the graph."""
+"""Standard input of scripts, from the terminal or supplied; reading parks the lane and never stops the graph."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ if TYPE_CHECKING:
     from rosmini.core.graph.scheduler import Scheduler
 
 KEY_S = 0.01
-"""The period at which the console of Windows is polled for a key [s]."""
+"""Period at which the console of Windows is polled for a key [s]."""
 
 PRETENDED_FD = 0x7FFF_0000
-"""The descriptor number of supplied input: no real file has it, so using it elsewhere fails."""
+"""Descriptor number of supplied input; no real file has it, so using it elsewhere fails."""
 
 
 class Blocker(Protocol):
-    """Waits on behalf of a script, and can be ended while it does."""
+    """Waits on behalf of a script, in such a way that the wait can be ended."""
 
     def pause(self, reason: str, timeout_ns: int | None) -> bool:
         """Wait for ``timeout_ns`` of graph time; see :meth:`ScriptContext.pause`."""
 
 
 class Feed:
-    """A source of text with a buffer in front of it."""
+    """A source of text with a buffer."""
 
     def __init__(self) -> None:
         self._text = ""
@@ -53,10 +53,10 @@ class Feed:
         return self._take(len(self._text) if size < 0 else size)
 
     def ready(self, who: Blocker, timeout_ns: int | None) -> bool:
-        """Wait until something can be read (the end counts), for at most ``timeout_ns``; return whether it can.
+        """Wait until input (or its end) can be read, up to ``timeout_ns``; return True if it can.
 
-        Once the end was read, asking again takes the whole time-out, as if nobody pressed a key: a loop that waits for
-        keys would otherwise turn for ever at one instant of simulated time.
+        After the end was read, further calls wait for the whole timeout, as if no key was pressed: or else a loop that
+        waits for keys would run for ever at one instant of simulated time.
         """
         if self._text:
             return True
@@ -71,14 +71,14 @@ class Feed:
         return taken
 
     def _fill(self, who: Blocker) -> None:
-        """Get more text, or note the end."""
+        """Get more text, or record the end."""
         raise AssertionError(who)
 
     def _await(self, who: Blocker, timeout_ns: int | None) -> bool:
         raise AssertionError(who, timeout_ns)
 
     def isatty(self) -> bool:
-        """Return whether it is a terminal."""
+        """Return True if it is a terminal."""
         return False
 
     def fileno(self) -> int:
@@ -86,7 +86,7 @@ class Feed:
         return PRETENDED_FD
 
     def close(self) -> None:
-        """Release whoever still reads."""
+        """Release waiting readers."""
 
 
 class SuppliedFeed(Feed):
@@ -124,7 +124,7 @@ class SuppliedFeed(Feed):
 
 
 class CallableFeed(Feed):
-    """Lines from a function, as a notebook's ``input``; it may block the graph while a person types."""
+    """Lines from a function, such as a notebook's ``input``; it may block the graph while the user types."""
 
     def __init__(self, ask: Callable[[], str]) -> None:
         super().__init__()
@@ -141,7 +141,7 @@ class CallableFeed(Feed):
 
 
 class HostFeed(Feed):
-    """The host's own standard input, shared by the scripts of a run: the first to ask gets the next line."""
+    """The host's standard input, shared by the scripts of a run: the first reader gets the next line."""
 
     def __init__(self, scheduler: Scheduler, stream: TextIO) -> None:
         super().__init__()
@@ -161,7 +161,7 @@ class HostFeed(Feed):
         self._lock = threading.Lock()
 
     def isatty(self) -> bool:
-        """Return whether it is a terminal."""
+        """Return True if it is a terminal."""
         return self._stream.isatty()
 
     def fileno(self) -> int:
@@ -196,7 +196,7 @@ class HostFeed(Feed):
                 return text
 
     def _selected(self, timeout: float | None) -> bool:
-        """Wait for the descriptor; False when the time is over or the feed was closed."""
+        """Wait for the descriptor; return False after the timeout or if the feed was closed."""
         if os.name == "nt":  # select() there knows sockets only
             return True
         with self._lock:
@@ -229,7 +229,7 @@ class HostFeed(Feed):
         return seconds != 0 and self._scheduler.in_thread(lambda: self._selected(seconds))
 
     def close(self) -> None:
-        """Release the helper threads that still read."""
+        """Release the helper threads that are still reading."""
         with self._lock:
             self._closed = True
             if self._stop is not None and self._selecting:
@@ -238,23 +238,23 @@ class HostFeed(Feed):
 
 
 class Keyboard(Protocol):
-    """What is used of the module ``msvcrt``."""
+    """The functions used from the module ``msvcrt``."""
 
     def kbhit(self) -> bool:
-        """Return whether a key waits to be read."""
+        """Return True if a key is waiting to be read."""
 
     def getwch(self) -> str:
         """Return the next key."""
 
 
 class ConsoleFeed(HostFeed):
-    """The console of Windows: lines as Python reads them there, or single keys once a script asks for those."""
+    """The console of Windows: lines as Python reads them, or single keys once a script asks for them."""
 
     def __init__(self, scheduler: Scheduler, stream: TextIO, keyboard: Keyboard) -> None:
         super().__init__(scheduler, stream)
         self._keyboard = keyboard
         self.takes_keys = False
-        """Set by ``tty.setraw`` and its like, and while ``msvcrt`` is asked."""
+        """True after ``tty.setraw`` and similar calls, and while ``msvcrt`` is used."""
 
     def _read_some(self) -> str:
         if not self.takes_keys:
@@ -301,15 +301,15 @@ class ScriptInput(io.TextIOBase):
         return True
 
     def isatty(self) -> bool:
-        """Return whether it is a terminal."""
+        """Return True if it is a terminal."""
         return self.feed.isatty()
 
     def fileno(self) -> int:
-        """Return the host's descriptor, or a number that is none for supplied input."""
+        """Return the host's descriptor, or an invalid number for supplied input."""
         return self.feed.fileno()
 
     def readline(self, size: int | None = -1) -> str:  # type: ignore[override]
-        """Return the next line; the graph goes on meanwhile."""
+        """Return the next line; the graph runs meanwhile."""
         self._before_read()
         return self.feed.readline(self._who, -1 if size is None else size)
 
@@ -319,13 +319,13 @@ class ScriptInput(io.TextIOBase):
         return self.feed.read(self._who, -1 if size is None else size)
 
     def ready(self, timeout_ns: int | None) -> bool:
-        """Return whether something can be read within ``timeout_ns`` of graph time."""
+        """Return True if input can be read within ``timeout_ns`` of graph time."""
         self._before_read()
         return self.feed.ready(self._who, timeout_ns)
 
 
 def make_feed(scheduler: Scheduler, stdin: Any) -> Feed:
-    """Return the feed for ``stdin``: a text, timed pieces of text, a file, a function, or None for the host's own."""
+    """Return the feed for ``stdin``: a text, timed pieces of text, a file, a function, or None for the host's."""
     if stdin is None:
         return _host_feed(scheduler, sys.stdin) if sys.stdin is not None else SuppliedFeed(scheduler, "")
     if isinstance(stdin, Feed):

@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 class OutputSink:
-    """Where the scripts of one run write: the host's standard output and error.
+    """Output of the scripts of one run: the host's standard output and error.
 
     A line belongs to one script. An unfinished line is shown when its script flushes (a prompt, a progress
-    display) and is closed as soon as somebody else writes.
+    display) and is ended as soon as another script writes.
     """
 
     to_log = False
-    """Whether standard output goes to a log and not to the screen."""
+    """True if standard output goes to a log and not to the screen."""
 
     def __init__(self, stdout: TextIO, stderr: TextIO, *, prefix: bool = True) -> None:
         self.stdout = stdout
@@ -31,7 +31,7 @@ class OutputSink:
         self._open: ScriptOutput | None = None
 
     def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
-        """Write ``text``, a line or the next part of one, for ``owner``."""
+        """Write ``text``, a line or the next part of one, on behalf of ``owner``."""
         target = self.stderr if owner.is_error else self.stdout
         if getattr(target, "closed", False) or getattr(self.stdout, "closed", False):
             return
@@ -56,14 +56,14 @@ class OutputSink:
         return f"[{owner.label()}] " if self.prefix else ""
 
     def flush(self) -> None:
-        """Flush both streams, as far as they are open: a node may outlive the streams of who started it."""
+        """Flush both streams if they are open: a node may outlive the streams of its starter."""
         for stream in (self.stdout, self.stderr):
             if not getattr(stream, "closed", False):
                 stream.flush()
 
 
 class ErrorsOnly(OutputSink):
-    """Another sink, on which only standard error appears: the screen under `roslaunch --log`."""
+    """A sink that passes only standard error to another: the screen under `roslaunch --log`."""
 
     to_log = True
 
@@ -72,7 +72,7 @@ class ErrorsOnly(OutputSink):
         self._sink = sink
 
     def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
-        """Pass a line of standard error on."""
+        """Pass on a line of standard error."""
         if owner.is_error:
             self._sink.emit(owner, text, complete=complete)
 
@@ -105,17 +105,17 @@ class ScriptOutput(io.TextIOBase):
 
     @property
     def to_log(self) -> bool:
-        """Whether standard output of its script goes to a log and not to the screen."""
+        """True if its script's standard output goes to a log and not to the screen."""
         return self._sink.to_log
 
     @property
     def encoding(self) -> str:  # type: ignore[override]
-        """What bytes written to ``buffer`` are read as."""
+        """Encoding of bytes written to ``buffer``."""
         return "utf-8"
 
     @property
     def errors(self) -> str:  # type: ignore[override]
-        """How bytes that are not UTF-8 are shown."""
+        """Error handling for bytes that are not UTF-8."""
         return "backslashreplace"
 
     def writable(self) -> bool:
@@ -123,21 +123,21 @@ class ScriptOutput(io.TextIOBase):
         return True
 
     def isatty(self) -> bool:
-        """Return whether it is a terminal."""
+        """Return True if it is a terminal."""
         return self._target().isatty()
 
     def fileno(self) -> int:
-        """Return the host's descriptor; what is written to it directly has no name before it."""
+        """Return the host's descriptor; text written to it directly has no name prefix."""
         return self._target().fileno()
 
     def reconfigure(self, **_options: object) -> None:
-        """Accept what ``TextIOWrapper`` accepts; lines go out as they are complete in any case."""
+        """Accept the options of ``TextIOWrapper``; complete lines are written at once in any case."""
 
     def _target(self) -> TextIO:
         return self._sink.stderr if self.is_error else self._sink.stdout
 
     def write(self, text: str) -> int:
-        """Write ``text``; complete lines go out at once."""
+        """Write ``text``; complete lines are written at once."""
         if not isinstance(text, str):
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
         with self._sink.lock:
@@ -158,7 +158,7 @@ class ScriptOutput(io.TextIOBase):
                 self._shown = len(self._partial)
 
     def finish(self) -> None:
-        """End an unfinished line: the script has ended."""
+        """End an unfinished line at the end of the script."""
         with self._sink.lock:
             if self._partial:
                 self.write("\n")
@@ -185,9 +185,9 @@ class _OutputBuffer(io.RawIOBase):
 
 
 class OwnStreams:
-    """The context of a built-in node's lanes, where its output does not go where the host's goes.
+    """Context of a built-in node's lanes whose output differs from the host's.
 
-    ``label`` is what stands before its lines, where the sink wants that.
+    ``label`` is the prefix of its lines, if the sink uses one.
     """
 
     def __init__(self, sink: OutputSink, label: str) -> None:
@@ -203,20 +203,20 @@ class OwnStreams:
         sys.stdout, sys.stderr = self._own["stdout"], self._own["stderr"]
 
     def leave(self) -> None:
-        """Restore the host's."""
+        """Restore the host's streams."""
         sys.stdout, sys.stderr = self._host
 
     def cut_short(self) -> None:
-        """Nothing: a built-in node has no exit status to change."""
+        """Do nothing: a built-in node has no exit status to change."""
 
     def keeps_polling(self) -> None:
-        """Nothing: the loops of built-in nodes are not counted."""
+        """Do nothing: the loops of built-in nodes are not counted."""
 
     def get_own(self, name: str) -> ScriptOutput:
-        """Return the node's ``stdout`` or ``stderr``, from any thread."""
+        """Return the node's ``stdout`` or ``stderr``; from any thread."""
         return self._own[name]
 
     def finish(self) -> None:
-        """End unfinished lines: the node has ended."""
+        """End unfinished lines at the end of the node."""
         for stream in self._own.values():
             stream.finish()

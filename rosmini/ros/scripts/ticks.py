@@ -1,10 +1,10 @@
-"""Loops that poll: a tick at the top of each turn, so that other nodes run and time goes on.
+"""Ticks in polling loops: a call at the top of each turn, so that other nodes run and time advances.
 
 Public scripts wait in loops that never block (``while not got: pass``, ``while distance < goal: pub.publish(v)``). On
 a real robot other threads run meanwhile; here everything shares one thread, so the loader inserts a call of
 ``__tick__()`` as the first statement of each ``while`` and ``for`` body. Line numbers, tracebacks, docstrings and
-``from __future__`` imports stay as they were, and ``async`` functions are left alone: their loops give way by
-``await``. A ``while`` loop whose body does nothing only waits for other lanes, and says so: ``__tick__(is_idle=True)``.
+``from __future__`` imports are unchanged, and so are ``async`` functions, whose loops yield with
+``await``. A ``while`` loop whose body does nothing only waits for other lanes, and is marked by ``is_idle=True``.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from __future__ import annotations
 import ast
 
 TICK = "__tick__"
-"""The name under which the scripts' builtins hold the function that is called."""
+"""Name of the called function in the scripts' builtins."""
 
 
 def _does_nothing(statement: ast.stmt) -> bool:
-    """Return whether a statement of a loop's body changes nothing, apart from calls in its conditions."""
+    """Return True if a statement of a loop's body changes nothing, apart from calls in its conditions."""
     if isinstance(statement, ast.If):
         return not _assigns(statement.test) and all(map(_does_nothing, (*statement.body, *statement.orelse)))
     if isinstance(statement, ast.Expr):
@@ -47,7 +47,7 @@ class _TickInserter(ast.NodeTransformer):
         self.generic_visit(node)
         keywords = [ast.keyword("is_idle", ast.Constant(True))] if is_idle else []
         call = ast.Expr(ast.Call(ast.Name(TICK, ast.Load()), [], keywords))
-        # The loop's own line: a script that is ended while it polls shows `while ...`, not its first statement.
+        # The loop's own line: a script that is ended while polling shows `while ...`, not its first statement.
         place = node.test if isinstance(node, ast.While) else node.target
         for part in ast.walk(call):
             ast.copy_location(part, place)

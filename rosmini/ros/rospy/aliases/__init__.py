@@ -1,1 +1,1 @@
-"""The small modules beside rospy that scripts import: ``genpy``, ``roslib``, ``rosgraph`` ..."""
+"""Modules besides rospy that scripts import: ``genpy``, ``roslib``, ``rosgraph`` ..."""

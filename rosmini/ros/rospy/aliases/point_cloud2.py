@@ -1,4 +1,4 @@
-"""The module that scripts import as ``sensor_msgs.point_cloud2``: clouds from and to tuples."""
+"""The module that scripts import as ``sensor_msgs.point_cloud2``: converts clouds from and to tuples."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PointCloud2 = message_class("sensor_msgs/PointCloud2")
 PointField = message_class("sensor_msgs/PointField")
 
 CODES = dict(enumerate("bBhHiIfd", start=1))
-"""What :mod:`struct` calls the data types of a ``PointField``."""
+"""Format character of :mod:`struct` for each data type of a ``PointField``."""
 
 
 def read_points(
@@ -26,15 +26,15 @@ def read_points(
     skip_nans: bool = False,
     uvs: Iterable[tuple[int, int]] = (),
 ) -> Iterator[tuple[Any, ...]]:
-    """Yield the points of a cloud row by row, each a tuple of its fields in the order of their place in memory.
+    """Yield the points of a cloud row by row, each as a tuple of its fields in memory order.
 
     Args:
         cloud: a ``sensor_msgs/PointCloud2``.
-        field_names: which fields are wanted; all if None.
-        skip_nans: leave points out of which one of these fields is not a number.
-        uvs: columns and rows of the points that are wanted; all if empty.
+        field_names: the fields to read; all if None.
+        skip_nans: omit points with NaN in one of these fields.
+        uvs: columns and rows of the points to read; all if empty.
 
-    Raises ``MessageException`` for what is no cloud, and for a cloud whose data is shorter than its sizes say.
+    Raises ``MessageException`` if it is not a cloud, or its data is shorter than its sizes say.
 
     """
     if getattr(cloud, "_type", None) != "sensor_msgs/PointCloud2":
@@ -69,7 +69,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Iterable[tuple[int, int]] = (),
 ) -> list[Any]:
-    """Return the points of a cloud as a list of named tuples; arguments and errors as :func:`read_points`."""
+    """Return the points of a cloud as a list of named tuples; see :func:`read_points` for arguments and errors."""
     names = [field.name for field in cloud.fields] if field_names is None else field_names
     make: Any = namedtuple  # the names come with the cloud: nothing for a type checker
     point = make("Point", names)
@@ -77,7 +77,7 @@ def read_points_list(
 
 
 def create_cloud(header: Any, fields: Sequence[Any], points: Iterable[Sequence[Any]]) -> Any:
-    """Return a cloud of one row: ``points`` are tuples of the values of ``fields``, each a ``sensor_msgs/PointField``.
+    """Return a cloud of one row from tuples of the values of ``fields``, each a ``sensor_msgs/PointField``.
 
     Raises ``MessageException`` for a point that does not fit the fields.
     """
@@ -112,7 +112,7 @@ def create_cloud_xyz32(header: Any, points: Iterable[Sequence[float]]) -> Any:
 
 
 def _layout(fields: Iterable[Any], names: Sequence[str] | None, *, big: bool) -> struct.Struct:
-    """Return how one point lies in memory: the wanted fields by their offsets, with gaps between them."""
+    """Return the memory layout of a point: the requested fields by offset, with gaps between them."""
     text, end = ">" if big else "<", 0
     for field in sorted(fields, key=lambda one: one.offset):
         if names is not None and field.name not in names:

@@ -1,4 +1,4 @@
-"""``import rostest``: tests of nodes, which `rosmini test` starts from launch files (http://wiki.ros.org/rostest)."""
+"""``import rostest``: tests of nodes, started from launch files by `rosmini test` (http://wiki.ros.org/rostest)."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ CALLER = "/script"
 
 
 def is_subscriber(topic: str, subscriber_id: str) -> bool:
-    """Return whether the node ``subscriber_id`` subscribes to a topic, by its full name, according to the Master."""
+    """Return True if the node ``subscriber_id`` (full name) subscribes to a topic, according to the Master."""
     return _holds(1, topic, subscriber_id)
 
 
 def is_publisher(topic: str, publisher_id: str) -> bool:
-    """Return whether the node ``publisher_id`` publishes on a topic, by its full name, according to the Master."""
+    """Return True if the node ``publisher_id`` (full name) publishes on a topic, according to the Master."""
     return _holds(0, topic, publisher_id)
 
 

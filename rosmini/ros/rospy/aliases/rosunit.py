@@ -13,10 +13,10 @@ def unitrun(
     sysargs: Sequence[str] | None = None,
     coverage_packages: Any = None,  # noqa: ARG001 - rosunit's signature
 ) -> None:
-    """Run the tests of a class, of a dotted name or of a list of these, and print how they went.
+    """Run the tests of a class, a dotted name or a list of these, and print the results.
 
-    The results are written where ``--gtest_output=xml:FILE`` says. Raises ``SystemExit`` with 1 if one failed.
+    Results are written to the file of ``--gtest_output=xml:FILE``. Raises ``SystemExit`` with 1 if a test failed.
     """
-    from rosmini.ros.rospy.unit_tests import run  # unittest is loaded by those who test
+    from rosmini.ros.rospy.unit_tests import run  # unittest is loaded only for tests
 
     run(package, test_name, test, sysargs)

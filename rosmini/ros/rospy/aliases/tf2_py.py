@@ -25,7 +25,7 @@ __all__ = [
 
 
 class BufferCore(tf.BufferCore):
-    """Transforms as they come in messages; `tf2_py` has a few methods with an underscore, which scripts use."""
+    """A buffer of transforms as messages, with the underscore methods of `tf2_py` that scripts use."""
 
     def __init__(self, cache_time: Duration | None = None) -> None:
         super().__init__(cache_time)

@@ -1,7 +1,7 @@
-"""Replacements, one set for each script, of modules that block, tell the time or keep state for the whole process.
+"""Per-script replacements for modules that block, read the time or keep global state.
 
-``BUILDERS`` makes a module for one script; ``PRIVATE_COPIES`` are modules of the standard library that need no change
-except to stand on those (a private ``logging`` writes to the script's streams with the script's clock and locks).
+``BUILDERS`` create a module for one script; ``PRIVATE_COPIES`` are modules of the standard library that need only
+use these replacements (a private ``logging`` writes to the script's streams with the script's clock and locks).
 """
 
 from __future__ import annotations
@@ -65,9 +65,9 @@ BUILDERS: dict[str, Callable[[Script], ModuleType]] = {
 
 
 def finish_copy(context: Script, name: str, module: ModuleType) -> None:
-    """Change what a private copy cannot get from its imports."""
+    """Change the parts of a private copy that its imports do not cover."""
     if name == "queue":
-        # The one in C blocks the whole process; the standard library has it in Python too.
+        # The C version blocks the whole process; the standard library also has a Python version.
         module.SimpleQueue = module._PySimpleQueue  # type: ignore[attr-defined]  # noqa: SLF001
     elif name == "random":
         from .randomness import seed_copy
@@ -76,16 +76,16 @@ def finish_copy(context: Script, name: str, module: ModuleType) -> None:
 
 
 def copy_of(real: ModuleType) -> ModuleType:
-    """Return a new module with all that ``real`` holds, to be changed."""
+    """Return a new module with the contents of ``real``, to be changed."""
     module = ModuleType(real.__name__, real.__doc__)
     module.__dict__.update(vars(real))
     return module
 
 
 def as_builtins(module: ModuleType, **functions: Callable[..., object]) -> None:
-    """Put ``functions`` into ``module`` in place of functions written in C.
+    """Replace C functions of ``module`` with ``functions``.
 
-    Those do not become methods when a class keeps one (``converter = time.localtime``), and neither must ours.
+    C functions do not become methods in a class (``converter = time.localtime``), and neither must these.
     """
     for name, function in functions.items():
         if isinstance(function, FunctionType):

@@ -1,8 +1,8 @@
-"""``time`` and ``datetime`` that follow the graph's clock in simulated time; ``sleep`` parks the lane in both.
+"""``time`` and ``datetime`` that use graph time in simulated time; ``sleep`` always parks the lane.
 
-In simulated time every clock of ``time`` shows graph time: those that count from the epoch (``time``, ``localtime()``)
-as it is, the others (``monotonic``, ``perf_counter``, ``process_time``) since the start of the script.
-``datetime.now()``, ``utcnow()`` and ``date.today()`` follow too. In wall time they are the real ones.
+In simulated time every clock of ``time`` shows graph time: clocks since the epoch (``time``, ``localtime()``)
+directly, the others (``monotonic``, ``perf_counter``, ``process_time``) since the start of the script.
+``datetime.now()``, ``utcnow()`` and ``date.today()`` use it too. In wall-clock time they are the real functions.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _COUNTERS = ("monotonic", "perf_counter", "process_time", "thread_time")
 
 
 def make_time(context: Script) -> ModuleType:
-    """Make the ``time`` of one script."""
+    """Create the ``time`` of one script."""
     module = copy_of(real_time)
     scheduler = context.scheduler
 
@@ -76,7 +76,7 @@ def make_time(context: Script) -> ModuleType:
 
 
 def make_datetime(context: Script) -> ModuleType:
-    """Make the ``datetime`` of one script: the real one in wall time."""
+    """Create the ``datetime`` of one script: the real one in wall-clock time."""
     module = copy_of(dt)
     if not context.scheduler.simulated:
         return module
@@ -85,7 +85,7 @@ def make_datetime(context: Script) -> ModuleType:
         return context.scheduler.now_ns() / 1e9
 
     class LikeReal(type):
-        """Counts objects made by other libraries as instances too."""
+        """Treats objects made by other libraries as instances too."""
 
         def __instancecheck__(cls, instance: object) -> bool:
             return isinstance(instance, reals[cls]) if cls in reals else super().__instancecheck__(instance)
@@ -118,7 +118,7 @@ def make_datetime(context: Script) -> ModuleType:
             return _real_repr(super().__repr__())
 
         def __reduce_ex__(self, protocol: Any) -> Any:
-            # Pickled as the real class, which is there wherever it is read.
+            # Pickled as the real class, which is available wherever it is unpickled.
             return (dt.datetime, dt.datetime.__reduce_ex__(self, protocol)[1])
 
     reals: dict[type, type] = {date: dt.date, datetime: dt.datetime}
@@ -129,5 +129,5 @@ def make_datetime(context: Script) -> ModuleType:
 
 
 def _real_repr(shown: str) -> str:
-    """Add the module, which Python leaves out of the repr of a class that is not written in C."""
+    """Add the module, which Python omits from the repr of a class not written in C."""
     return shown if shown.startswith("datetime.") else f"datetime.{shown}"

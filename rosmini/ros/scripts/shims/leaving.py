@@ -1,6 +1,6 @@
-"""``os`` as one script sees it: ``_exit``, ``abort`` and a signal to itself end the script, never the process.
+"""``os`` for one script: ``_exit``, ``abort`` and a signal to itself end the script, never the process.
 
-Everything else is the process's: other processes get their signals, and a forked child leaves as ever.
+Everything else is the process's: other processes get their signals, and a forked child exits as usual.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class _ScriptOs(ModuleType):
-    """``os``; what is not the script's own is looked up in the real one, whose ``environ`` is swapped."""
+    """A script's ``os``; other attributes come from the real module, whose ``environ`` is swapped."""
 
     def __init__(self) -> None:
         super().__init__("os", real_os.__doc__)
@@ -30,12 +30,12 @@ class _ScriptOs(ModuleType):
 
 
 def make_os(context: Script) -> ModuleType:
-    """Make the ``os`` of one script."""
+    """Create the ``os`` of one script."""
     module = _ScriptOs()
     home = real_os.getpid()
 
     def leave(status: int) -> None:
-        if real_os.getpid() != home:  # the child of a script that forked
+        if real_os.getpid() != home:  # the child of a forking script
             real_os._exit(status)
         context.leave_process(status & 0xFF)
 

@@ -1,7 +1,7 @@
-"""Locks and events between lanes and real threads, none of which ever blocks the thread that runs the graph.
+"""Locks and events between lanes and real threads that never block the thread running the graph.
 
-A lane that must wait is parked. The classes behave as those of ``threading``, on which its other classes are built;
-each script has its own subclasses (see :mod:`rosmini.ros.scripts.shims.threads`), in which ``_script`` is set.
+A lane that must wait is parked. The classes behave like those of ``threading``, whose other classes are based on
+them; each script has its own subclasses (see :mod:`rosmini.ros.scripts.shims.threads`) with ``_script`` set.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ def to_ns(seconds: float | None) -> int | None:
 
 
 class ForScript:
-    """Something that belongs to one script."""
+    """Base class of objects that belong to one script."""
 
     _script: ClassVar[Script]
 
 
 class Lock(ForScript):
-    """``threading.Lock``."""
+    """A replacement for ``threading.Lock``."""
 
     _reason = "a lock"
-    """What a lane that waits for it is waiting for, in reports."""
+    """What a waiting lane is waiting for, in reports."""
 
     def __init__(self) -> None:
         self._flag = _thread.allocate_lock()
         self._queue: deque[Waiter] = deque()
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Acquire the lock; wait for it unless ``blocking`` is false, for at most ``timeout`` seconds."""
+        """Acquire the lock, waiting unless ``blocking`` is false, up to ``timeout`` seconds."""
         if timeout != -1:
             if not blocking:
                 raise ValueError("can't specify a timeout for a non-blocking call")
@@ -78,7 +78,7 @@ class Lock(ForScript):
     def _leave_queue(self, waiter: Waiter, *, pass_on: bool) -> None:
         try:
             self._queue.remove(waiter)
-        except ValueError:  # it was woken: another one should be if nobody acquires the lock now
+        except ValueError:  # it was woken: wake another one if nobody acquires the lock now
             if pass_on and not self._flag.locked():
                 self._wake_next()
 
@@ -87,14 +87,14 @@ class Lock(ForScript):
             self._queue.popleft().wake()
 
     def release(self) -> None:
-        """Release the lock, from any thread."""
+        """Release the lock; from any thread."""
         if not self._flag.locked():
             raise RuntimeError("release unlocked lock")
         self._flag.release()
         self._wake_next()
 
     def locked(self) -> bool:
-        """Return whether it is held."""
+        """Return True if it is held."""
         return self._flag.locked()
 
     def __enter__(self) -> bool:
@@ -104,7 +104,7 @@ class Lock(ForScript):
         self.release()
 
     def _at_fork_reinit(self) -> None:
-        """Become free: the standard library calls this in a forked child."""
+        """Reset to unlocked; the standard library calls this in a forked child."""
         self.__init__()  # type: ignore[misc]
 
     def __repr__(self) -> str:
@@ -112,20 +112,20 @@ class Lock(ForScript):
 
 
 class Event(ForScript):
-    """``threading.Event``."""
+    """A replacement for ``threading.Event``."""
 
     def __init__(self) -> None:
         self._set = False
         self._waiting: deque[Waiter] = deque()
 
     def is_set(self) -> bool:
-        """Return whether it is set."""
+        """Return True if it is set."""
         return self._set
 
     isSet = is_set
 
     def set(self) -> None:
-        """Set it and wake all who wait."""
+        """Set it and wake all waiting lanes and threads."""
         self._set = True
         while self._waiting:
             try:
@@ -138,7 +138,7 @@ class Event(ForScript):
         self._set = False
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until it is set, for at most ``timeout`` seconds; return whether it is."""
+        """Wait until it is set, up to ``timeout`` seconds; return True if it is set."""
         if self._set:
             return True
         waiter = self._script.scheduler.waiter("an event to be set")

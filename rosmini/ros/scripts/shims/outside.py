@@ -1,8 +1,8 @@
-"""``subprocess`` and ``xmlrpc.client`` as one script sees them: where the graph is online, it goes on meanwhile.
+"""``subprocess`` and ``xmlrpc.client`` for one script: a graph that is online runs on during their calls.
 
-A child process of a script may be a tool that asks a node of this graph, and a call by XML-RPC may go to such a node:
-both would wait for ever if the graph stood still. Where the graph is not online, nobody can reach it, and the modules
-block as ever.
+A child process of a script may be a tool that calls a node of this graph, and an XML-RPC call may go to such a node:
+both would wait for ever if the graph did not run. If the graph is not online, no process can reach it, and the
+modules block as usual.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _CALLS = ("run", "call", "check_call", "check_output", "getoutput", "getstatusou
 
 
 def _going_on(context: Script, function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function that does the same and lets the graph go on meanwhile."""
+    """Return a function that does the same while the graph runs."""
 
     @functools.wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
@@ -35,7 +35,7 @@ def _going_on(context: Script, function: Callable[..., Any]) -> Callable[..., An
 
 
 def make_subprocess(context: Script) -> ModuleType:
-    """Make a ``subprocess`` whose functions and whose ``Popen.wait`` and ``communicate`` let the graph go on."""
+    """Create a ``subprocess`` whose functions, ``Popen.wait`` and ``communicate`` let the graph run."""
     module = copy_of(real_subprocess)
 
     class Popen(real_subprocess.Popen):  # type: ignore[type-arg]
@@ -53,12 +53,12 @@ def make_subprocess(context: Script) -> ModuleType:
 
 
 def make_xmlrpc(context: Script) -> ModuleType:  # noqa: ARG001 - the signature of all makers
-    """Make the package ``xmlrpc`` of one script."""
+    """Create the package ``xmlrpc`` of one script."""
     return copy_of(xmlrpc)
 
 
 def make_xmlrpc_client(context: Script) -> ModuleType:
-    """Make an ``xmlrpc.client`` whose calls let the graph go on."""
+    """Create an ``xmlrpc.client`` whose calls let the graph run."""
     module = copy_of(real_client)
 
     class Transport(real_client.Transport):

@@ -1,4 +1,4 @@
-"""What belongs to a process, and so to each script: ``sys``, ``builtins``, ``atexit``, ``signal``, ``importlib``."""
+"""Replacements for modules with process state: ``sys``, ``builtins``, ``atexit``, ``signal``, ``importlib``."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _OWN = ("argv", "path", "stdin", "stdout", "stderr")
 
 
 class _ScriptSys(ModuleType):
-    """``sys``: the script's arguments, path and streams, also when one of its real threads asks; else the real one."""
+    """A script's ``sys``: its arguments, path and streams, also in its real threads; otherwise the real module."""
 
     def __init__(self, context: Script) -> None:
         super().__init__("sys", real_sys.__doc__)
@@ -44,22 +44,22 @@ class _ScriptSys(ModuleType):
 
 
 def make_sys(context: Script) -> ModuleType:
-    """Make the ``sys`` of one script."""
+    """Create the ``sys`` of one script."""
     return _ScriptSys(context)
 
 
 def make_builtins(context: Script) -> ModuleType:
-    """Return the script's builtins; what it changes there stays there."""
+    """Return the script's builtins; its changes stay private."""
     return context.builtins_module
 
 
 def make_importlib(context: Script) -> ModuleType:
-    """Make an ``importlib`` that finds the modules beside the script."""
+    """Create an ``importlib`` that finds the modules beside the script."""
     module = copy_of(real_importlib)
     load = context.importer.load
 
     def import_module(name: str, package: str | None = None) -> ModuleType:
-        """Import a module; a relative name counts from ``package``."""
+        """Import a module; a relative name is relative to ``package``."""
         if name.startswith("."):
             if not package:
                 raise TypeError(
@@ -75,7 +75,7 @@ def make_importlib(context: Script) -> ModuleType:
 
 
 def make_atexit(context: Script) -> ModuleType:
-    """Make an ``atexit`` whose functions run when this script ends, last in, first out."""
+    """Create an ``atexit`` whose functions run when this script ends, last in, first out."""
     module = copy_of(real_atexit)
     calls = context.exit_calls
 
@@ -100,7 +100,7 @@ def make_atexit(context: Script) -> ModuleType:
 
 
 def make_signal(context: Script) -> ModuleType:
-    """Make a ``signal`` that notes handlers for this script; on Ctrl-C the runner calls them."""
+    """Create a ``signal`` that stores handlers for this script; on Ctrl-C the runner calls them."""
     module = copy_of(real_signal)
     handlers = context.handlers
     defaults = {real_signal.SIGINT: real_signal.default_int_handler}
@@ -137,7 +137,7 @@ def make_signal(context: Script) -> ModuleType:
 
 
 class _Alarm:
-    """``alarm`` and ``setitimer`` in graph time. Only ``ITIMER_REAL``: there is no processor time of one script."""
+    """``alarm`` and ``setitimer`` in graph time; only ``ITIMER_REAL``, since a script has no processor time."""
 
     def __init__(self, context: Script) -> None:
         self._context = context
@@ -175,7 +175,7 @@ class _Alarm:
 
 
 def make_builtins_module(context: Script) -> ModuleType:
-    """Make the builtins of one script: with its own ``__import__``, ``input``, ``print``, ``exit`` and ``quit``."""
+    """Create the builtins of one script, with its own ``__import__``, ``input``, ``print``, ``exit`` and ``quit``."""
     module = copy_of(real_builtins)
 
     def read_input(prompt: object = "", /) -> str:
@@ -196,6 +196,6 @@ def make_builtins_module(context: Script) -> ModuleType:
 
     as_builtins(module, input=read_input, print=print_line, exit=leave, quit=leave)
     module.__dict__["__import__"] = context.importer.import_name
-    for name in ("get_ipython", "display"):  # IPython's, which no robot has
+    for name in ("get_ipython", "display"):  # IPython's, missing on a robot
         module.__dict__.pop(name, None)
     return module

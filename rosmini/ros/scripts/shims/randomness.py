@@ -1,7 +1,7 @@
 """Random numbers of one script: its own ``random`` and its own legacy generator of numpy.
 
-In simulated time they start from the script's seed, so a script that never calls ``seed`` gives the same run each time;
-in wall time from the operating system, as usual.
+In simulated time they start from the script's seed, so a script that never calls ``seed`` behaves the same each run;
+in wall-clock time from the operating system, as usual.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def seed_copy(context: Script, module: ModuleType) -> None:
-    """Make a private ``random`` repeatable in simulated time, its unseeded ``Random()`` objects too."""
+    """Make a private ``random`` repeatable in simulated time, including unseeded ``Random()`` objects."""
     if not context.scheduler.simulated:
         return
     random: Any = module
@@ -24,7 +24,7 @@ def seed_copy(context: Script, module: ModuleType) -> None:
     plain_seed = random.Random.seed
 
     def seed(self: Any, a: Any = None, version: int = 2) -> None:
-        """Seed as usual; without a value from the script's seed instead of the operating system."""
+        """Seed as usual; without a value, use the script's seed instead of the operating system."""
         plain_seed(self, seeds.getrandbits(64) if a is None else a, version)
 
     random.Random.seed = seed
@@ -35,7 +35,7 @@ def seed_copy(context: Script, module: ModuleType) -> None:
 class NumpyRandom:
     """Swaps the functions of ``numpy.random`` (``seed``, ``rand``, ``normal``, ...) for those of a script's generator.
 
-    They are bound methods of one ``RandomState`` in numpy; here each script has its own.
+    In numpy they are bound methods of one ``RandomState``; here each script has its own.
     """
 
     def __init__(self, context: Script) -> None:
@@ -67,11 +67,11 @@ class NumpyRandom:
         self._inner_host = {name: self._inner[name] for name in self._inner_own}
 
     def enter(self) -> None:
-        """Put the script's functions in place."""
+        """Install the script's functions."""
         self._namespace.update(self._own)
         self._inner.update(self._inner_own)
 
     def leave(self) -> None:
-        """Restore the host's."""
+        """Restore the host's functions."""
         self._namespace.update(self._host)
         self._inner.update(self._inner_host)

@@ -1,7 +1,7 @@
-"""``select``, ``termios``, ``tty`` and ``msvcrt`` as keyboard scripts use them to poll for a key.
+"""``select``, ``termios``, ``tty`` and ``msvcrt`` for keyboard scripts that poll for a key.
 
-With a real terminal they act on it. With supplied input, or input from a pipe, the terminal settings are
-accepted and mean nothing, so the same script runs in a test.
+With a real terminal they act on it. With supplied input, or input from a pipe, terminal settings are
+accepted without effect, so that the same script runs in a test.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def _own_input(context: Script, item: object) -> ScriptInput | None:
-    """The script's standard input if ``item`` (a file or a descriptor) is it."""
+    """Return the script's standard input if ``item`` (a file or a descriptor) refers to it."""
     stdin = context.get_own("stdin")
     if isinstance(item, ScriptInput):
         return item
@@ -30,7 +30,7 @@ def _own_input(context: Script, item: object) -> ScriptInput | None:
 
 
 def make_select(context: Script) -> ModuleType:
-    """Make a ``select`` whose ``select()`` parks the lane; ``poll`` and the others are the real ones."""
+    """Create a ``select`` whose ``select()`` parks the lane; ``poll`` and the others are the real ones."""
     module = copy_of(real_select)
     scheduler = context.scheduler
 
@@ -59,7 +59,7 @@ def make_select(context: Script) -> ModuleType:
             return real(readable, writable, wrong, timeout_ns)
         others = [item for item in readable if _own_input(context, item) is None]
         if others or writable or wrong:
-            # Sockets beside the keyboard: see what is ready now, then wait for the keyboard.
+            # Sockets beside the keyboard: check what is ready now, then wait for the keyboard.
             found = real(others, writable, wrong, 0)
             keys = [item for item, own in inputs if own.ready(0)]
             if any(found) or keys:
@@ -80,13 +80,13 @@ def _optional(name: str) -> ModuleType | None:
 
 
 def _console(stdin: object) -> ConsoleFeed | None:
-    """The console of Windows, if that is the script's standard input."""
+    """Return the console of Windows, if it is the script's standard input."""
     feed = stdin.feed if isinstance(stdin, ScriptInput) else None
     return feed if isinstance(feed, ConsoleFeed) else None
 
 
 def make_msvcrt(context: Script) -> ModuleType:
-    """Make an ``msvcrt`` whose keys park the lane. Raises ``ModuleNotFoundError`` anywhere but on Windows."""
+    """Create an ``msvcrt`` whose keys park the lane. Raises ``ModuleNotFoundError`` except on Windows."""
     real = _optional("msvcrt")
     if real is None:
         raise ModuleNotFoundError("No module named 'msvcrt'", name="msvcrt")
@@ -113,10 +113,10 @@ def make_msvcrt(context: Script) -> ModuleType:
 
 
 def make_termios(context: Script) -> ModuleType:
-    """Make a ``termios`` that leaves input alone which is no terminal.
+    """Create a ``termios`` that ignores input which is not a terminal.
 
-    On Windows, which has none, it switches between lines and keys. Raises ``ModuleNotFoundError`` where it can do
-    neither.
+    On Windows, which has no termios, it switches between lines and keys. Raises ``ModuleNotFoundError`` if neither
+    is possible.
     """
     real = _optional("termios")
     stdin = context.get_own("stdin")
@@ -170,7 +170,7 @@ def _descriptor(item: Any) -> int:
 
 
 def make_tty(context: Script) -> ModuleType:
-    """Make a ``tty`` to go with :func:`make_termios`."""
+    """Create a ``tty`` to go with :func:`make_termios`."""
     termios: Any = context.importer.load("termios")
     real = _optional("tty")
     module: Any = ModuleType("tty") if real is None else copy_of(real)

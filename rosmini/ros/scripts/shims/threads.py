@@ -1,9 +1,9 @@
 """``threading`` and ``_thread`` of one script.
 
-In simulated time a thread is a lane of the graph: it runs when the others block, in the same order each time. In wall
-time it is a real thread that knows its script and node, so that what it calls in rospy works. Locks (see
+In simulated time a thread is a lane of the graph: it runs when the others block, always in the same order. In
+wall-clock time it is a real thread that knows its script and node, so that its rospy calls work. Locks (see
 :mod:`rosmini.ros.scripts.shims.locks`) work between all of them. The classes that the standard library builds on locks
-are its own, executed for each script on these locks.
+are its own code, executed for each script with these locks.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _REUSED = (
     "Thread",
     "Timer",
 )
-"""What is taken from the source of the standard library's ``threading``."""
+"""Names reused from the source of the standard library's ``threading``."""
 
 
 class Threads:
@@ -59,7 +59,7 @@ class Threads:
         self.trace: Any = None
 
     def current(self) -> LaneThread:
-        """Return the thread of the caller; a callback, which rospy runs, gets one when it first asks."""
+        """Return the thread of the caller; a callback, which rospy runs, gets one on first use."""
         lane = self.context.scheduler.current()
         thread = self.by_lane.get(lane)
         if thread is None:
@@ -67,17 +67,17 @@ class Threads:
         return thread
 
     def foreign(self, lane: Lane) -> LaneThread:
-        """Make a thread object for a lane that the script did not start."""
+        """Create a thread object for a lane that the script did not start."""
         thread: LaneThread = self.context.thread_class()(name=f"Dummy-{next(self.names)}", daemon=True)
         thread.adopt(lane, next(self.idents))
         return thread
 
     def alive(self) -> list[LaneThread]:
-        """The threads that run, the main one first."""
+        """Return the running threads, the main one first."""
         return [thread for thread in self.by_lane.values() if thread.is_alive()]
 
     def report(self, args: Any) -> None:
-        """Print an uncaught exception of a thread as Python does, with the user's frames."""
+        """Print an uncaught exception of a thread as Python does, with only the user's frames."""
         if args.exc_type is SystemExit:
             return
         name = args.thread.name if args.thread is not None else "?"
@@ -86,7 +86,7 @@ class Threads:
 
 
 class LaneThread(locks.ForScript):
-    """What is different in a script's ``threading.Thread``: how it starts, runs and ends."""
+    """The parts of a script's ``threading.Thread`` that differ: how it starts, runs and ends."""
 
     # Set by the standard library's ``Thread.__init__``.
     _initialized: bool
@@ -101,7 +101,7 @@ class LaneThread(locks.ForScript):
     _real: real_threading.Thread | None = None
 
     def start(self) -> None:
-        """Begin to run."""
+        """Start the thread."""
         if not self._initialized:
             raise RuntimeError("thread.__init__() not called")
         if self._started.is_set():
@@ -118,7 +118,7 @@ class LaneThread(locks.ForScript):
             lane.submit(self._bootstrap)
             return
         started = real_threading.Event()
-        # Real ones are daemons: the end of the script waits for them, the end of the host's process does not.
+        # Real ones are daemons: the end of the script waits for them, but the end of the host's process does not.
         self._real = real_threading.Thread(
             target=self._run_really, args=(name, ident, started), name=name, daemon=True
         )
@@ -126,7 +126,7 @@ class LaneThread(locks.ForScript):
         started.wait()
 
     def join(self, timeout: float | None = None) -> None:
-        """Wait until the thread has ended, for at most ``timeout`` seconds."""
+        """Wait until the thread has ended, up to ``timeout`` seconds."""
         if not self._started.is_set():
             raise RuntimeError("cannot join thread before it is started")
         if self is self._script.threads.current():
@@ -134,17 +134,17 @@ class LaneThread(locks.ForScript):
         self._ended.wait(timeout)
 
     def is_alive(self) -> bool:
-        """Return whether it was started and has not ended."""
+        """Return True if it was started and has not ended."""
         return self._started.is_set() and not self._ended.is_set()
 
     isAlive = is_alive  # Python 2's name, in many public scripts
 
     @property
     def native_id(self) -> int | None:
-        """The number of the real thread if there is one, else its ``ident``."""
+        """Id of the real thread if there is one, otherwise its ``ident``."""
         return self._real.native_id if self._real is not None else self._ident
 
-    # Without the warnings that these names are deprecated: public scripts are full of them.
+    # Without deprecation warnings: public scripts use these names often.
 
     def isDaemon(self) -> bool:
         """Return ``daemon``."""
@@ -218,19 +218,19 @@ class LaneThread(locks.ForScript):
 
     @property
     def busy(self) -> bool:
-        """Whether it may still run code of the script: false between two calls of a callback."""
+        """True if it may still run code of the script: False between two calls of a callback."""
         return self.is_alive() and (
             self._real is not None or (self._lane is not None and not self._lane.idle)
         )
 
     def end(self) -> None:
-        """Ask it to end where it blocks: the script is over."""
+        """Ask it to end at its blocking call, at the end of the script."""
         if self._real is None and self._lane is not None:
             self._lane.kill()
 
 
 class _Threading(ModuleType):
-    """``threading``; its ``local`` is made on first use, because it needs the rest."""
+    """A script's ``threading``; ``local`` is created on first use, because it needs the rest."""
 
     def __init__(self, context: Script) -> None:
         super().__init__("threading", real_threading.__doc__)
@@ -251,9 +251,9 @@ class _Threading(ModuleType):
 
 @functools.cache
 def _definitions() -> dict[str, CodeType]:
-    """Compile, one by one, what is reused of the standard library's ``threading``.
+    """Compile the reused parts of the standard library's ``threading`` one by one.
 
-    They count as part of this file, so that a user's traceback leaves them out.
+    They count as part of this file, so that a user's traceback omits them.
     """
     return {
         node.name: compile(ast.Module([node], []), __file__, "exec")
@@ -263,7 +263,7 @@ def _definitions() -> dict[str, CodeType]:
 
 
 def script_classes(context: Script) -> dict[str, type]:
-    """Make the classes of one script's ``threading``."""
+    """Create the classes of one script's ``threading``."""
 
     def own(*bases: type, **more: object) -> type:
         members = {"_script": context, "__module__": "threading", **more}
@@ -277,13 +277,13 @@ def script_classes(context: Script) -> dict[str, type]:
         "_allocate_lock": lock,
         "Event": own(locks.Event),
         "_time": lambda: scheduler.now_ns() / 1e9,
-        "get_ident": scheduler.current,  # a lane stands for itself
+        "get_ident": scheduler.current,  # a lane identifies itself
         "current_thread": context.threads.current,
         "_counter": lambda: next(context.threads.names),
         "_dangling": WeakSet(),
     }
     for name in _REUSED:
-        # In reports, a lane that waits for a notification does not wait for a lock.
+        # In reports, a lane that waits for a notification must not appear to wait for a lock.
         other = {"_allocate_lock": own(locks.Lock, _reason="a condition")} if name == "Condition" else {}
         namespace = {**names, **other} if other else names
         exec(_definitions()[name], namespace)  # noqa: S102 - the standard library's own code
@@ -291,14 +291,14 @@ def script_classes(context: Script) -> dict[str, type]:
         if name == "_RLock":
             names["RLock"] = names[name]
         elif name == "Condition":
-            names[name].notifyAll = names[name].notify_all  # without the warning that it is deprecated
+            names[name].notifyAll = names[name].notify_all  # without the deprecation warning
         elif name == "Thread":
             names[name] = own(LaneThread, names[name])
     return {name: names[name] for name in ("Lock", "RLock", "Event", *_REUSED) if name[0] != "_"}
 
 
 def make_threading(context: Script) -> ModuleType:
-    """Make the ``threading`` of one script."""
+    """Create the ``threading`` of one script."""
     threads = context.threads
     module: Any = _Threading(context)
     module.__dict__.update(context.thread_classes)
@@ -334,7 +334,7 @@ def make_threading(context: Script) -> ModuleType:
 
 
 def make_thread(context: Script) -> ModuleType:
-    """Make the ``_thread`` of one script."""
+    """Create the ``_thread`` of one script."""
     module = ModuleType("_thread", real_thread.__doc__)
     lock: Any = context.thread_classes["Lock"]
 

@@ -1,7 +1,7 @@
-"""What scripts import as ``actionlib``: http://wiki.ros.org/actionlib.
+"""The module that scripts import as ``actionlib``: http://wiki.ros.org/actionlib.
 
-Names and signatures are those of actionlib 1.14, whose modules (``actionlib.simple_action_client`` ...) are all this
-one; the node is that of the script. What is wrong is logged, not raised, as there. The work is done in
+Names and signatures are those of actionlib 1.14; all its modules (``actionlib.simple_action_client`` ...) are this
+one. The node is that of the script. As in ROS, errors are logged, not raised. The implementation is
 :mod:`rosmini.core.actionlib`.
 """
 
@@ -58,14 +58,14 @@ if not hasattr(GoalStatus, "to_string"):  # actionlib gives the message this met
 
 
 def get_name_of_constant(C: Any, n: int) -> str:
-    """Return the name of a number in a class of constants, such as ``GoalStatus``, else ``NO_SUCH_STATE_<number>``."""
+    """Return the name of a number in a class of constants such as ``GoalStatus``, or ``NO_SUCH_STATE_<number>``."""
     if C is GoalStatus:
         return Status.to_string(n)
     return next((name for name in dir(C) if name[0] != "_" and getattr(C, name) == n), f"NO_SUCH_STATE_{n:d}")
 
 
 def nop_cb(goal_handle: actionlib.ServerGoalHandle) -> None:
-    """Do nothing: what a server does about cancellations that it is not told to heed."""
+    """Do nothing; the server's default callback for cancellations."""
 
 
 class ActionClient(actionlib.ActionClient):
@@ -83,21 +83,21 @@ class SimpleActionClient(actionlib.SimpleActionClient):
 
 
 class GoalIDGenerator(actionlib.GoalIDGenerator):
-    """Makes ids that begin with ``name``, the node's unless given. Raises ``ROSInitException`` before ``init_node``."""
+    """Creates ids that begin with ``name`` (default: the node's). Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(self, name: str | None = None) -> None:
         super().__init__(require_node("a generator of goal ids"), name)
 
 
 class StatusTracker(actionlib.StatusTracker):
-    """One goal in a server's list. Raises ``ROSInitException`` before ``init_node``."""
+    """A goal in a server's list. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(self, goal_id: Any = None, status: int | None = None, goal: Any = None) -> None:
         super().__init__(GoalIDGenerator(), rospy.Time.now(), goal_id, status, goal)
 
 
 class ServerGoalHandle(actionlib.ServerGoalHandle):
-    """One goal at the server; one that is made without a goal logs an error at whatever it is asked."""
+    """A goal at the server; a handle created without a goal logs an error at every call."""
 
     def _complain(self, error: ActionException) -> None:
         any_node().logerr(error)
@@ -107,7 +107,7 @@ _OPTIONS: dict[str, Any] = {"numpy": False, "strict": False, "handle_class": Ser
 
 
 def _node_of_server(ns: str, auto_start: bool) -> Node:
-    """Return the script's node, and warn of a server that starts before its author is ready for goals."""
+    """Return the script's node, and warn of a server that starts before the script is ready for goals."""
     node = require_node(f"an action server of {ns}")
     if auto_start:
         node.logwarn(
@@ -123,7 +123,7 @@ def _locks(node: Node) -> dict[str, Any]:
 
 
 class ActionServer(actionlib.ActionServer):
-    """Takes goals on ``ns`` and hands each to ``goal_cb(handle)``. Raises ``ROSInitException`` before ``init_node``."""
+    """Accepts goals on ``ns`` and passes each to ``goal_cb(handle)``. Raises ``ROSInitException`` without a node."""
 
     def __init__(
         self,
@@ -139,7 +139,7 @@ class ActionServer(actionlib.ActionServer):
 
 
 class SimpleActionServer(actionlib.SimpleActionServer):
-    """Works on one goal of ``name`` at a time. Raises ``ROSInitException`` before ``init_node``."""
+    """Executes one goal of ``name`` at a time. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(
         self,

@@ -1,7 +1,7 @@
-"""What scripts import as ``dynamic_reconfigure``: http://wiki.ros.org/dynamic_reconfigure.
+"""The module that scripts import as ``dynamic_reconfigure``: http://wiki.ros.org/dynamic_reconfigure.
 
-Names and signatures are those of dynamic_reconfigure 1.7, whose modules ``client``, ``encoding`` and ``server`` are
-all this one; the node is that of the script. The work is done in :mod:`rosmini.core.dynamic_reconfigure`.
+Names and signatures are those of dynamic_reconfigure 1.7; its modules ``client``, ``encoding`` and ``server`` are
+all this one. The node is that of the script. The implementation is :mod:`rosmini.core.dynamic_reconfigure`.
 """
 
 from __future__ import annotations
@@ -43,18 +43,18 @@ _SERVICE = "/set_parameters"
 
 
 def find_reconfigure_services() -> list[str]:
-    """Return the names of all servers, sorted: those that a ``Client`` takes."""
+    """Return the names of all servers, sorted, as ``Client`` takes them."""
     _, _, services = Master("/dynamic_reconfigure").getSystemState()
     return sorted(name.removesuffix(_SERVICE) for name, _ in services if name.endswith(_SERVICE))
 
 
 def get_parameter_names(descr: Any) -> Any:
-    """Return the names of the parameters of a description, such as the module that catkin makes of a ``.cfg`` file."""
+    """Return the parameter names of a description, such as the module that catkin generates from a ``.cfg`` file."""
     return descr.defaults.keys()
 
 
 def extract_params(group: Any) -> list[Any]:
-    """Return the parameters of a group's dictionary and of its ``groups``, which are a list or a dictionary."""
+    """Return the parameters of a group's dictionary and of its ``groups``, a list or a dictionary."""
     inner = group["groups"]
     found = list(group["parameters"])
     for one in inner.values() if isinstance(inner, dict) else inner:
@@ -63,7 +63,7 @@ def extract_params(group: Any) -> list[Any]:
 
 
 class Server(dynamic_reconfigure.Server):
-    """Offers the parameters that ``type`` describes. Raises ``ROSInitException`` before ``init_node``."""
+    """Provides the parameters that ``type`` describes. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(self, type: Any, callback: Callable[[Any, int], Any], namespace: str = "") -> None:
         super().__init__(require_node("a dynamic_reconfigure server"), type, callback, namespace)
@@ -83,17 +83,17 @@ class Client(dynamic_reconfigure.Client):
         super().__init__(node, name, timeout, config_callback, description_callback)
 
     def get_config_callback(self) -> Callable[[Any], object] | None:
-        """Return what is called with each new configuration: the attribute ``config_callback``."""
+        """Return the callback for each new configuration: the attribute ``config_callback``."""
         return self.config_callback
 
     def set_config_callback(self, value: Callable[[Any], object] | None) -> None:
-        """Set it."""
+        """Set the callback for each new configuration."""
         self.config_callback = value
 
     def get_description_callback(self) -> Callable[[Any], object] | None:
-        """Return what is called with each new description: the attribute ``description_callback``."""
+        """Return the callback for each new description: the attribute ``description_callback``."""
         return self.description_callback
 
     def set_description_callback(self, value: Callable[[Any], object] | None) -> None:
-        """Set it."""
+        """Set the callback for each new description."""
         self.description_callback = value

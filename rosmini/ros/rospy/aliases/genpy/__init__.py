@@ -1,4 +1,4 @@
-"""What scripts import from ``genpy``: times, messages, errors (http://docs.ros.org/en/noetic/api/genpy/html/)."""
+"""The module that scripts import as ``genpy``: times, messages, errors (http://docs.ros.org/en/noetic/api/genpy/)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``genpy.dynamic``: message classes from the full text of a definition, such as bags and connections carry."""
+"""``genpy.dynamic``: message classes from the full text of a definition, as bags and connections contain it."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from rosmini.msgs.registry import Registry
 
 
 def generate_dynamic(core_type: str, msg_cat: str) -> dict[str, Any]:
-    """Return the classes of a type and of all that it holds, by their names, from a full text as in ``_full_text``.
+    """Return the classes of a type and its nested types by name, from a full text like ``_full_text``.
 
-    The text is that of the type ``core_type``, followed by those of nested types, each under a line of 80 ``=`` and a
-    line ``MSG: package/Type``. Raises ``DefinitionError`` for a text that is wrong, ``UnknownType`` or
+    The text is that of the type ``core_type``, followed by those of nested types, each after a line of 80 ``=`` and a
+    line ``MSG: package/Type``. Raises ``DefinitionError`` for an invalid text, ``UnknownType`` or
     ``UnknownPackage`` for a nested type that is missing.
     """
     source = FullText(core_type, msg_cat)

@@ -1,4 +1,4 @@
-"""``genpy.message``: the base of messages, messages as text, classes by name, messages from plain values."""
+"""``genpy.message``: the base class of messages, messages as text, classes by name, messages from plain values."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ TIMES: dict[str, type[TVal]] = {"time": Time, "duration": Duration}
 
 
 class MessageArgumentsError(RosminiError, ValueError):
-    """What is to fill a message is neither a list of its fields nor a dictionary."""
+    """The values for a message are neither a list of its fields nor a dictionary."""
 
 
 def get_message_class(message_type: str, reload_on_error: bool = False) -> Any:  # noqa: ARG001 - genpy's signature
@@ -66,15 +66,15 @@ def _class_or_none(find: Any, name: str) -> Any:
 def check_type(field_name: str, field_type: str, field_val: Any) -> None:
     """Raise ``SerializationError`` unless a field of a type ("uint8", "geometry_msgs/Point") can hold a value.
 
-    What can be written passes: here also text that is not ASCII, numpy's numbers and arrays, and a bool as a number.
-    Raises ``DefinitionError``, ``UnknownType`` or ``UnknownPackage`` for what is no type.
+    All serialisable values pass, including text that is not ASCII, numpy's numbers and arrays, and a bool as a number.
+    Raises ``DefinitionError``, ``UnknownType`` or ``UnknownPackage`` for an invalid type.
     """
     (field,) = parse_message(f"{field_type} value", "genpy/check_type").fields
     check_field(field, field_name, field_val, None if field.builtin else message_class(field.base))
 
 
 def get_printable_message_args(msg: Message, buff: Any = None, prefix: str = "") -> str:
-    """Return the names of a message's fields, those of nested messages with a dot, as one line."""
+    """Return the names of a message's fields on one line, those of nested messages with a dot."""
     names: list[str] = []
     for name in msg.__slots__:
         value = getattr(msg, name)
@@ -89,17 +89,17 @@ def get_printable_message_args(msg: Message, buff: Any = None, prefix: str = "")
 
 
 def fill_message_args(msg: Message, msg_args: Any, keys: dict[str, Any] | None = None) -> None:
-    """Fill a message from plain values: a list of all fields or a dictionary of some, alone or in a list; nested alike.
+    """Fill a message from plain values: a list of all fields or a dictionary of some, or a list with one of these.
 
     Args:
         msg: the message.
-        msg_args: the values. A time is a list or dictionary of ``secs`` and ``nsecs``, or a whole number of
-            nanoseconds; None in a dictionary is an empty text, and None instead of all is an empty list.
-        keys: what may stand as a text where a time or a message belongs (``{"now": Time}``; ``rostopic`` gives "auto"
+        msg_args: the values. A time is a list or dictionary of ``secs`` and ``nsecs``, or an integer number of
+            nanoseconds; None in a dictionary is an empty text, and None as the whole value is an empty list.
+        keys: values for texts used in place of a time or a message (``{"now": Time}``; ``rostopic`` passes "auto"
             for a header).
 
-    Raises ``MessageException`` for an unknown field or key and for a wrong number of values, ``ValueError`` for what
-    is neither list nor dictionary.
+    Raises ``MessageException`` for an unknown field or key and for a wrong number of values, ``ValueError`` for values
+    that are neither a list nor a dictionary.
 
     """
     if msg_args is None:
@@ -155,7 +155,7 @@ def _fill_field(target: Any, name: Any, value: Any, keys: dict[str, Any], prefix
 
 
 def _filled(present: Any, value: Any, keys: dict[str, Any], path: str) -> Any:
-    """Return the value of a field that holds a message or a time, which is ``present`` now."""
+    """Return the new value of a field that holds a message or a time; ``present`` is the current one."""
     if isinstance(value, str):
         if value not in keys:
             known = f"there are {', '.join(keys)}" if keys else "no key is given here"
@@ -172,7 +172,7 @@ def _made(fresh: Any, value: Any, keys: dict[str, Any], prefix: str) -> Any:
 
 
 def _elements(kind: str, value: Any, keys: dict[str, Any], path: str) -> Any:
-    """Return the value of a field that is neither a message nor a time: an array's elements, or the value as it is."""
+    """Return the value of a field that is neither a message nor a time: array elements, or the value itself."""
     base, bracket, size = kind.partition("[")
     if not bracket or base in BYTES:
         return value

@@ -1,6 +1,6 @@
-"""What scripts import as ``interactive_markers.interactive_marker_server``.
+"""The module that scripts import as ``interactive_markers.interactive_marker_server``.
 
-``from interactive_markers.interactive_marker_server import *`` gives the messages, too, as on real ROS.
+As in ROS, ``from interactive_markers.interactive_marker_server import *`` also imports the messages.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What scripts import as ``interactive_markers.menu_handler``."""
+"""The module that scripts import as ``interactive_markers.menu_handler``."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class MenuHandler(interactive_markers.MenuHandler):
         command: str = "",
         callback: Callable[[Any], object] | None = None,
     ) -> int | None:
-        """Add an entry and return its handle. For a parent that is not there: log an error and return None."""
+        """Add an entry and return its handle; for an unknown parent, log an error and return None."""
         try:
             return super().insert(title, parent, command_type, command, callback)
         except InteractiveMarkerException as error:

@@ -1,7 +1,7 @@
-"""What scripts import as ``message_filters``: http://wiki.ros.org/message_filters.
+"""The module that scripts import as ``message_filters``: http://wiki.ros.org/message_filters.
 
-Names and signatures are those of message_filters 1.15; the clock and the log are those of the script's node. The work
-is done in :mod:`rosmini.core.message_filters`.
+Names and signatures are those of message_filters 1.15; clock and log are those of the script's node. The
+implementation is :mod:`rosmini.core.message_filters`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ __all__ = ["ApproximateTimeSynchronizer", "Cache", "SimpleFilter", "Subscriber",
 
 
 class Subscriber(SimpleFilter):
-    """The messages of a topic; takes the arguments of ``rospy.Subscriber``, whose attributes this has too."""
+    """The messages of a topic; takes the arguments of ``rospy.Subscriber`` and has its attributes."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__()
@@ -25,11 +25,11 @@ class Subscriber(SimpleFilter):
         self.sub = rospy.Subscriber(*args, **kwargs)
 
     def callback(self, msg: Any) -> None:
-        """Take a message from the topic and pass it on."""
+        """Receive a message from the topic and pass it on."""
         self.signalMessage(msg)
 
     def getTopic(self) -> Any:
-        """Return the name of the topic, as it was given."""
+        """Return the name of the topic as given."""
         return self.topic
 
     def __getattr__(self, key: str) -> Any:
@@ -39,7 +39,7 @@ class Subscriber(SimpleFilter):
 
 
 class _OfScript(StampingFilter):
-    """A filter that asks the node of whoever runs it."""
+    """A filter that uses the node of the running script."""
 
     def _knows_time(self) -> bool:
         return True
@@ -56,7 +56,7 @@ class Cache(_OfScript, core.Cache):
 
 
 class TimeSynchronizer(_OfScript, core.TimeSynchronizer):
-    """Gives out messages with equal stamps: see :class:`rosmini.core.message_filters.TimeSynchronizer`."""
+    """Passes on messages with equal stamps: see :class:`rosmini.core.message_filters.TimeSynchronizer`."""
 
 
 class ApproximateTimeSynchronizer(_OfScript, core.ApproximateTimeSynchronizer):

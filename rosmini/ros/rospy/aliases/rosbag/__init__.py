@@ -1,6 +1,6 @@
-"""What scripts import as ``rosbag``, and ``rosbag.bag`` (http://wiki.ros.org/rosbag/Code%20API).
+"""The modules that scripts import as ``rosbag`` and ``rosbag.bag`` (http://wiki.ros.org/rosbag/Code%20API).
 
-The messages have rospy's types: tuples and bytes, no arrays.
+Messages have rospy's types: tuples and bytes, not arrays.
 """
 
 from __future__ import annotations
@@ -61,5 +61,5 @@ class Bag(_bag.Bag):
 
 
 def rosbagmain(argv: Sequence[str] | None = None) -> None:
-    """Do what a command line of rosbag says, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    """Run a rosbag command line, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
     run_tool("rosbag", argv)

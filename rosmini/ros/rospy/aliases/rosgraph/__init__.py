@@ -1,4 +1,4 @@
-"""What scripts import from ``rosgraph``: the Master and names."""
+"""The module that scripts import as ``rosgraph``: the Master and names."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from .rosenv import get_master_uri
 
 
 class MasterException(RosminiError):
-    """The Master did not do what it was asked for."""
+    """The Master did not carry out a call."""
 
 
 class MasterFailure(MasterException):
@@ -31,10 +31,10 @@ Failure = MasterFailure
 
 
 class Master:
-    """The Master, asked in the name of ``caller_id``.
+    """The Master, called in the name of ``caller_id``.
 
     Methods are those of the Master API (http://wiki.ros.org/ROS/Master_API), such as ``getSystemState()``; they return
-    the value of the answer. Raises ``MasterError`` when the Master refuses, ``MasterFailure`` when it fails.
+    the value of the answer. Raises ``MasterError`` if the Master refuses, ``MasterFailure`` if it fails.
     """
 
     def __init__(self, caller_id: str, master_uri: str | None = None) -> None:
@@ -42,7 +42,7 @@ class Master:
         self.master_uri = master_uri or get_master_uri()
 
     def is_online(self) -> bool:
-        """Return whether there is a Master: always, in a process that has its own."""
+        """Return True if there is a Master; always true in a process with its own."""
         return True
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
@@ -59,5 +59,5 @@ class Master:
 
 
 def is_online(master_uri: str | None = None) -> bool:
-    """Return whether there is a Master: always, in a process that has its own."""
+    """Return True if there is a Master; always true in a process with its own."""
     return Master("rosgraph", master_uri).is_online()

@@ -1,4 +1,4 @@
-"""``rosgraph.names``: rules of names."""
+"""``rosgraph.names``: rules for names."""
 
 from __future__ import annotations
 
@@ -59,13 +59,13 @@ is_legal_remap = is_remapping
 
 
 def resolve_name(name: str, namespace_: str, remappings: dict[str, str] | None = None) -> str:
-    """Return the global name of ``name`` for the node ``namespace_``; ``remappings`` are between global names."""
+    """Return the global name of ``name`` for the node ``namespace_``; ``remappings`` use global names."""
     resolved = resolve_for(name, namespace_)
     return (remappings or {}).get(resolved, resolved)
 
 
 def load_mappings(argv: Sequence[str]) -> dict[str, str]:
-    """Return the remappings among the arguments, without private parameters; reports two ``:=`` on stderr."""
+    """Return the remappings in the arguments, without private parameters; prints an error for two ``:=`` to stderr."""
     kept = []
     for argument in filter(is_remapping, argv):
         if argument.count(REMAP) > 1:
@@ -85,7 +85,7 @@ def make_global_ns(name: str) -> str:
 
 
 def get_ros_namespace(env: dict[str, str] | None = None, argv: Sequence[str] | None = None) -> str:
-    """Return the namespace that ``__ns:=`` or ``ROS_NAMESPACE`` gives, with a closing slash."""
+    """Return the namespace from ``__ns:=`` or ``ROS_NAMESPACE``, with a closing slash."""
     given = Remappings.from_argv(sys.argv if argv is None else argv).namespace
     return make_global_ns(given or (os.environ if env is None else env).get("ROS_NAMESPACE", "/"))
 
@@ -96,12 +96,12 @@ def make_caller_id(name: str) -> str:
 
 
 def anonymous_name(id: str) -> str:
-    """Return ``id`` with numbers that make it unique: the same on each run in simulated time."""
+    """Return ``id`` with numbers that make it unique; the same on each run in simulated time."""
     return running_graph().anonymous_name(id)
 
 
 def script_resolve_name(script_name: str, name: str | None) -> str:
-    """Return the global name of ``name`` for a script without a node or remappings; empty: the namespace."""
+    """Return the global name of ``name`` for a script without a node or remappings; for "", the namespace."""
     if not name:
         return get_ros_namespace()
     if is_private(name):

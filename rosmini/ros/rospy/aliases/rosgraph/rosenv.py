@@ -1,4 +1,4 @@
-"""``rosgraph.rosenv``: where the Master is."""
+"""``rosgraph.rosenv``: the address of the Master."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ DEFAULT_MASTER_URI = f"http://localhost:{DEFAULT_MASTER_PORT}/"
 
 
 def get_master_uri(env: Any = None, argv: Any = None) -> str:
-    """Return the URI that ``__master:=`` or ``ROS_MASTER_URI`` names; else that of the Master of this graph.
+    """Return the URI from ``__master:=`` or ``ROS_MASTER_URI``, or else that of this graph's Master.
 
     Raises ``ValueError`` for ``__master:=`` without a URI.
     """

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 COLOURS = {"DEBUG": "\033[32m", "WARN": "\033[33m", "ERROR": "\033[31m", "FATAL": "\033[31m"}
 SEVERITIES = {"WARNING": "WARN", "CRITICAL": "FATAL"}
-"""What ROS calls Python's levels, where the names differ."""
+"""ROS's names for Python's levels where they differ."""
 FORMAT = "[${severity}] [${time}]: ${message}"
 PLACE = re.compile(r"\$\{(\w+)(?::([^}]*))?\}")
 
@@ -33,9 +33,9 @@ class LoggingException(RosminiError):
 
 
 class RosStreamHandler(logging.Handler):
-    """Writes records up to INFO to ``stdout`` and others to ``stderr``, in the form that ROSCONSOLE_FORMAT gives.
+    """Writes records up to INFO to ``stdout`` and others to ``stderr``, in the format of ROSCONSOLE_FORMAT.
 
-    The time is the graph's. Colours are used on a terminal, unless ``colorize`` is false.
+    Times are graph time. Colours are used on a terminal, unless ``colorize`` is false.
     """
 
     def __init__(
@@ -76,10 +76,10 @@ class RosStreamHandler(logging.Handler):
 def configure_logging(
     logname: str, level: int = logging.INFO, filename: str | None = None, env: Mapping[str, str] | None = None
 ) -> str | None:
-    """Write the script's log records from `level` on to a file in ROS's log folder; return the file's path.
+    """Write the script's log records from `level` upwards to a file in ROS's log folder; return its path.
 
     The folder is ROS_LOG_DIR, or ``log`` in ROS_HOME, by default ``~/.ros`` (http://wiki.ros.org/ROS/EnvironmentVariables).
-    None, with a warning, if it cannot be made. Raises ``LoggingException`` if a file is in its place.
+    Return None, with a warning, if it cannot be created. Raises ``LoggingException`` if a file is in its place.
     """
     env = os.environ if env is None else env
     folder = env.get("ROS_LOG_DIR") or Path(env.get("ROS_HOME") or "~/.ros").expanduser() / "log"
@@ -93,7 +93,7 @@ def configure_logging(
             f"WARNING: cannot create log directory [{path.parent}]. Please set ROS_LOG_DIR to a writable location.\n"
         )
         return None
-    # A script has a logging of its own.
+    # A script has its own copy of `logging`.
     load = getattr(getattr(current_session().context, "importer", None), "load", importlib.import_module)
     handler = load("logging.handlers").RotatingFileHandler(path, maxBytes=50_000_000, backupCount=4)
     handler.setFormatter(load("logging").Formatter("[%(name)s][%(levelname)s] %(asctime)s: %(message)s"))

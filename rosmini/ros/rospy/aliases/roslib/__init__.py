@@ -1,4 +1,4 @@
-"""What old scripts import from ``roslib``; there is nothing to set up for it any more."""
+"""The module that old scripts import as ``roslib``; it has nothing to set up any more."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ __all__ = ["is_interactive", "load_manifest", "message", "names", "packages", "s
 
 
 def load_manifest(package_name: str, bootstrap_version: str = "0.7") -> None:
-    """Do nothing: packages are found without it. Old scripts begin with ``roslib.load_manifest('their_package')``."""
+    """Do nothing: packages are found without it. Old scripts call ``roslib.load_manifest('their_package')``."""
 
 
 def set_interactive(interactive: bool) -> None:
-    """Do nothing: rospy leaves signals alone here anyway."""
+    """Do nothing: rospy does not handle signals here."""
 
 
 def is_interactive() -> bool:

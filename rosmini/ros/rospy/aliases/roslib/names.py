@@ -1,4 +1,4 @@
-"""``roslib.names``: what is in ``rosgraph.names``, and names of the form ``package/Type``."""
+"""``roslib.names``: the contents of ``rosgraph.names``, and names of the form ``package/Type``."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _RESOURCE_BASE = re.compile(r"[A-Za-z]\w*")
 
 
 def resource_name(res_pkg_name: str, name: str, my_pkg: str | None = None) -> str:
-    """Return ``package/name``; the name alone where it is used in its own package ``my_pkg``."""
+    """Return ``package/name``, or only the name within its own package ``my_pkg``."""
     return name if res_pkg_name == my_pkg else f"{res_pkg_name}/{name}"
 
 
@@ -24,12 +24,12 @@ def resource_name_base(name: str) -> str:
 
 
 def resource_name_package(name: str) -> str | None:
-    """Return the package of a name; None if it has none."""
+    """Return the package of a name, or None if it has no package."""
     return name.partition("/")[0] if "/" in name else None
 
 
 def package_resource_name(name: str) -> tuple[str, str]:
-    """Return the package, which may be empty, and the name in it. Raises ``ValueError`` for more than one slash."""
+    """Return the package, possibly empty, and the name in it. Raises ``ValueError`` for more than one slash."""
     if name.count("/") > 1:
         raise IllegalName(f"invalid name [{name}]: it has more than one slash; a type is package/Type")
     package, _, base = name.rpartition("/")
@@ -37,10 +37,10 @@ def package_resource_name(name: str) -> tuple[str, str]:
 
 
 def is_legal_resource_name(name: str | None) -> bool:
-    """Return whether ``name`` may name something in a package."""
+    """Return True if ``name`` is a legal name of something in a package."""
     return name is not None and bool(_RESOURCE.fullmatch(name)) and "//" not in name
 
 
 def is_legal_resource_base_name(name: str | None) -> bool:
-    """Return whether ``name`` may name something, without its package."""
+    """Return True if ``name`` is a legal name without a package."""
     return name is not None and bool(_RESOURCE_BASE.fullmatch(name))

@@ -1,4 +1,4 @@
-"""``roslib.packages``: where packages are, and what is in them."""
+"""``roslib.packages``: locations and contents of packages."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ PACKAGE_FILE = "package.xml"
 
 
 class ROSPkgException(RosminiError):
-    """Something is wrong with a package."""
+    """A problem with a package."""
 
 
 class InvalidROSPkgException(ROSPkgException, UnknownPackage):
-    """No package of this name is there."""
+    """There is no package of this name."""
 
 
 class MultipleNodesException(ROSPkgException):
-    """A package has several nodes of one name."""
+    """A package has several nodes with the same name."""
 
 
 def get_pkg_dir(
@@ -33,9 +33,9 @@ def get_pkg_dir(
 ) -> str | None:
     """Return the folder of a package. Raises ``InvalidROSPkgException``, or returns None unless ``required``.
 
-    ``ros_package_path`` is searched instead of the environment's.
+    ``ros_package_path`` replaces the environment's search path.
     """
-    del ros_root  # of the days before the package path
+    del ros_root  # older than the package path
     try:
         return str(
             PackageIndex(ros_package_path.split(os.pathsep) if ros_package_path else None).path(package)
@@ -47,7 +47,7 @@ def get_pkg_dir(
 
 
 def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
-    """Return the folder and name of the package that a path lies in; (None, None) outside of packages."""
+    """Return the folder and name of the package that contains a path; (None, None) outside of packages."""
     place = Path(d).resolve()
     for folder in (place, *place.parents):
         if (folder / PACKAGE_FILE).exists() or (folder / MANIFEST_FILE).exists():
@@ -56,7 +56,7 @@ def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
 
 
 def get_pkg_subdir(package: str, subdir: str, required: bool = True, env: Any = None) -> str | None:
-    """Return a folder in a package, and make it if ``required`` and missing. Raises ``InvalidROSPkgException``."""
+    """Return a folder of a package; create it if ``required`` and missing. Raises ``InvalidROSPkgException``."""
     home = get_pkg_dir(package, required, ros_package_path=(env or {}).get("ROS_PACKAGE_PATH"))
     if home is None:
         return None
@@ -72,7 +72,7 @@ def get_pkg_subdir(package: str, subdir: str, required: bool = True, env: Any = 
 
 
 def resource_file(package: str, subdir: str, resource_name: str) -> str:
-    """Return the path of a file in a folder of a package, existing or not. Raises ``InvalidROSPkgException``."""
+    """Return the path of a file in a package folder, existing or not. Raises ``InvalidROSPkgException``."""
     folder = get_pkg_subdir(package, subdir, required=False)
     if folder is None:
         raise InvalidROSPkgException(f"there is no package {package}")

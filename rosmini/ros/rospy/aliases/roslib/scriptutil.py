@@ -1,4 +1,4 @@
-"""``roslib.scriptutil``: the Master and names for scripts of the time before ``rosgraph``."""
+"""``roslib.scriptutil``: the Master and names, for scripts older than ``rosgraph``."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from . import names
 
 
 def script_resolve_name(script_name: str, name: str) -> str:
-    """Return the full name of ``name`` for a script of this name in ``ROS_NAMESPACE``."""
+    """Return the global name of ``name`` for a script of this name in ``ROS_NAMESPACE``."""
     if not name:
         return names.get_ros_namespace()
     if names.is_global(name):
@@ -32,10 +32,10 @@ class _Master:
 
 
 def get_master() -> _Master:
-    """Return what calls the Master API."""
+    """Return an object that calls the Master API."""
     return _Master()
 
 
 def get_param_server() -> _Master:
-    """Return what calls the Parameter Server API: the Master."""
+    """Return an object that calls the Parameter Server API, which the Master provides."""
     return get_master()

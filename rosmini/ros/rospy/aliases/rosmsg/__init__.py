@@ -1,6 +1,6 @@
-"""What scripts import from ``rosmsg`` (http://wiki.ros.org/rosmsg): definitions, md5 sums, types of packages.
+"""The module that scripts import as ``rosmsg`` (http://wiki.ros.org/rosmsg): definitions, md5 sums, types of packages.
 
-Where the real functions take a ``rospack``, these accept one and look at the packages that rosmini finds.
+Functions accept the ``rospack`` argument of the real ones, but use the packages that rosmini finds.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _WRONG = (DefinitionError, IllegalName, UnknownPackage, UnknownType)
 
 
 class ROSMsgException(RosminiError):
-    """A type or a mode is not known."""
+    """A type or a mode is unknown."""
 
 
 def _kind(mode: str) -> Kind:
@@ -54,12 +54,12 @@ def _text(kind: Kind, type_: str, raw: bool) -> str:
 
 
 def get_msg_text(type_: str, raw: bool = False, rospack: Any = None) -> str:  # noqa: ARG001 - as in ROS
-    """Return the definition of a message, or its file as it is if ``raw``. Raises ``ROSMsgException``."""
+    """Return the definition of a message, or its unchanged file if ``raw``. Raises ``ROSMsgException``."""
     return _text(MESSAGE, type_, raw)
 
 
 def get_srv_text(type_: str, raw: bool = False, rospack: Any = None) -> str:  # noqa: ARG001 - as in ROS
-    """Return the definition of a service, or its file as it is if ``raw``. Raises ``ROSMsgException``."""
+    """Return the definition of a service, or its unchanged file if ``raw``. Raises ``ROSMsgException``."""
     return _text(SERVICE, type_, raw)
 
 
@@ -88,12 +88,12 @@ def iterate_packages(rospack: Any, mode: str) -> Iterator[tuple[str, str]]:  # n
 
 
 def rosmsg_search(rospack: Any, mode: str, base_type: str) -> Iterator[str]:  # noqa: ARG001 - as in ROS
-    """Yield the types of a name, whatever their package."""
+    """Yield the types with this name in any package."""
     yield from _kind(mode).search(base_type)
 
 
 def rosmsg_md5(mode: str, type_: str) -> str:
-    """Return the md5 sum of a type. Raises ``OSError`` if it is not known, as the real function does."""
+    """Return the md5 sum of a type. Raises ``OSError`` if it is unknown, like the real function."""
     try:
         return _kind(mode).md5(type_)
     except _WRONG as error:
@@ -101,5 +101,5 @@ def rosmsg_md5(mode: str, type_: str) -> str:
 
 
 def rosmsgmain(mode: str = MODE_MSG) -> None:
-    """Do what ``sys.argv`` says, as rosmsg or rossrv does; raise ``SystemExit`` if it fails."""
+    """Run rosmsg or rossrv with ``sys.argv``; raise ``SystemExit`` if it fails."""
     run_tool("rossrv" if mode == MODE_SRV else "rosmsg", None)

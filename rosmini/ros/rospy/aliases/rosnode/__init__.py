@@ -1,4 +1,4 @@
-"""What scripts import from ``rosnode`` (http://wiki.ros.org/rosnode): which nodes there are, whether they answer."""
+"""The module that scripts import as ``rosnode`` (http://wiki.ros.org/rosnode): lists and pings nodes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ ID = nodes.ID
 
 
 class ROSNodeException(RosminiError):
-    """The base of the errors of rosnode."""
+    """Base class of rosnode's errors."""
 
 
 class ROSNodeIOException(ROSNodeException):
@@ -79,7 +79,7 @@ def get_machines_by_nodes() -> list[str]:
 
 
 def get_nodes_by_machine(machine: str) -> list[str]:
-    """Return the nodes on a host. Raises ``ROSNodeException`` if its name has no address."""
+    """Return the nodes on a host. Raises ``ROSNodeException`` if its name does not resolve."""
     with _no_master():
         found = nodes.nodes_on(running_graph(), machine)
     if found is None:
@@ -88,7 +88,7 @@ def get_nodes_by_machine(machine: str) -> list[str]:
 
 
 def kill_nodes(node_names: list[str]) -> tuple[list[str], list[str]]:
-    """Ask nodes to shut down; return those that were asked, and those that the Master does not know."""
+    """Ask nodes to shut down; return the nodes that were asked and those unknown to the Master."""
     with _no_master():
         return nodes.kill(running_graph(), node_names)
 
@@ -106,7 +106,7 @@ def rosnode_listnodes(namespace: str | None = None, list_uri: bool = False, list
 def rosnode_ping(
     node_name: str, max_count: int | None = None, verbose: bool = False, skip_cache: bool = False
 ) -> bool:
-    """Ask a node whether it is there, ``max_count`` times, once a second (None: until Ctrl-C); return whether it is."""
+    """Ping a node ``max_count`` times, once a second (None: until Ctrl-C); return True if it answers."""
     uri = get_api_uri(None, node_name, skip_cache)
     if uri is None:
         print(f"cannot ping [{node_name}]: unknown node", file=sys.stderr)
@@ -133,7 +133,7 @@ def rosnode_ping(
 
 
 def rosnode_ping_all(verbose: bool = False, skip_cache: bool = False) -> tuple[list[str], list[str]]:
-    """Ping all nodes once; return those that answered, and those that did not."""
+    """Ping all nodes once; return those that answered and those that did not."""
     names = get_node_names()
     if verbose:
         print("Will ping the following nodes: \n" + "".join(f" * {name}\n" for name in names))
@@ -142,7 +142,7 @@ def rosnode_ping_all(verbose: bool = False, skip_cache: bool = False) -> tuple[l
 
 
 def cleanup_master_blacklist(master: Any, blacklist: Collection[str]) -> None:  # noqa: ARG001 - as in ROS
-    """Make the Master forget some nodes."""
+    """Unregister some nodes at the Master."""
     for name in blacklist:
         print("Unregistering", name)
         with _no_master():
@@ -150,13 +150,13 @@ def cleanup_master_blacklist(master: Any, blacklist: Collection[str]) -> None:  
 
 
 def cleanup_master_whitelist(master: Any, whitelist: Collection[str]) -> None:  # noqa: ARG001 - as in ROS
-    """Make the Master forget all nodes but some."""
+    """Unregister all but some nodes at the Master."""
     with _no_master():
         nodes.forget(running_graph(), [name for name in get_node_names() if name not in whitelist])
 
 
 def rosnode_cleanup() -> None:
-    """Ask on standard input whether the nodes that do not answer are to be forgotten, and do it."""
+    """Ask on standard input whether to unregister the nodes that do not answer, and do so."""
     _, silent = rosnode_ping_all()
     if not silent:
         return
@@ -176,13 +176,13 @@ def rosnode_cleanup() -> None:
 
 
 def get_node_info_description(node_name: str) -> str:
-    """Return what the Master knows of a node, as ``rosnode info`` prints it."""
+    """Return the Master's information on a node, as ``rosnode info`` prints it."""
     with _no_master():
         return str(nodes.describe(running_graph(), node_name))
 
 
 def get_node_connection_info_description(node_api: str, master: Any) -> str:  # noqa: ARG001 - as in ROS
-    """Return what a node says of itself, as ``rosnode info`` prints it. Raises ``ROSNodeIOException``."""
+    """Return a node's own information, as ``rosnode info`` prints it. Raises ``ROSNodeIOException``."""
     try:
         with _no_master():
             return str(nodes.contact(running_graph(), node_api))
@@ -191,7 +191,7 @@ def get_node_connection_info_description(node_api: str, master: Any) -> str:  # 
 
 
 def rosnode_info(node_name: str, quiet: bool = False) -> None:
-    """Print what is known of a node."""
+    """Print the information on a node."""
     name = script_resolve_name(NAME, node_name)
     print("-" * 80)
     print(get_node_info_description(name))
@@ -204,5 +204,5 @@ def rosnode_info(node_name: str, quiet: bool = False) -> None:
 
 
 def rosnodemain(argv: Sequence[str] | None = None) -> None:
-    """Do what a command line of rosnode says, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    """Run a rosnode command line, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
     run_tool("rosnode", argv)

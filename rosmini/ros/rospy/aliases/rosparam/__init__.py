@@ -1,4 +1,4 @@
-"""What scripts import from ``rosparam``: YAML files and the Parameter Server (http://wiki.ros.org/rosparam)."""
+"""The module that scripts import as ``rosparam``: YAML files, the Parameter Server (http://wiki.ros.org/rosparam)."""
 
 from __future__ import annotations
 

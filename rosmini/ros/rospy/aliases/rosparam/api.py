@@ -67,17 +67,17 @@ def _pairs(found: list[documents.Document], verbose: bool) -> list[tuple[Any, st
 
 
 def get_param_server() -> Master:
-    """Return the Master, asked in the name of ``/rosparam``."""
+    """Return the Master, called in the name of ``/rosparam``."""
     return Master("/rosparam")
 
 
 def get_param(param: str) -> Any:
-    """Return a parameter's value, or a namespace as a dictionary. Raises ``rosgraph.MasterError`` if there is none."""
+    """Return a parameter's value, or a namespace as a dictionary. Raises ``rosgraph.MasterError`` if it is not set."""
     return get_param_server().getParam(param)
 
 
 def set_param_raw(param: str, value: Any, verbose: bool = False) -> None:
-    """Set a parameter to a value; a dictionary is merged into what is there. Raises ``RosParamException``."""
+    """Set a parameter; a dictionary is merged into the existing ones. Raises ``RosParamException``."""
     server = get_param_server()
     for name, item in list(assignments(param, value)):
         server.setParam(name, item)
@@ -90,7 +90,7 @@ def set_param(param: str, value: str, verbose: bool = False) -> None:
 
 
 def upload_params(ns: str, values: Any, verbose: bool = False) -> None:
-    """Set what :func:`load_file` returned. Raises ``RosParamException``."""
+    """Set the parameters that :func:`load_file` returned. Raises ``RosParamException``."""
     if ns == GLOBALNS and not isinstance(values, dict):
         raise RosParamException("global / can only be set to a dictionary")
     if verbose:
@@ -111,7 +111,7 @@ def dump_params(filename: str | None, param: str, verbose: bool = False) -> None
 
 
 def delete_param(param: str, verbose: bool = False) -> None:
-    """Delete a parameter or a namespace; of the root ``/``, all that is in it. Raises ``rosgraph.MasterError``."""
+    """Delete a parameter or a namespace, or the contents of the root ``/``. Raises ``rosgraph.MasterError``."""
     if param == GLOBALNS:
         get_param_server().setParam(GLOBALNS, {})
         _say(verbose, "deleted ENTIRE parameter server")

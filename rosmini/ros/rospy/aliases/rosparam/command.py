@@ -1,4 +1,4 @@
-"""The command line of rosparam, as scripts call it: ``rosparam.yamlmain(["rosparam", "get", "/rate"])``."""
+"""The command line of rosparam for scripts: ``rosparam.yamlmain(["rosparam", "get", "/rate"])``."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ class _Parser(argparse.ArgumentParser):
 
 
 def yamlmain(argv: Sequence[str] | None = None) -> None:
-    """Do what rosparam does with these arguments (``sys.argv`` if None), the program's name first.
+    """Run rosparam with these arguments (``sys.argv`` if None), the program's name first.
 
-    Errors are printed on standard error. Raises ``SystemExit``: with 0 after printing the usage, 1 for what cannot be
-    done, 2 for wrong arguments.
+    Errors are printed to standard error. Raises ``SystemExit``: with 0 after printing the usage, 1 if an operation
+    fails, 2 for wrong arguments.
     """
     given = list(sys.argv if argv is None else argv)[1:]
     if not given or given[0] not in VERBS:
@@ -88,7 +88,7 @@ def _set(options: argparse.Namespace) -> None:
     elif options.value:
         api.set_param(name, options.value, options.verbose)
     else:
-        api.set_param_raw(name, "", options.verbose)  # an empty YAML text would be nothing at all
+        api.set_param_raw(name, "", options.verbose)  # an empty YAML text would have no value
 
 
 def _content(name: str) -> bytes:

@@ -1,4 +1,4 @@
-"""What scripts import from ``rosservice`` (http://wiki.ros.org/rosservice): services, their types, calls by name."""
+"""The module that scripts import as ``rosservice`` (http://wiki.ros.org/rosservice): services, types, calls by name."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ NAME = "rosservice"
 
 
 class ROSServiceException(RosminiError):
-    """The base of the errors of rosservice."""
+    """Base class of rosservice's errors."""
 
 
 class ROSServiceIOException(ROSServiceException):
@@ -60,19 +60,19 @@ def _reached() -> Iterator[None]:
 
 
 def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
-    """Return what a service's server says of itself. Raises ``ROSServiceIOException``."""
+    """Return the header that a service's server sends. Raises ``ROSServiceIOException``."""
     with _reached():
         return services.headers(running_graph(), service_name, service_uri)
 
 
 def get_service_type(service_name: str) -> str | None:
-    """Return the type of a service, or None if nobody offers it. Raises ``ROSServiceIOException``."""
+    """Return the type of a service, or None if no node offers it. Raises ``ROSServiceIOException``."""
     with _reached():
         return services.type_of(running_graph(), service_name)
 
 
 def get_service_uri(service_name: str) -> str | None:
-    """Return the address of a service, or None if nobody offers it."""
+    """Return the address of a service, or None if no node offers it."""
     with _reached():
         return services.uri_of(running_graph(), service_name)
 
@@ -100,7 +100,7 @@ def rosservice_find(service_type: str) -> list[str]:
 
 
 def get_service_class_by_name(service_name: str) -> Any:
-    """Return the class of a service by the service's name. Raises ``ROSServiceException`` if that is not known."""
+    """Return the class of a service by the service's name. Raises ``ROSServiceException`` if it is unknown."""
     kind = get_service_type(service_name)
     if kind is None:
         raise ROSServiceException(
@@ -115,9 +115,9 @@ def get_service_class_by_name(service_name: str) -> Any:
 
 
 def call_service(service_name: str, service_args: Any, service_class: Any = None) -> tuple[Any, Any]:
-    """Call a service with plain values; return the request and the response. Calls init_node if nobody did.
+    """Call a service with plain values; return the request and the response. Calls init_node if needed.
 
-    Raises ``ROSServiceException`` for values that do not fit, and when the call fails.
+    Raises ``ROSServiceException`` for invalid values, and if the call fails.
     """
     from rosmini.msgs.std_msgs.msg import Header
     from rosmini.ros.rospy import ServiceProxy, get_rostime, init_node
@@ -144,18 +144,18 @@ def call_service(service_name: str, service_args: Any, service_class: Any = None
 
 
 def has_service_args(service_name: str, service_class: Any = None) -> bool:
-    """Return whether the requests of a service have fields."""
+    """Return True if the requests of a service have fields."""
     if service_class is None:
         service_class = get_service_class_by_name(script_resolve_name(NAME, service_name))
     return bool(service_class._request_class.__slots__)
 
 
 def get_service_args(service_name: str) -> str:
-    """Return the names of the fields of a service's requests, as one line."""
+    """Return the field names of a service's requests, on one line."""
     cls = get_service_class_by_name(script_resolve_name(NAME, service_name))
     return " ".join(cls._request_class.__slots__)
 
 
 def rosservicemain(argv: Sequence[str] | None = None) -> None:
-    """Do what a command line of rosservice says, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    """Run a rosservice command line, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
     run_tool("rosservice", argv)

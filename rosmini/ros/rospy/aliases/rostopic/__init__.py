@@ -1,4 +1,4 @@
-"""What scripts import from ``rostopic`` (http://wiki.ros.org/rostopic): types of topics, rates, publishers by name."""
+"""The module that scripts import as ``rostopic`` (http://wiki.ros.org/rostopic): types, rates, publishers by name."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ __all__ = [
 
 NAME = "rostopic"
 LOOK_NS = 100_000_000
-"""How often the Master is asked for a topic that is not there yet."""
+"""Period at which the Master is polled for a missing topic [ns]."""
 
 Found = tuple[str, str, Callable[[Any], Any] | None] | tuple[None, None, None]
 
 
 class ROSTopicException(RosminiError):
-    """The base of the errors of rostopic."""
+    """Base class of rostopic's errors."""
 
 
 class ROSTopicIOException(ROSTopicException):
@@ -66,7 +66,7 @@ def _no_master() -> Iterator[None]:
 
 
 def _check_master() -> None:
-    """Raise ``ROSTopicIOException`` if there is no Master: scripts call this, as they do of the real one."""
+    """Raise ``ROSTopicIOException`` if there is no Master; scripts use this private function of rostopic."""
     with _no_master():
         running_graph().ask_as(topics.ID).ask("getPid")
 
@@ -83,8 +83,8 @@ def _get_topic_type(topic: str) -> Found:
 def msgevalgen(pattern: str) -> Callable[[Any], Any] | None:
     """Return a function that reads the fields at a path, such as ``/x[2:]/y``, from a message.
 
-    None for an empty path, and for what is none, which is said on stderr. So it is where a message has no such field:
-    then the function returns None.
+    None for an empty path, and for an invalid one, with a message on stderr. If a message lacks the field, there is
+    a message too, and the function returns None.
     """
     if not pattern.strip("/"):
         return None
@@ -105,9 +105,9 @@ def msgevalgen(pattern: str) -> Callable[[Any], Any] | None:
 
 
 def get_topic_type(topic: str, blocking: bool = False) -> Found:
-    """Return type and name of a topic, and what reads the field if the name goes on with one; three times None if not.
+    """Return type and name of a topic, and a function that reads the field in the name; three times None if unknown.
 
-    ``blocking`` waits until there is such a topic. Raises ``ROSTopicIOException`` if the Master does not answer.
+    ``blocking`` waits until the topic exists. Raises ``ROSTopicIOException`` if the Master does not answer.
     """
     graph = running_graph()
     with _no_master():
@@ -123,9 +123,9 @@ def get_topic_type(topic: str, blocking: bool = False) -> Found:
 def get_topic_class(
     topic: str, blocking: bool = False
 ) -> tuple[Any, str | None, Callable[[Any], Any] | None]:
-    """Return the message class of a topic, its name, and what reads the field: see :func:`get_topic_type`.
+    """Return the message class of a topic, its name, and a function that reads the field: see :func:`get_topic_type`.
 
-    Raises ``ROSTopicException`` for a type that is not known here.
+    Raises ``ROSTopicException`` for an unknown type.
     """
     kind, name, evaluate = get_topic_type(topic, blocking)
     if kind is None:
@@ -137,7 +137,7 @@ def get_topic_class(
 
 
 def get_topic_list(master: Any = None) -> tuple[list[tuple[str, str, list[str]]], ...]:  # noqa: ARG001 - as in ROS
-    """Return the topics that are published, and those that are subscribed to: lists of (name, type, nodes)."""
+    """Return the published topics and those with subscribers: lists of (name, type, nodes)."""
     with _no_master():
         found = topics.topics(running_graph())
     return tuple([(each.name, each.type, list(each.nodes)) for each in side] for side in found)
@@ -156,7 +156,7 @@ def get_api(master: Any, caller_id: str) -> str:  # noqa: ARG001 - as in ROS
 
 
 def get_info_text(topic: str) -> str:
-    """Return what ``rostopic info`` prints. Raises ``ROSTopicException`` for an unknown topic."""
+    """Return the output of ``rostopic info``. Raises ``ROSTopicException`` for an unknown topic."""
     with _no_master():
         found = topics.about(running_graph(), topic)
     if found is None:
@@ -172,9 +172,9 @@ def create_field_filter(echo_nostr: bool, echo_noarr: bool) -> Callable[[Any], A
 def create_publisher(
     topic_name: str, topic_type: str, latch: bool, disable_rostime: bool = True
 ) -> tuple[Any, Any]:
-    """Return a ``rospy.Publisher`` of a topic by the name of its type, and the class; init_node if it was not called.
+    """Return a ``rospy.Publisher`` for a topic with the type's name, and the class; calls init_node if needed.
 
-    Raises ``ROSTopicException`` for a type that is not known here.
+    Raises ``ROSTopicException`` for an unknown type.
     """
     from rosmini.ros.rospy import Publisher, init_node
     from rosmini.ros.rospy.session import current_node
@@ -202,7 +202,7 @@ def publish_message(
 ) -> None:
     """Fill a message from plain values and publish it: at a rate, once, or latched until the node shuts down.
 
-    Raises ``ROSTopicException`` for values that do not fit.
+    Raises ``ROSTopicException`` for invalid values.
     """
     from rosmini.ros.rospy import Rate, is_shutdown, spin
 
@@ -237,5 +237,5 @@ def _filled(message: Any, values: Any) -> Any:
 
 
 def rostopicmain(argv: Sequence[str] | None = None) -> None:
-    """Do what a command line of rostopic says, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    """Run a rostopic command line, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
     run_tool("rostopic", argv)

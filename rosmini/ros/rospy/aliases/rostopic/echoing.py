@@ -1,4 +1,4 @@
-"""``rostopic.CallbackEcho``: the callback with which scripts print messages as ``rostopic echo`` does."""
+"""``rostopic.CallbackEcho``: a callback that prints messages as ``rostopic echo`` does."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from rosmini.ros.introspection.fields import cells, chosen, title_line
 from rosmini.ros.rospy.rostime import get_rostime
 
 CLEAR = "\033[2J\033[;H"
-"""What makes a terminal empty."""
+"""Escape sequence that clears a terminal."""
 
 
 class CallbackEcho:
-    """Prints each message that its ``callback`` is given, until ``done``; see ``rostopic echo -h`` for what each means.
+    """Prints each message passed to its ``callback``, until ``done``; ``rostopic echo -h`` explains the options.
 
     Args:
-        topic: the messages' topic, or a namespace with `echo_all_topics`; others are passed over.
-        msg_eval: makes of a message what is printed (`msgevalgen`), None for all of it.
-        plot: print lines of comma-separated values, after one of titles.
-        filter_fn: called with a message; it is printed if that returns true.
-        echo_clear: empty the terminal before each.
+        topic: the messages' topic, or a namespace with `echo_all_topics`; other topics are ignored.
+        msg_eval: selects the part of a message to print (`msgevalgen`), None for all of it.
+        plot: print lines of comma-separated values after a line of titles.
+        filter_fn: called with a message, which is printed if the result is true.
+        echo_clear: clear the terminal before each message.
         echo_all_topics: print messages of any topic.
-        offset_time: print times relative to the present.
-        count: so many messages; None for any number.
-        field_filter_fn: chooses the fields of a message that `plot` prints (`create_field_filter`).
-        fixed_numeric_width: characters for each number.
-        value_transform_fn: called with a value and the name of its type; what it returns is printed.
+        offset_time: print times relative to now.
+        count: maximum number of messages; None for any number.
+        field_filter_fn: selects the fields of a message that `plot` prints (`create_field_filter`).
+        fixed_numeric_width: number of characters for each number.
+        value_transform_fn: called with a value and the name of its type; its result is printed.
 
     """
 
@@ -56,7 +56,7 @@ class CallbackEcho:
         self.first = True
 
     def callback(self, data: Any, callback_args: Mapping[str, Any], current_time: Any = None) -> None:
-        """Print a message; ``callback_args`` has its ``topic`` and perhaps its ``type_information``."""
+        """Print a message; ``callback_args`` has its ``topic`` and optionally its ``type_information``."""
         topic = callback_args["topic"].rstrip("/")
         if self.done or (self.filter_fn is not None and not self.filter_fn(data)):
             return

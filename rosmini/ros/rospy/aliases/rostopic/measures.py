@@ -1,4 +1,4 @@
-"""What ``rostopic`` measures, as scripts use it: callbacks for ``rospy.Subscriber``, and what they add up to."""
+"""Measurements of ``rostopic`` for scripts: callbacks for ``rospy.Subscriber``, and their results."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Numbers = tuple[float, float, float, float, int]
 
 
 class ROSTopicHz:
-    """How often messages come: ``callback_hz`` is the callback, ``get_hz`` says how often it was called."""
+    """Measures the rate of messages: ``callback_hz`` is the callback, ``get_hz`` returns the rate."""
 
     def __init__(
         self, window_size: int, filter_expr: Callable[[Any], object] | None = None, use_wtime: bool = False
@@ -31,7 +31,7 @@ class ROSTopicHz:
         self._arrivals: defaultdict[str | None, Arrivals] = defaultdict(partial(Arrivals, window_size))
 
     def callback_hz(self, m: Any, topic: str | None = None) -> None:
-        """Count a message of a topic, if the filter lets it through."""
+        """Count a message of a topic, if it passes the filter."""
         if self.filter_expr is not None and not self.filter_expr(m):
             return
         now = running_graph().scheduler.now_ns() if self.use_wtime else get_rostime().to_nsec()
@@ -49,7 +49,7 @@ class ROSTopicHz:
     def get_hz(self, topic: str | None = None) -> Numbers | None:
         """Return (rate [Hz], shortest, longest time between two messages, standard deviation [s], number of messages).
 
-        None before the second message, and where none has come since the last call.
+        Return None before the second message, and if none has come since the last call.
         """
         found = self._statistics(topic)
         return None if found is None else (found.rate, *found[1:])
@@ -66,7 +66,7 @@ class ROSTopicHz:
 
 
 class ROSTopicDelay:
-    """How old messages are when they come, by their headers."""
+    """Measures the age of messages on arrival, from their headers."""
 
     def __init__(self, window_size: int) -> None:
         self.lock = threading.Lock()
@@ -84,13 +84,13 @@ class ROSTopicDelay:
             self._delays.heard(get_rostime().to_nsec(), msg.header.stamp.to_nsec())
 
     def get_delay(self) -> Numbers | None:
-        """Return (mean, smallest, largest age, standard deviation [s], number of messages), or None if none is new."""
+        """Return (mean, smallest, largest age, standard deviation [s], number of messages); None without new ones."""
         with self.lock:
             found = self._delays.statistics()
         return None if found is None else (found.mean, *found[1:])
 
     def print_delay(self) -> None:
-        """Print it."""
+        """Print the delay."""
         if self._delays.values:
             with self.lock:
                 found = self._delays.statistics()
@@ -98,7 +98,7 @@ class ROSTopicDelay:
 
 
 class ROSTopicBandwidth:
-    """How many bytes come: ``callback`` is for a subscriber of ``rospy.AnyMsg``."""
+    """Measures the bandwidth; ``callback`` is for a subscriber of ``rospy.AnyMsg``."""
 
     def __init__(self, window_size: int = 100) -> None:
         self.lock = threading.Lock()
@@ -111,7 +111,7 @@ class ROSTopicBandwidth:
             self._sizes.heard(running_graph().scheduler.now_ns() / 1e9, len(data._buff))  # noqa: SLF001 - rospy's name
 
     def print_bw(self) -> None:
-        """Print it."""
+        """Print the bandwidth."""
         with self.lock:
             found = self._sizes.weight(running_graph().scheduler.now_ns() / 1e9)
         if found is not None:

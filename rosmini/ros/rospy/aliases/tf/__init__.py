@@ -1,7 +1,7 @@
-"""The module that scripts import as ``tf`` (http://wiki.ros.org/tf): the first API of transforms, with lists.
+"""The module that scripts import as ``tf`` (http://wiki.ros.org/tf): the older API for transforms, with lists.
 
-``tf.broadcaster`` and ``tf.listener`` are this module too. A ``/`` before a frame's name is dropped, as tf does since
-it stands on tf2.
+``tf.broadcaster`` and ``tf.listener`` are this module too. A leading ``/`` of a frame name is removed, as tf has done
+since it uses tf2.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ Exception = TransformException
 broadcaster = listener = sys.modules[__name__]
 
 FIRST_NS = 100_000
-"""Where the window of ``lookupTwist`` begins at the earliest [ns]."""
+"""Earliest start of the window of ``lookupTwist`` [ns]."""
 
 Pair = tuple[list[float], list[float]]
 
@@ -58,24 +58,24 @@ def _bare(frame: str) -> str:
 
 
 class Transformer:
-    """A buffer of transforms: set them, then ask. Quaternions are x, y, z, w."""
+    """A buffer of transforms that are set and looked up; quaternions are x, y, z, w."""
 
     def __init__(self, interpolate: bool = True, cache_time: Duration | None = None) -> None:
         del interpolate  # tf2 always does
         self._buffer = Buffer(cache_time)
 
     def setTransform(self, transform: Any, authority: str = "default_authority") -> None:
-        """Take a ``geometry_msgs/TransformStamped``."""
+        """Add a ``geometry_msgs/TransformStamped``."""
         self._buffer.set_transform(transform, authority)
 
     def canTransform(self, target_frame: str, source_frame: str, time: Time) -> bool:
-        """Return whether a lookup would succeed."""
+        """Return True if a lookup would succeed."""
         return self._buffer.can_transform_core(_bare(target_frame), _bare(source_frame), time)[0]
 
     def canTransformFull(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> bool:
-        """Return whether the advanced form would succeed."""
+        """Return True if a lookup with a fixed frame would succeed."""
         return self._buffer.can_transform_full_core(
             _bare(target_frame), target_time, _bare(source_frame), source_time, _bare(fixed_frame)
         )[0]
@@ -88,8 +88,8 @@ class Transformer:
         timeout: Duration,
         polling_sleep_duration: Duration | None = None,
     ) -> None:
-        """Block until a lookup would answer. Raises ``tf.Exception`` with the reason after ``timeout``."""
-        del polling_sleep_duration  # each transform that arrives is looked at
+        """Block until a lookup would succeed. Raises ``tf.Exception`` with the reason after ``timeout``."""
+        del polling_sleep_duration  # each arriving transform is checked
         verdict = self._buffer.can_transform(_bare(target_frame), _bare(source_frame), time, timeout, True)
         _require(verdict)
 
@@ -103,29 +103,29 @@ class Transformer:
         timeout: Duration,
         polling_sleep_duration: Duration | None = None,
     ) -> None:
-        """Block until the advanced form would answer. Raises ``tf.Exception``."""
+        """Block until a lookup with a fixed frame would succeed. Raises ``tf.Exception``."""
         del polling_sleep_duration
         names = _bare(target_frame), target_time, _bare(source_frame), source_time, _bare(fixed_frame)
         _require(self._buffer.can_transform_full(*names, timeout, True))
 
     def lookupTransform(self, target_frame: str, source_frame: str, time: Time) -> Pair:
-        """Return where ``source_frame`` is in ``target_frame``: translation [m], quaternion. Raises as tf2 does."""
+        """Return the pose of ``source_frame`` in ``target_frame``: translation [m], quaternion. Raises as tf2 does."""
         return _pair(self._buffer.lookup_transform_core(_bare(target_frame), _bare(source_frame), time))
 
     def lookupTransformFull(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Pair:
-        """The advanced form."""
+        """Look up a transform between two times through ``fixed_frame``."""
         names = _bare(target_frame), target_time, _bare(source_frame), source_time, _bare(fixed_frame)
         return _pair(self._buffer.lookup_transform_full_core(*names))
 
     def lookupTwist(
         self, tracking_frame: str, observation_frame: str, time: Time, averaging_interval: Duration
     ) -> Pair:
-        """Return how a frame moves in another: linear [m/s] and angular [rad/s] velocity, averaged around ``time``.
+        """Return a frame's velocity in another: linear [m/s] and angular [rad/s], averaged around ``time``.
 
-        The window ends at the latest transform and does not begin before 0.1 ms, as in tf. Raises as
-        ``lookupTransform`` does.
+        As in tf, the window ends at the latest transform and does not begin before 0.1 ms. Raises the errors of
+        ``lookupTransform``.
         """
         tree = self._buffer.tree
         tracked, observer = _bare(tracking_frame), _bare(observation_frame)
@@ -151,9 +151,9 @@ class Transformer:
         time: Time,
         averaging_interval: Duration,
     ) -> Pair:
-        """Return how a point [m], fixed to ``tracking_frame``, moves in ``observation_frame``, in ``reference_frame``.
+        """Return the velocity of a point [m] on ``tracking_frame`` in ``observation_frame``, in ``reference_frame``.
 
-        As http://wiki.ros.org/tf defines it; ROS's own Python version leaves the point out.
+        As http://wiki.ros.org/tf defines it; ROS's Python version ignores the point.
         """
         linear, angular = self.lookupTwist(tracking_frame, observation_frame, time, averaging_interval)
         tree, reference, tracked = self._buffer.tree, _bare(reference_frame), _bare(tracking_frame)
@@ -166,19 +166,19 @@ class Transformer:
         return (rotate(seen, linear) + np.cross(turn, arm)).tolist(), turn.tolist()
 
     def getLatestCommonTime(self, source_frame: str, dest_frame: str) -> RospyTime:
-        """Return the newest time for which the way between two frames is known."""
+        """Return the latest time for which the transform between two frames is known."""
         found = self._buffer.get_latest_common_time(_bare(source_frame), _bare(dest_frame))
         return RospyTime.from_nsec(found.to_nsec())
 
     def chain(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> list[str]:
-        """Return the frames on the way from source to target by way of ``fixed_frame``."""
+        """Return the frames on the path from source to target through ``fixed_frame``."""
         names = _bare(target_frame), target_time.to_nsec(), _bare(source_frame), source_time.to_nsec()
         return self._buffer.tree.chain_full(*names, _bare(fixed_frame))
 
     def frameExists(self, frame_id: str) -> bool:
-        """Return whether a frame is known and has a parent: a root frame does not exist for tf."""
+        """Return True if a frame is known and has a parent: for tf, a root frame does not exist."""
         return frame_id in self._buffer.tree.edges
 
     def getFrameStrings(self) -> list[str]:
@@ -190,27 +190,27 @@ class Transformer:
         return self._buffer.all_frames_as_string()
 
     def allFramesAsDot(self, current_time: Any = None) -> str:
-        """Return the tree for graphviz."""
+        """Return the tree in graphviz format."""
         del current_time
         return self._buffer.all_frames_as_dot()
 
     def clear(self) -> None:
-        """Forget everything that moves."""
+        """Discard all transforms that are not static."""
         self._buffer.clear()
 
     def setUsingDedicatedThread(self, value: bool) -> None:
         """Do nothing: a wait parks its lane."""
 
     def getTFPrefix(self) -> str:
-        """Return the parameter ``tf_prefix`` that is nearest upwards from the node; empty if there is none."""
+        """Return the parameter ``tf_prefix`` nearest upwards from the node; empty if it is not set."""
         return tf_prefix(self._buffer.node)
 
 
 class TransformerROS(Transformer):
-    """Moves stamped messages from the frame in their header to another."""
+    """Transforms stamped messages from the frame in their header to another."""
 
     def asMatrix(self, target_frame: str, hdr: Any) -> Floats:
-        """Return the matrix (4, 4) that takes points in the header's frame to ``target_frame`` at its time."""
+        """Return the matrix (4, 4) that transforms points from the header's frame to ``target_frame`` at its time."""
         return self.fromTranslationRotation(*self.lookupTransform(target_frame, hdr.frame_id, hdr.stamp))
 
     def fromTranslationRotation(self, translation: Any, rotation: Any) -> Floats:
@@ -231,7 +231,7 @@ class TransformerROS(Transformer):
         return self._moved(target_frame, ps)
 
     def transformVector3(self, target_frame: str, v3s: Any) -> Any:
-        """Return a ``geometry_msgs/Vector3Stamped`` in another frame: turned, not moved."""
+        """Return a ``geometry_msgs/Vector3Stamped`` in another frame: rotated, not translated."""
         return self._moved(target_frame, v3s)
 
     def transformQuaternion(self, target_frame: str, ps: Any) -> Any:
@@ -248,14 +248,14 @@ class TransformerROS(Transformer):
 
 
 class TransformListener(TransformerROS):
-    """Hears ``/tf`` and ``/tf_static`` with the script's node. Raises ``ROSInitException`` before ``init_node``."""
+    """Receives ``/tf`` and ``/tf_static`` with the script's node. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(self, interpolate: bool = True, cache_time: Duration | None = None) -> None:
         super().__init__(interpolate, cache_time)
         self._listener = tf.TransformListener(require_node("tf.TransformListener"), self._buffer)
 
     def unregister(self) -> None:
-        """Hear no more."""
+        """Stop receiving transforms."""
         self._listener.unregister()
 
 
@@ -281,7 +281,7 @@ class TransformBroadcaster:
     def sendTransform(
         self, translation: Iterable[float], rotation: Iterable[float], time: Time, child: str, parent: str
     ) -> None:
-        """Say where ``child`` is in ``parent``: translation [m] and quaternion (x, y, z, w), as they are."""
+        """Send the pose of ``child`` in ``parent``: translation [m] and quaternion (x, y, z, w), unchanged."""
         x, y, z = (float(value) for value in translation)
         qx, qy, qz, qw = (float(value) for value in rotation)
         self.sendTransformMessage(to_stamped(parent, child, (x, y, z, qx, qy, qz, qw), time.to_nsec()))

@@ -1,4 +1,4 @@
-"""``tf2_geometry_msgs``, and its module of the same name: stamped geometry in another frame, by a given transform."""
+"""``tf2_geometry_msgs``, and its module of the same name: transforms stamped geometry with a given transform."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ do_transform_wrench = moved
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """Return the message itself: it is one already."""
+    """Return the message itself: it is a message already."""
     return msg
 
 

@@ -73,7 +73,7 @@ _TYPES = {
 
 
 class Buffer(tf.Buffer, BufferInterface):
-    """The script's buffer; a :class:`TransformListener` fills it. What waits needs ``rospy.init_node`` first."""
+    """The script's buffer, filled by a :class:`TransformListener`; waiting needs ``rospy.init_node`` first."""
 
     transform = BufferInterface.transform
     transform_full = BufferInterface.transform_full
@@ -89,14 +89,14 @@ class Buffer(tf.Buffer, BufferInterface):
         return any_node()
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> Any:
-        """Do as :meth:`rosmini.core.tf.BufferCore.lookup_transform_core`; a loop that polls for it uses graph time."""
+        """Like :meth:`rosmini.core.tf.BufferCore.lookup_transform_core`, but a polling loop consumes graph time."""
         any_node().scheduler.charge(CALL_TICKS)
         return super().lookup_transform_core(target_frame, source_frame, time)
 
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Any:
-        """Do as :meth:`rosmini.core.tf.BufferCore.lookup_transform_full_core`."""
+        """Like :meth:`rosmini.core.tf.BufferCore.lookup_transform_full_core`."""
         any_node().scheduler.charge(CALL_TICKS)
         return super().lookup_transform_full_core(
             target_frame, target_time, source_frame, source_time, fixed_frame
@@ -118,7 +118,7 @@ class StaticTransformBroadcaster(tf.StaticTransformBroadcaster):
 
 
 class TransformListener(tf.TransformListener):
-    """Fills a buffer with what the script's node hears. Raises ``ROSInitException`` before ``init_node``."""
+    """Fills a buffer with transforms that the script's node gets. Raises ``ROSInitException`` before ``init_node``."""
 
     def __init__(
         self,
@@ -132,7 +132,7 @@ class TransformListener(tf.TransformListener):
 
 
 def __getattr__(name: str) -> Any:
-    """Scripts get message types through this module too: ``tf2_ros.TransformStamped``."""
+    """Return a message type: scripts also import them from here, such as ``tf2_ros.TransformStamped``."""
     if name in _TYPES:
         from rosmini.msgs import message_class
 

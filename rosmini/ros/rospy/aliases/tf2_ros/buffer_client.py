@@ -1,4 +1,4 @@
-"""``tf2_ros.buffer_client``: looks transforms up in the buffer of another node."""
+"""``tf2_ros.buffer_client``: looks up transforms in the buffer of another node."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from .buffer_server import ERRORS
 
 
 class BufferClient(BufferInterface):
-    """Asks the buffer server at the action ``ns``, and holds no transform itself.
+    """Queries the buffer server at the action ``ns``; it stores no transforms.
 
-    ``timeout_padding`` (2 s) is how long an answer may take beyond the time-out of a lookup. Raises
+    ``timeout_padding`` (2 s) is added to the timeout of a lookup when waiting for the answer. Raises
     ``ROSInitException`` before ``init_node``.
     """
 
@@ -31,15 +31,15 @@ class BufferClient(BufferInterface):
         self.timeout_padding = Duration(2) if timeout_padding is None else timeout_padding
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
-        """Block until the server is there; False after ``timeout`` (None or 0: no limit)."""
+        """Block until the server is available; return False after ``timeout`` (None or 0: no limit)."""
         return self.client.wait_for_server(timeout)
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE
     ) -> Any:
-        """Return where ``source_frame`` is in ``target_frame``, as a ``geometry_msgs/TransformStamped``.
+        """Return the pose of ``source_frame`` in ``target_frame``, as a ``geometry_msgs/TransformStamped``.
 
-        Raises what the lookup raised at the server, and ``TimeoutException`` when no answer comes.
+        Raises the error of the lookup at the server, and ``TimeoutException`` if no answer comes.
         """
         return self._ask(
             target_frame=target_frame, source_frame=source_frame, source_time=time, timeout=timeout
@@ -54,7 +54,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Any = AT_ONCE,
     ) -> Any:
-        """Return the same in the advanced form."""
+        """Return a transform between two times through ``fixed_frame``."""
         return self._ask(
             target_frame=target_frame,
             target_time=target_time,
@@ -66,7 +66,7 @@ class BufferClient(BufferInterface):
         )
 
     def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE) -> bool:
-        """Return whether a lookup succeeds."""
+        """Return True if a lookup succeeds."""
         return _answers(lambda: self.lookup_transform(target_frame, source_frame, time, timeout))
 
     def can_transform_full(
@@ -78,7 +78,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Any = AT_ONCE,
     ) -> bool:
-        """Return whether the advanced form succeeds."""
+        """Return True if a lookup with a fixed frame succeeds."""
         names = target_frame, target_time, source_frame, source_time, fixed_frame
         return _answers(lambda: self.lookup_transform_full(*names, timeout))
 

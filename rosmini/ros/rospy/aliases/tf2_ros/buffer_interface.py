@@ -1,4 +1,4 @@
-"""``tf2_ros.buffer_interface``: what buffers and their clients share, and the conversions between types."""
+"""``tf2_ros.buffer_interface``: the shared interface of buffers and their clients, and conversions between types."""
 
 # ruff: noqa: ARG002 - the arguments are for derived classes
 
@@ -21,7 +21,7 @@ AT_ONCE = Duration()
 
 
 class TypeException(RosminiError):
-    """Nobody has said how a type is moved to another frame, or converted."""
+    """No transformation or conversion is registered for a type."""
 
     def __init__(self, errstr: str) -> None:
         super().__init__(errstr)
@@ -29,7 +29,7 @@ class TypeException(RosminiError):
 
 
 class NotImplementedException(RosminiError):
-    """A class of the script's own derives from ``BufferInterface`` and does not say how to look a transform up."""
+    """A script's subclass of ``BufferInterface`` does not implement the lookup of a transform."""
 
     def __init__(self) -> None:
         self.errstr = "lookup_transform() and can_transform(), or their advanced forms, are not implemented"
@@ -37,7 +37,7 @@ class NotImplementedException(RosminiError):
 
 
 class BufferInterface:
-    """Where transforms are looked up: in one's own buffer, or in another node's. Derive from it to look elsewhere."""
+    """Interface for looking up transforms, in a local buffer or another node's; derive from it for other sources."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
@@ -45,9 +45,9 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = AT_ONCE, new_type: Any = None
     ) -> Any:
-        """Return a stamped thing in another frame, at the time in its header; as a ``new_type`` if given.
+        """Return a stamped object in another frame, at the time in its header; as a ``new_type`` if given.
 
-        Raises ``TypeException`` for a type that nobody has registered, else as ``lookup_transform`` does.
+        Raises ``TypeException`` for an unregistered type, and the errors of ``lookup_transform``.
         """
         move = TransformRegistration().get(type(object_stamped))
         header = object_stamped.header
@@ -63,7 +63,7 @@ class BufferInterface:
         timeout: Any = AT_ONCE,
         new_type: Any = None,
     ) -> Any:
-        """Return the same at another time, if ``fixed_frame`` does not move in between."""
+        """Return it at another time, assuming that ``fixed_frame`` does not move in between."""
         move = TransformRegistration().get(type(object_stamped))
         header = object_stamped.header
         found = self.lookup_transform_full(
@@ -74,7 +74,7 @@ class BufferInterface:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE
     ) -> Any:
-        """Raise ``NotImplementedException``: derived classes say where ``source_frame`` is in ``target_frame``."""
+        """Raise ``NotImplementedException``; subclasses return the pose of ``source_frame`` in ``target_frame``."""
         raise NotImplementedException
 
     def lookup_transform_full(
@@ -86,11 +86,11 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = AT_ONCE,
     ) -> Any:
-        """Raise ``NotImplementedException``: the advanced form."""
+        """Raise ``NotImplementedException``; the form with a fixed frame."""
         raise NotImplementedException
 
     def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE) -> Any:
-        """Raise ``NotImplementedException``: derived classes return whether a lookup would succeed."""
+        """Raise ``NotImplementedException``; subclasses return True if a lookup would succeed."""
         raise NotImplementedException
 
     def can_transform_full(
@@ -102,14 +102,14 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = AT_ONCE,
     ) -> Any:
-        """Raise ``NotImplementedException``: the advanced form."""
+        """Raise ``NotImplementedException``; the form with a fixed frame."""
         raise NotImplementedException
 
 
 def moved(message: Any, transform: Any) -> Any:
     """Return a copy of a stamped message in the frame of ``transform``, with its stamp.
 
-    A quaternion of length 0 counts as no rotation; the script is warned once for each type and frame.
+    A zero quaternion counts as no rotation; the script is warned once for each type and frame.
     """
     return messages.moved(message, transform, warn_once)
 
@@ -119,13 +119,13 @@ def _converted(thing: Any, new_type: Any) -> Any:
 
 
 def Stamped(obj: Any, stamp: Time, frame_id: str) -> Any:
-    """Give ``obj`` a header, and return it."""
+    """Add a header to ``obj`` and return it."""
     obj.header = message_class("std_msgs/Header")(frame_id=frame_id, stamp=stamp)
     return obj
 
 
 class _Registration:
-    """Functions by type, of the script: what one script registers no other one finds."""
+    """Registered functions by type, private to each script."""
 
     def _put(self, what: str, key: Any, callback: Callable[..., Any]) -> None:
         self._all()[what, key] = callback
@@ -145,53 +145,53 @@ class _Registration:
 
 
 class TransformRegistration(_Registration):
-    """How things of a type are moved to another frame: ``callback(thing, transform)``; geometry and clouds."""
+    """Functions that transform objects of a type: ``callback(object, transform)``; for geometry and clouds."""
 
     def print_me(self) -> None:
-        """Print what was added."""
+        """Print the registered functions."""
         print({key: callback for (what, key), callback in self._all().items() if what == "transform"})
 
     def add(self, key: Any, callback: Callable[[Any, Any], Any]) -> None:
-        """Say how things of the type ``key`` are moved."""
+        """Register the function that transforms objects of the type ``key``."""
         self._put("transform", key, callback)
 
     def get(self, key: Any) -> Callable[[Any, Any], Any]:
-        """Return what moves things of the type ``key``. Raises ``TypeException``."""
+        """Return the function that transforms objects of the type ``key``. Raises ``TypeException``."""
         if ("transform", key) not in self._all() and getattr(key, "_type", None) in messages.MOVERS:
             return moved
         return self._find("transform", key)
 
 
 class ConvertRegistration(_Registration):
-    """How things of a type become messages, and come from messages, and become things of another type at once."""
+    """Functions that convert objects of a type to messages, from messages, and directly to another type."""
 
     def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Say how a message becomes a ``key``."""
+        """Register the conversion from a message to a ``key``."""
         self._put("from_msg", key, callback)
 
     def add_to_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Say how a ``key`` becomes a message."""
+        """Register the conversion from a ``key`` to a message."""
         self._put("to_msg", key, callback)
 
     def add_convert(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Say how one type becomes another; ``key`` is the pair of them."""
+        """Register a direct conversion; ``key`` is the pair of types."""
         self._put("convert", key, callback)
 
     def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Return what makes a ``key`` of a message. Raises ``TypeException``."""
+        """Return the function that converts a message to a ``key``. Raises ``TypeException``."""
         return self._find("from_msg", key)
 
     def get_to_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Return what makes a message of a ``key``. Raises ``TypeException``."""
+        """Return the function that converts a ``key`` to a message. Raises ``TypeException``."""
         return self._find("to_msg", key)
 
     def get_convert(self, key: Any) -> Callable[[Any], Any]:
-        """Return what makes the second type of the pair ``key`` of the first. Raises ``TypeException``."""
+        """Return the function that converts between the types of the pair ``key``. Raises ``TypeException``."""
         return self._find("convert", key)
 
 
 def convert(a: Any, b_type: Any) -> Any:
-    """Return ``a`` as a ``b_type``: as registered, a copy, or via a message. Raises ``TypeException``."""
+    """Return ``a`` as a ``b_type``: by registered conversion, as a copy, or via a message. Raises ``TypeException``."""
     registered = ConvertRegistration()
     try:
         return registered.get_convert((type(a), b_type))(a)

@@ -1,7 +1,7 @@
-"""``tf2_ros.buffer_server``: lets other nodes look transforms up in a buffer (http://wiki.ros.org/tf2_ros).
+"""``tf2_ros.buffer_server``: lets other nodes look up transforms in a buffer (http://wiki.ros.org/tf2_ros).
 
-The server of C++'s ``tf2_ros``, which has none in Python: an action server of ``tf2_msgs/LookupTransformAction``.
-Goals may wait for a transform; a lookup that fails succeeds as an action, and its result names the error.
+Equivalent to the server of C++'s ``tf2_ros``, since Python has none: it serves ``tf2_msgs/LookupTransformAction``.
+Goals may wait for a transform; for a failed lookup the action succeeds, and its result contains the error.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ ERRORS: dict[int, type[TransformException]] = {
     5: TimeoutException,
     6: TransformException,
 }
-"""What the numbers of ``tf2_msgs/TF2Error`` stand for."""
+"""Exceptions for the error codes of ``tf2_msgs/TF2Error``."""
 
 
 class BufferServer:
     """Answers lookups of other nodes from ``buffer``, at the action ``ns``.
 
-    A goal that cannot be answered yet is looked at every ``check_period``, until its time-out. Raises
+    A goal that cannot be answered yet is checked every ``check_period`` until its timeout. Raises
     ``ROSInitException`` before ``init_node``.
     """
 
@@ -58,7 +58,7 @@ class BufferServer:
             self.start()
 
     def start(self) -> None:
-        """Begin to answer."""
+        """Start answering."""
         self._server.start()
 
     def _take(self, handle: ServerGoalHandle) -> None:
@@ -82,7 +82,7 @@ class BufferServer:
             self._timer = None
 
     def _answered(self, handle: ServerGoalHandle, end: Time) -> bool:
-        """Answer a goal, if there is a transform or no time left to wait for one."""
+        """Answer a goal if its transform is available or its time is over; return True if answered."""
         result = handle.get_default_result()
         try:
             result.transform = self._lookup(handle.get_goal())

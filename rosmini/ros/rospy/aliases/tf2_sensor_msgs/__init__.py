@@ -1,4 +1,4 @@
-"""``tf2_sensor_msgs``, and its module of the same name: point clouds in another frame, by a given transform."""
+"""``tf2_sensor_msgs``, and its module of the same name: transforms point clouds with a given transform."""
 
 from __future__ import annotations
 
