@@ -93,7 +93,7 @@ class Plugged:
         """Import the tool. Raises the errors of its module."""
         found: Tool = self.entry_point.load()
         only = self.entry_point.name.removeprefix(f"{found.name}_")
-        return found.alone(only) if only in found.verbs and only != self.entry_point.name else found
+        return found.alone(only) if only in found.verbs else found
 
     def load(self) -> Command:
         """Import the subcommand."""
@@ -102,11 +102,7 @@ class Plugged:
     @property
     def summary(self) -> str:
         """Line for `rosmini --help`."""
-        tool = self.tool()
-        is_one = tool.name == self.entry_point.name and tool.only_verb and "_" in tool.name
-        return (
-            f"{tool.name.partition('_')[0]}: {tool.verbs[tool.only_verb].summary}" if is_one else tool.summary
-        )
+        return self.tool().summary
 
     @property
     def is_magic(self) -> bool:

@@ -24,9 +24,6 @@ class Deferral:
     total = 0
     """Work of all loops of this process [us]."""
 
-    at_once = False
-    """Whether loops are compiled on first use: a robot that drives in wall time does not wait for a compiler."""
-
     def __init__(self) -> None:
         self._done = 0
         self._due = False
@@ -39,7 +36,7 @@ class Deferral:
             self._done += work
             Deferral.total += work
             loaded = "numba" in sys.modules or Deferral.total > LOADING
-            self._due = Deferral.at_once or (self._done > COMPILING and loaded)
+            self._due = self._done > COMPILING and loaded
         return self._due
 
     def force(self) -> None:

@@ -276,7 +276,8 @@ class Tool:
 
     def alone(self, verb: str) -> Tool:
         """Return the tool that does one of the verbs only: ``rqt_graph`` for ``graph`` of ``rqt``."""
-        return replace(self, name=f"{self.name}_{verb}", only_verb=verb)
+        summary = f"{self.name}: {self.verbs[verb].summary}"
+        return replace(self, name=f"{self.name}_{verb}", summary=summary, only_verb=verb)
 
     def on(self, graph: Graph | None = None) -> Prompt:
         """Return what does verbs on ``graph`` in a notebook."""

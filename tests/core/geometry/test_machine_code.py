@@ -20,7 +20,6 @@ class Screen(io.StringIO):
 def start(monkeypatch):
     """A process that has done nothing yet."""
     monkeypatch.setattr(Deferral, "total", 0)
-    monkeypatch.setattr(Deferral, "at_once", False)
     monkeypatch.setitem(sys.modules, "numba", None)
     monkeypatch.delitem(sys.modules, "numba")
 
@@ -36,11 +35,6 @@ def test_a_loop_is_compiled_after_enough_work_of_its_own_and_of_all(start):
 def test_loops_share_the_cost_of_loading_numba(start, monkeypatch):
     monkeypatch.setitem(sys.modules, "numba", None)
     assert Deferral().due(COMPILING + 1)
-
-
-def test_a_loop_is_compiled_on_first_use_if_nothing_may_wait_later(start, monkeypatch):
-    monkeypatch.setattr(Deferral, "at_once", True)
-    assert Deferral().due(0)
 
 
 @pytest.mark.parametrize("terminal", [True, False])
