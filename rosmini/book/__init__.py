@@ -1,4 +1,4 @@
-"""What a chapter needs beside the library: exercises that check themselves."""
+"""The checks of the chapters' exercises."""
 
 from rosmini.book.checks import check
 

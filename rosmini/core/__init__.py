@@ -1,1 +1,1 @@
-"""The embedded pub/sub library: names, time, messages, the computation graph, tf, actions and parameters."""
+"""The pub/sub library: names, time, errors, packages, messages, parameters, the computation graph, tf, actionlib."""

@@ -1,1 +1,1 @@
-"""Support for scripts, files and tools of real ROS: rospy, the wire protocols, bags, launch files and catkin."""
+"""Scripts, files and tools of real ROS: rospy, script isolation, the wire protocols, bags, launch files, catkin."""

@@ -1,1 +1,1 @@
-"""The simulator: worlds, robots and their sensors, and the node that puts them on a graph."""
+"""The simulator: engine, worlds, robots and sensors; Stage, Gazebo, turtlesim and Logo on top of it."""

@@ -1,1 +1,1 @@
-"""The `rosmini` command."""
+"""The `rosmini` command and the commands of ROS, such as `rostopic` and `rosbag`."""

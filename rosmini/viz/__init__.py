@@ -1,4 +1,4 @@
-"""Pictures: one display funnel (`rosmini.viz.view`), one house style, robots and their worlds, and the tools of rqt.
+"""Pictures and views: RViz, rqt, replay, 3D scenes and live widgets.
 
 What draws with numpy and matplotlib is loaded when it is first asked for.
 """
