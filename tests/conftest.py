@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from _pytest.assertion import rewrite
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -42,9 +42,14 @@ TIDY = set(
 )
 """Folders whose tests are seen to leave nothing behind; the others have not been gone through yet."""
 
-# How long an example takes is the machine's affair.
-settings.register_profile("rosmini", deadline=None)
-settings.load_profile("rosmini")
+# How long an example takes depends on the machine. Each commit is judged by the same examples; at night they are new.
+AT_ANY_SPEED: Any = {
+    "deadline": None,
+    "suppress_health_check": [HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
+}
+settings.register_profile("commit", max_examples=25, derandomize=True, **AT_ANY_SPEED)
+settings.register_profile("nightly", max_examples=500, **AT_ANY_SPEED)
+settings.load_profile("commit")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -120,8 +125,20 @@ def starts_something(item: pytest.Function) -> bool:
     return not FIXTURES.isdisjoint(item.fixturenames)
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests that have to do with processes, signals or threads."""
+def left_for_nightly(config: pytest.Config, item: pytest.Item) -> bool:
+    """Whether a test is left for `.ci/nightly`: it is marked, and the command line names neither marker nor file."""
+    if "nightly" in config.getoption("markexpr") or item.get_closest_marker("nightly") is None:
+        return False
+    named = (config.invocation_params.dir / arg.partition("::")[0] for arg in config.args)
+    return item.path not in [path.resolve() for path in named]
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave tests for the night; mark those that have to do with processes, signals or threads."""
+    left = [item for item in items if left_for_nightly(config, item)]
+    if left:
+        config.hook.pytest_deselected(items=left)
+        items[:] = [item for item in items if item not in set(left)]
     known: dict[Any, bool] = {}
     for item in items:
         if isinstance(item, pytest.Function):

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core import errors
@@ -96,7 +96,6 @@ plain = st.recursive(
 
 
 @given(plain, st.integers(0, 200))
-@settings(deadline=None)
 def test_a_value_is_shown_as_its_repr_cut(value: Any, limit: int) -> None:
     whole = repr(value)
     assert shown(value, limit) == (whole if len(whole) <= limit else whole[: max(limit - 3, 0)] + "...")

@@ -23,12 +23,8 @@ from book.tools import notebooks, solutions
 
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
-DEAR = (
-    ()
-    if os.environ.get("ROSMINI_TEST_MACHINE") == "all"
-    else ("23_gazebo", "40_turtlebot3", "73_many_turtlebots")
-)
-"""Casting rays in numpy takes half a minute to two in each: on request only, since CI has half an hour for all."""
+EACH_COMMIT = {"11_nodes_and_master", "60_turtlesim_nodes"}
+"""The other chapters run at night. So does this module for a chapter that somebody names: `pytest FILE -k 36_amcl`."""
 
 IS_X86 = platform.machine().lower() in ("x86_64", "amd64")
 PLAIN_X86 = {
@@ -48,20 +44,23 @@ def test_there_are_chapters() -> None:
     assert CHAPTERS
 
 
-def plain_machine(chapter: str) -> dict[str, str]:
-    """The environment of a kernel on the plainest machine; where it would be dear, numba casts the rays.
-
-    What the machine sets itself stays as it is.
-    """
+def plain_machine() -> dict[str, str]:
+    """The environment of a kernel on the plainest machine. What the machine sets itself stays as it is."""
     from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 
     features = [name for name in __cpu_dispatch__ if __cpu_features__.get(name)]
-    rays = {} if chapter in DEAR else {"ROSMINI_RAYCAST": "numpy"}
     plain = {"NPY_DISABLE_CPU_FEATURES": " ".join(features), **(PLAIN_X86 if IS_X86 else {})}
-    return {"PYTHONHASHSEED": "2", **{name: plain[name] for name in plain if name not in os.environ}, **rays}
+    given = {name: plain[name] for name in plain if name not in os.environ}
+    return {"PYTHONHASHSEED": "2", "ROSMINI_RAYCAST": "numpy", **given}
 
 
-@pytest.fixture(scope="module", params=CHAPTERS, ids=lambda path: path.stem)
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(path, marks=[] if path.stem in EACH_COMMIT else pytest.mark.nightly, id=path.stem)
+        for path in CHAPTERS
+    ],
+)
 def chapter(request: pytest.FixtureRequest) -> tuple[Any, Any, Any]:
     """A chapter as stored, as it comes out, and its exercises with their solutions, which ran after it."""
     path: Path = request.param
@@ -69,7 +68,7 @@ def chapter(request: pytest.FixtureRequest) -> tuple[Any, Any, Any]:
     run, solved = copy.deepcopy(stored), solutions.solved(stored)
     run.cells += solved.cells[min(solutions.stubs(solved).values()) :]
     with pytest.MonkeyPatch.context() as patch:
-        for name, value in plain_machine(path.stem).items():
+        for name, value in plain_machine().items():
             patch.setenv(name, value)
         notebooks.execute(run, path.parent)
     notebooks.clean(run)

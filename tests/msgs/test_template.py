@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError, SerializationError
@@ -26,7 +26,6 @@ PATHS = ("header.stamp.secs", "header.stamp.nsecs", "orientation.z", "orientatio
 number = st.floats(allow_nan=False, width=64)
 
 
-@settings(max_examples=30, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.integers(0, 2**32 - 1), number, number, number)
 def test_what_is_made_is_what_freezing_the_same_message_gives(secs, nsecs, z, w, x):
     message = imu()

@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.dynamic_reconfigure import Description
@@ -237,7 +237,6 @@ FORMS = ("{}", "x = {}", "import {}", "from {} import *", "with {} as y: pass", 
          "class A({}): pass", "assert {}", "raise {}", "x = f'{{{}}}'", "{} if {} else 1")  # fmt: skip
 
 
-@settings(deadline=None)
 @given(st.lists(st.tuples(st.sampled_from(FORMS), HOSTILE), max_size=4), st.booleans())
 def test_nothing_is_ever_run(lines: list[tuple[str, str]], with_head: bool) -> None:
     with TemporaryDirectory() as folder:
@@ -252,7 +251,6 @@ def test_nothing_is_ever_run(lines: list[tuple[str, str]], with_head: bool) -> N
         assert not mark.exists()
 
 
-@settings(deadline=None)
 @given(
     st.one_of(
         st.binary(max_size=200),

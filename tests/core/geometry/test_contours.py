@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
@@ -67,7 +67,6 @@ def crosses(segments, a, b):
     return bool(((side(p, q, a) * side(p, q, b) <= 0) & (side(a, b, p) * side(a, b, q) <= 0)).any())
 
 
-@settings(max_examples=150, deadline=None)
 @given(images, tolerances)
 def test_centres_of_occupied_cells_are_inside_and_those_of_free_cells_outside(image, tolerance):
     loops = outlines(image, tolerance)
@@ -78,7 +77,6 @@ def test_centres_of_occupied_cells_are_inside_and_those_of_free_cells_outside(im
         assert sum(winding(centre, loop) for loop in loops) == image[row, column]
 
 
-@settings(max_examples=150, deadline=None)
 @given(images, tolerances)
 def test_an_outline_is_nowhere_half_a_cell_from_the_edges_nor_the_edges_half_a_diagonal_from_it(
     image, tolerance
@@ -91,7 +89,6 @@ def test_an_outline_is_nowhere_half_a_cell_from_the_edges_nor_the_edges_half_a_d
         assert distances(along(exact), traced).max() < (math.sqrt(0.5) if tolerance else 1e-9)
 
 
-@settings(max_examples=60, deadline=None)
 @given(images, tolerances)
 def test_an_outline_keeps_its_distance_from_the_centres_of_cells(image, tolerance):
     traced = sides(outlines(image, tolerance))
@@ -100,7 +97,6 @@ def test_an_outline_keeps_its_distance_from_the_centres_of_cells(image, toleranc
         assert distances(np.stack([columns, rows], axis=1) + 0.5, traced).min() >= 0.5 - tolerance - 1e-9
 
 
-@settings(max_examples=100, deadline=None)
 @given(images, tolerances)
 def test_no_ray_slips_between_cells_that_touch_at_a_corner(image, tolerance):
     traced = sides(outlines(image, tolerance))
@@ -113,7 +109,6 @@ def test_no_ray_slips_between_cells_that_touch_at_a_corner(image, tolerance):
         assert crosses(traced, np.array([column + 0.5, row + 0.5]), np.array([column + 1.5, row + 1.5]))
 
 
-@settings(max_examples=100, deadline=None)
 @given(images)
 def test_edges_of_cells_are_walked_once_each_with_the_cell_on_the_left(image):
     walked = []
@@ -133,7 +128,6 @@ def test_edges_of_cells_are_walked_once_each_with_the_cell_on_the_left(image):
         assert padded[int(left[1]) + 1, int(left[0]) + 1]
 
 
-@settings(max_examples=60, deadline=None)
 @given(images, tolerances)
 def test_the_sides_close_to_the_bit_and_are_never_more_than_the_corners_of_the_cells(image, tolerance):
     segments = trace(image, 0.05, (1.7, -0.3, 0.4), tolerance * 0.05)

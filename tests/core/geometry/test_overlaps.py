@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry import overlaps, polygons
@@ -27,7 +27,6 @@ def overlaps_disc(outline: np.ndarray, x: float, y: float, radius: float) -> boo
     return bool(there.find(Outline(outline)))
 
 
-@settings(max_examples=60, deadline=None)
 @given(stars, stars)
 def test_polygons_overlap_if_they_have_a_point_in_common(a, b):
     grid = np.stack(np.meshgrid(np.linspace(-2.5, 2.5, 101), np.linspace(-2.5, 2.5, 101)), -1).reshape(-1, 2)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.geometry import polygons
@@ -65,7 +65,6 @@ def test_crossing_sides_are_found(corners, expected):
     assert polygons.crossing_sides(np.array(corners, dtype=float)) == expected
 
 
-@settings(max_examples=60, deadline=None)
 @given(stars)
 def test_a_star_does_not_cross_itself(outline):
     assert polygons.crossing_sides(outline) is None

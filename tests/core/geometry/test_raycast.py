@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError
@@ -179,7 +179,6 @@ def test_no_ray_slips_between_walls_that_share_a_corner(name):
 
 
 @both
-@settings(deadline=None)
 @given(start=st.floats(-1e4, 1e4), x=st.floats(-1.9, 2.9), y=st.floats(-0.9, 3.9))
 def test_a_closed_room_is_closed_wherever_the_first_ray_looks(name, start, x, y):
     assert np.isfinite(look(ROOM, x=x, y=y, start=start, step=TURN / 97, count=97, backend=name)).all()
@@ -270,7 +269,6 @@ fans = st.fixed_dictionaries(
 
 
 @both
-@settings(deadline=None, max_examples=300)
 @given(walls, pillars, fans)
 def test_culling_changes_nothing(name, segments, discs, fan):
     seen = look(segments, discs, **fan, backend=name)
@@ -282,14 +280,12 @@ def test_culling_changes_nothing(name, segments, discs, fan):
 
 
 @pytest.mark.skipif(not HAS_NUMBA, reason="numba is not installed")
-@settings(deadline=None, max_examples=500)
 @given(walls, pillars, fans)
 def test_the_backends_agree_to_the_last_bit_even_where_a_hair_decides(segments, discs, fan):
     found = [look(segments, discs, **fan, backend=name).tobytes() for name in BACKENDS]
     assert found[0] == found[1]
 
 
-@settings(deadline=None, max_examples=100)
 @given(walls, pillars, fans)
 def test_the_loops_agree_before_they_are_compiled(segments, discs, fan):
     step = abs(math.remainder(fan["step"], TURN))
@@ -498,7 +494,6 @@ def sweeps(draw):
 
 
 @both
-@settings(deadline=None, max_examples=150)
 @given(sweep=sweeps())
 def test_each_ray_sees_what_it_would_see_alone(name, sweep):
     walls, pillars, origins, angles, rays = sweep

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.geometry import polygons
@@ -61,7 +61,6 @@ def turned(outline, angle):
     st.lists(st.tuples(squares, st.integers(0, 300).map(lambda v: v / 100)), min_size=1, max_size=3),
     st.integers(0, 2**32 - 1),
 )
-@settings(deadline=None)
 def test_pieces_cover_what_is_inside_by_the_even_odd_rule(drawn, seed):
     outlines = [turned(square, angle) for square, angle in drawn]
     found = pieces(outlines)

@@ -45,6 +45,9 @@ KINDS: dict[str, tuple[Any, bool]] = {
 if sys.platform == "linux":  # whose /proc tells settle() what is under way on a real wire
     KINDS["tcp-wall"] = (tcp(), False)
 
+EACH_COMMIT = {"local-simulated", "bytes-wall"}
+"""Both transports and both clocks; the other pairs run at night."""
+
 
 def until(graph: Graph, condition: Callable[[], object]) -> None:
     """Drive the graph until the condition holds; fail if it never does."""
@@ -85,7 +88,12 @@ def close(graph: Graph) -> None:
     assert graph.master.getSystemState("/test")[2] == [[], [], []]
 
 
-@pytest.fixture(params=KINDS)
+@pytest.fixture(
+    params=[
+        pytest.param(kind, marks=[] if kind in EACH_COMMIT else pytest.mark.nightly, id=kind)
+        for kind in KINDS
+    ]
+)
 def build(request: pytest.FixtureRequest) -> Iterator[Callable[..., Graph]]:
     """Make graphs on the transport and clock of this turn; the options are those of Graph."""
     made: list[Graph] = []

@@ -1,9 +1,8 @@
 """For makers: the graph's tests on the restless Master with one seed after another.
 
 ``python -m tests.core.graph.restless_seeds 1-1000 [FILE]`` collects the tests once and runs them in a child for each
-seed,
-which costs the seconds of the tests alone. It prints a line for each seed, also to the end of FILE: the seed, how many
-failed, and which. Seeds that FILE has already are left out.
+seed. It prints a line for each seed, and appends it to FILE: the seed, how many tests failed, and which. Seeds that
+FILE has already are left out. Its status is not 0 if a test failed.
 """
 
 from __future__ import annotations
@@ -48,7 +47,8 @@ class Seeds:
                 conftest.SEED = seed
                 self._is_child = True
                 return None
-            os.waitpid(child, 0)
+            _, status = os.waitpid(child, 0)
+            session.testsfailed += status != 0
         return True
 
     @pytest.hookimpl(tryfirst=True)
@@ -62,7 +62,7 @@ class Seeds:
                 else [1, os.open(self._rows, os.O_WRONLY | os.O_APPEND | os.O_CREAT)]
             ):
                 os.write(fd, row.encode())
-            os._exit(0)
+            os._exit(bool(self._failed))
 
 
 def main(span: str, rows: str | None = None, *options: Any) -> None:
@@ -71,7 +71,19 @@ def main(span: str, rows: str | None = None, *options: Any) -> None:
     seeds = Seeds(range(int(first), int(last or first) + 1), None if rows is None else Path(rows))
     sys.exit(
         pytest.main(
-            ["-n0", "-q", "-p", "no:cacheprovider", "-k", conftest.RESTLESS, str(HERE), *options], [seeds]
+            [
+                "-n0",
+                "-q",
+                "-p",
+                "no:cacheprovider",
+                "-m",
+                "nightly",
+                "-k",
+                conftest.RESTLESS,
+                str(HERE),
+                *options,
+            ],
+            [seeds],
         )
     )
 

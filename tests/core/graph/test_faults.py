@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini import Graph
@@ -162,7 +162,6 @@ def test_connections_that_come_later_have_it_too(graph):
     assert late == []
 
 
-@settings(deadline=None, max_examples=25)
 @given(
     lose=st.floats(0, 1),
     double=st.floats(0, 1),

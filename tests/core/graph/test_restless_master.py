@@ -86,7 +86,9 @@ def play(seed: int) -> tuple[list[str], int]:
     return crossing.answers, master.lost
 
 
-@pytest.mark.parametrize("chunk", range(CHUNKS))
+@pytest.mark.parametrize(
+    "chunk", [0, *(pytest.param(chunk, marks=pytest.mark.nightly) for chunk in range(1, CHUNKS))]
+)
 def test_nodes_find_each_other_and_crossing_calls_end(chunk: int, capsys: pytest.CaptureFixture[str]) -> None:
     lost = 0
     for seed in range(chunk, SEEDS, CHUNKS):

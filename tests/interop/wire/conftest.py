@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 import pytest
@@ -18,11 +17,8 @@ if TYPE_CHECKING:
 
 BOTH = ["ours", "real"]
 MASTERS = {"test_graph": BOTH, "test_our_tools": ["real"]}
-"""Under whose Masters a module's tests run each time: ours, where none is named. Whoever dies, stops or is driven there
-is of both kinds; ROS's tools are tried at our Master, and ours at the real one."""
-
-IS_ALL = os.environ.get("ROSMINI_TEST_WIRE") == "1"
-"""Whether all of them run under both Masters, which takes twice as long."""
+"""Under whose Masters a module's tests run with each commit: ours by default. At night all run under both. Nodes of
+both kinds take part; ROS's tools run against our Master, and ours against the real one."""
 
 PROGRAMS = ["roscore", "rosnode", "rostopic", "rosservice", "rosparam", "rosbag", "roslaunch"]
 
@@ -30,8 +26,11 @@ PROGRAMS = ["roscore", "rosnode", "rostopic", "rosservice", "rosparam", "rosbag"
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Choose the Masters under which a module's tests run."""
     name = metafunc.module.__name__.rpartition(".")[2]
+    each_commit = MASTERS.get(name, ["ours"])
+    masters = [
+        pytest.param(master, marks=[] if master in each_commit else pytest.mark.nightly) for master in BOTH
+    ]
     for fixture in {"core", "site"} & set(metafunc.fixturenames):
-        masters = BOTH if IS_ALL else MASTERS.get(name, ["ours"])
         metafunc.parametrize(fixture, masters, indirect=True, scope="module")
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.navigation.amcl.distances import clearances, distances, march
@@ -63,7 +63,6 @@ def test_beams_along_the_borders_of_cells_end(turn):
     assert found == pytest.approx(0.95 * (math.sqrt(2) if turn == math.pi / 4 else 1.0), abs=5e-5)
 
 
-@settings(max_examples=25)
 @given(masks(), st.integers(0, 2**32 - 1), st.sampled_from([3.0, 15.0]))
 def test_beams_end_at_the_first_blocked_cell(blocked, seed, limit):
     """As looking every hundredth of a cell finds it; but a corner may be cut by a hair, or not."""

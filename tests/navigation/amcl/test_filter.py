@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError
@@ -145,7 +145,6 @@ def test_a_cluster_goes_on_where_the_heading_wraps_around():
     assert only.covariance[2, 2] == pytest.approx(0.04, rel=0.5)
 
 
-@settings(max_examples=50)
 @given(st.integers(0, 2**32 - 1), st.integers(1, 120), st.floats(0.5, 8.0))
 def test_clusters_are_cells_that_touch(seed, count, size):
     rng = np.random.default_rng(seed)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rosmini.navigation.global_planner import GlobalAStar, GlobalDijkstra
@@ -34,7 +34,6 @@ def test_a_star_does_not_take_high_costs_for_low_ones():
 
 
 @given(grids(), between, between)
-@settings(deadline=None)
 def test_without_interpolation_potentials_are_those_of_scipy(grid, dx, dy):
     costs, start, goal = grid
     search = GlobalDijkstra(costs, start, goal, quadratic=False, precise=False, outline=False, full=True)
@@ -61,7 +60,6 @@ def test_without_interpolation_potentials_are_those_of_scipy(grid, dx, dy):
 
 
 @given(grids())
-@settings(deadline=None)
 def test_potentials_are_at_most_3_5_percent_above_the_fixed_point(grid):
     costs, start, goal = grid
     search = GlobalDijkstra(costs, start, goal, precise=False, outline=False, full=True)
@@ -82,7 +80,6 @@ def shut_in():
 
 @given(grids(), *[st.booleans()] * 4, between, between)
 @example(shut_in(), False, False, False, True, 0.25, 0.25)
-@settings(deadline=None, max_examples=200)
 def test_a_path_begins_and_ends_where_it_should_and_crosses_nothing(
     grid, a_star, quadratic, grid_path, precise, dx, dy
 ):
@@ -103,7 +100,6 @@ def test_a_path_begins_and_ends_where_it_should_and_crosses_nothing(
 
 
 @given(grids())
-@settings(deadline=None)
 def test_a_star_is_never_cheaper_than_the_optimum(grid):
     costs, start, goal = grid
     search = GlobalAStar(costs, start, goal, quadratic=False, precise=False, outline=False)
@@ -114,7 +110,6 @@ def test_a_star_is_never_cheaper_than_the_optimum(grid):
 
 
 @given(grids(), st.integers(1, 40))
-@settings(deadline=None)
 def test_a_star_in_steps_is_the_same_search(grid, count):
     costs, start, goal = grid
     whole, steps = GlobalAStar(costs, start, goal), GlobalAStar(costs, start, goal)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.navigation.gmapping.maps import NONE, PATCH_BYTES, SIDE, Scan, SharedMaps, register
@@ -60,7 +60,6 @@ def test_a_cell_has_the_mean_of_the_ends_in_it():
     assert patch >= 0
 
 
-@settings(max_examples=30, deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_every_beam_ends_where_it_points(seed):
     """The end of each beam is full, its start is free, and machine code does as Python does."""

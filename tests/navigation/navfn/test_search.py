@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.navigation.nav_core import GoalBlocked, NoPath, OutsideMap, PlanningFailure, StartBlocked
@@ -21,7 +21,6 @@ def test_costs_are_translated_as_in_navfn():
 
 
 @given(grids())
-@settings(deadline=None)
 def test_without_interpolation_potentials_are_those_of_scipy(grid):
     costs, start, goal = grid
     table = navfn_table(allow_unknown=True)
@@ -31,7 +30,6 @@ def test_without_interpolation_potentials_are_those_of_scipy(grid):
 
 
 @given(grids())
-@settings(deadline=None)
 def test_potentials_are_at_most_3_5_percent_above_the_fixed_point(grid):
     costs, start, goal = grid
     search = NavfnSearch(costs, start, goal, full=True, outline=False)
@@ -44,7 +42,6 @@ def test_potentials_are_at_most_3_5_percent_above_the_fixed_point(grid):
 
 
 @given(grids(), st.booleans(), st.booleans())
-@settings(deadline=None)
 def test_a_path_begins_and_ends_where_it_should_and_crosses_nothing(grid, a_star, allow_unknown):
     costs, start, goal = grid
     search = NavfnSearch(costs, start, goal, a_star=a_star, allow_unknown=allow_unknown, outline=False)
@@ -61,7 +58,6 @@ def test_a_path_begins_and_ends_where_it_should_and_crosses_nothing(grid, a_star
 
 
 @given(grids(), st.integers(1, 40), st.booleans())
-@settings(deadline=None)
 def test_a_search_in_steps_is_the_same_search(grid, count, a_star):
     costs, start, goal = grid
     whole = NavfnSearch(costs, start, goal, a_star=a_star)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.time import Time
@@ -115,7 +115,6 @@ recorded = st.lists(
 
 
 @given(recorded, st.sampled_from(["none", "bz2", "lz4"]), st.integers(0, 400))
-@settings(max_examples=60, deadline=None)
 def test_what_is_written_is_read_in_the_order_of_time(messages, compression, threshold):
     file = io.BytesIO()
     with Bag(file, "w", compression, threshold) as bag:

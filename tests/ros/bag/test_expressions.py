@@ -7,7 +7,7 @@ from types import GeneratorType
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.expressions import Function, Namespace
@@ -171,7 +171,6 @@ wholes = st.recursive(
 
 
 @given(wholes | st.text(max_size=40))
-@settings(deadline=None, derandomize=True, max_examples=400)
 def test_any_expression_has_a_plain_value_or_is_refused(text: str) -> None:
     try:
         found = value(text)

@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.ros.catkin import CatkinError, Workspace
@@ -413,7 +413,6 @@ DAMAGE = st.lists(
 )
 
 
-@settings(max_examples=40, deadline=None)
 @given(DAMAGE)
 def test_damaged_packages_are_built_or_told_and_nothing_is_written_elsewhere(
     damage: list[tuple[str, float, int, bytes]],

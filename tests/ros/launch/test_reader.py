@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.packages import PackageIndex
@@ -259,7 +259,6 @@ def test_what_was_included_wants_its_arguments_to_be_used(tmp_path: Path) -> Non
 SOURCES = [path.read_text(encoding="utf-8") for path in sorted(SHAPES.glob("*.launch"))]
 
 
-@settings(deadline=None, max_examples=300)
 @given(source=st.sampled_from(SOURCES), data=st.data())
 def test_a_damaged_file_is_read_or_refused_at_its_place(source: str, data: st.DataObject) -> None:
     start = data.draw(st.integers(0, len(source)))
@@ -354,7 +353,6 @@ def elements(draw: st.DrawFn, depth: int = 0) -> str:
     return f"<{tag}{written}>{inside}{draw(st.sampled_from(['', 'a: 1', '[', '1']))}</{tag}>\n"
 
 
-@settings(deadline=None, max_examples=200)
 @given(st.lists(elements(), max_size=6))
 def test_any_tags_with_any_attributes_are_read_or_refused(parts: list[str]) -> None:
     text = f"<launch>\n{''.join(parts)}</launch>"

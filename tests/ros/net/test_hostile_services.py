@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import ServiceException
@@ -131,7 +131,6 @@ def _readable(raw: socket.socket) -> bool:
         return False
 
 
-@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.binary(max_size=60), st.booleans())
 def test_fuzz_of_requests(graph: Graph, data: bytes, framed: bool) -> None:
     node = graph.nodes.get("/talker") or graph.node("talker")

@@ -9,7 +9,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import DeserializationError
@@ -113,7 +113,6 @@ def test_what_another_protocol_says_is_told_by_its_name(
     assert name in said
 
 
-@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.binary(max_size=300), st.booleans())
 def test_fuzz_at_the_port_of_a_node(graph: Graph, data: bytes, framed: bool) -> None:
     if "/talker" not in graph.nodes:
@@ -122,7 +121,6 @@ def test_fuzz_at_the_port_of_a_node(graph: Graph, data: bytes, framed: bool) -> 
     assert not answer or "error" in decode_header(answer)
 
 
-@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.dictionaries(
         st.sampled_from(

@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import TransportException
@@ -194,10 +194,8 @@ VALUES = st.recursive(
     ),
     max_leaves=6,
 )
-FUZZ = settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
-@FUZZ
 @given(st.sampled_from(sorted(SLAVE_METHODS - {"shutdown"})), st.lists(VALUES, max_size=4))
 def test_fuzz_of_the_slave_api(graph: Graph, method: str, arguments: list[Any]) -> None:
     """A triple or a fault is answered, and what was posted to the hub does no harm."""
@@ -208,7 +206,6 @@ def test_fuzz_of_the_slave_api(graph: Graph, method: str, arguments: list[Any]) 
     graph.run(0)
 
 
-@FUZZ
 @given(
     st.sampled_from(sorted(MASTER_METHODS - {"shutdown"}) + ["system.multicall"]),
     st.lists(VALUES, max_size=4),

@@ -60,7 +60,7 @@ def picture(engine: Engine) -> tuple:
     return (engine.now, robots, [(o.name, o.pose) for o in engine.obstacles()], scans)
 
 
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=4)
 @given(st.floats(0.0, 4.0), st.integers(0, 1000))
 def test_the_same_happens_from_a_state_on(seconds, seed):
     engine = make()

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from rosmini.sim.engine import kernels, outlines
@@ -66,7 +66,6 @@ def placed(shape, pose: tuple[float, float, float]) -> tuple[np.ndarray, float]:
 # -- two outlines ----------------------------------------------------------------------------------------------------
 
 
-@settings(max_examples=300, deadline=None)
 @given(st.sampled_from(KINDS), places, places, headings, headings)
 def test_two_outlines_overlap_where_and_as_deep_as_pymunk_says(kind, x, y, theta, other_theta):
     own, burger = shape_of("burger")
@@ -97,7 +96,6 @@ def test_two_outlines_overlap_where_and_as_deep_as_pymunk_says(kind, x, y, theta
             assert one == pytest.approx(other, abs=1e-5)
 
 
-@settings(max_examples=200, deadline=None)
 @given(st.sampled_from(KINDS), places, places, headings, headings)
 def test_two_outlines_are_as_far_apart_as_pymunk_says(kind, x, y, theta, other_theta):
     body, shape = shape_of(kind)

@@ -61,7 +61,7 @@ def deepest(engine: Engine) -> float:
     return worst
 
 
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5)
 @given(st.integers(0, 10_000))
 def test_robots_never_go_through_one_another_nor_through_walls(seed):
     rng = np.random.default_rng(seed)

@@ -6,7 +6,7 @@ import contextlib
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.sim.logo import Limits, Logo, LogoError, LogoStopped
@@ -264,7 +264,6 @@ SYMBOLS = ["to", "end", "f", ":x", '"a', "1", "2.5", "-3", *"[]()+-*/=<\n"]
 WORDS = st.sampled_from([*PRIMITIVES, *SYMBOLS])
 
 
-@settings(deadline=None, max_examples=200)
 @given(st.one_of(st.text(max_size=200), st.lists(WORDS, max_size=40).map(" ".join)))
 def test_any_text_raises_only_logo_errors(program):
     with contextlib.suppress(LogoError):
@@ -280,7 +279,6 @@ def operations(children):
     ) | st.tuples(children, st.sampled_from([" + ", " - ", "*", "/"]), children).map("".join)
 
 
-@settings(deadline=None, max_examples=200)
 @given(
     st.recursive(
         NUMBERS.map(lambda value: f"{value:.6f}" if isinstance(value, float) else str(value)),

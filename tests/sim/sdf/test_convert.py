@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assets.generate.worlds.sdf_writer import to_sdf
@@ -65,7 +65,6 @@ def test_poses_of_model_link_and_collision_add_up():
 
 
 @given(st.floats(-1.2, 1.2), st.floats(-1.2, 1.2), st.floats(-3, 3))
-@settings(max_examples=40, deadline=None)
 def test_what_stands_aslant_is_its_shadow(roll, pitch, yaw):
     (box,) = obstacles(model(geometry(BOX), pose=f"0 0 5 {roll} {pitch} {yaw}"))
     # The extent along any direction of a box is the sum of what its sides have of it.
@@ -325,7 +324,6 @@ def things(draw):
 
 
 @given(things(), st.lists(planar, min_size=1, max_size=3))
-@settings(max_examples=60, deadline=None)
 def test_a_world_that_is_written_is_read_as_it_was(found, starts):
     before = World("w", found, starts=tuple(starts))
     after = to_world(load(to_sdf(before)).worlds[0])

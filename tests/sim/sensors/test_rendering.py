@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.geometry.poses import compose
@@ -54,7 +54,6 @@ def test_camera_info_has_the_numbers_that_gazebo_ros_writes():
     assert camera_info(CAMERA, baseline=0.07).P[3] == pytest.approx(-0.07 * CAMERA.focal_length)
 
 
-@settings(max_examples=30, deadline=None)
 @given(
     x=st.floats(-3, 3),
     y=st.floats(-3, 3),
@@ -109,7 +108,6 @@ def test_the_corners_of_a_box_are_within_half_a_pixel_of_where_they_are_drawn(po
 # ---- depth ----
 
 
-@settings(max_examples=25, deadline=None)
 @given(x=st.floats(-0.4, 0.4), y=st.floats(-0.4, 0.4), theta=st.floats(-math.pi, math.pi))
 def test_depth_is_what_rays_measure(x, y, theta):
     room = world("room")

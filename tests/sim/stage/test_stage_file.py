@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
@@ -101,13 +101,11 @@ def in_lists(entity):
 
 
 @given(ENTITIES, GAPS)
-@settings(max_examples=60, deadline=None)
 def test_what_is_written_is_read(entity, gap: str):
     assert [as_data(each) for each in parsed(as_text(entity, gap)).root.children] == [in_lists(entity)]
 
 
 @given(st.text('ab1.-"#[]() \n', max_size=40))
-@settings(max_examples=200, deadline=None)
 def test_whatever_is_written_is_read_or_refused_with_its_line(text: str):
     with contextlib.suppress(StageError):
         parsed(text)
@@ -248,7 +246,6 @@ def test_units(world):
     st.floats(-1, 1),
     st.floats(-180, 180),
 )
-@settings(max_examples=30, deadline=None)
 def test_a_body_is_about_its_origin_seen_from_its_pose(tmp_path_factory, x, y, a, ox, oy, oa):
     path = tmp_path_factory.mktemp("stage") / "a.world"
     path.write_text(

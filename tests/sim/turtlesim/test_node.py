@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini import Graph, rosrun
@@ -248,7 +248,6 @@ def test_a_killed_turtle_leaves_nothing_but_its_drawing(sim: TurtleSim) -> None:
 numbers = st.floats(width=32)
 
 
-@settings(max_examples=25, deadline=None)
 @given(
     x=numbers, y=numbers, theta=numbers, kind=st.sampled_from(["spawn", "absolute", "relative", "command"])
 )
@@ -293,7 +292,6 @@ def test_two_names_of_one_namespace_are_one_too_many(sim: TurtleSim) -> None:
     assert list(sim.turtles) == ["turtle1"]
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(name=st.text("a/~_1é .", max_size=5) | st.text(max_size=5))
 def test_whatever_name_is_asked_for_the_simulation_goes_on(sim: TurtleSim, name: str) -> None:
     before = list(sim.turtles)

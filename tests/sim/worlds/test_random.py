@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assets.generate.worlds.sdf_writer import to_sdf
@@ -52,7 +52,6 @@ def regions(free):
     st.integers(0, 15),
     st.integers(0, 2),
 )
-@settings(max_examples=25, deadline=None)
 def test_a_robot_gets_from_every_start_to_everywhere(seed, size, rooms, obstacles, walkers):
     size = (round(size[0], 2), round(size[1], 2))
     world = random_world(

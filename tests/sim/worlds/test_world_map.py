@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assets.generate.worlds.map_file import write_map
@@ -30,7 +30,6 @@ obstacles = st.lists(st.tuples(shapes, st.tuples(places, places, st.floats(-3, 3
     st.lists(st.tuples(places, places, places, places), max_size=2),
     st.sampled_from([0.1, 0.17, 0.25]),
 )
-@settings(max_examples=30, deadline=None)
 def test_a_cell_is_occupied_if_the_world_says_so_of_a_square_as_large(things, walls, resolution):
     walls = [wall for wall in walls if math.dist(wall[:2], wall[2:]) > 1e-3]
     world = World("w", tuple(Obstacle(f"{i}", shape, pose) for i, (shape, pose) in enumerate(things)), walls)

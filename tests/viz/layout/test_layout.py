@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.viz.layout import Edge, Layout, Vertex, layered
@@ -58,13 +58,11 @@ def assert_nothing_overlaps(layout: Layout) -> None:
             assert not box.overlaps(another, 0.01), f"{name} overlaps {other}"
 
 
-@settings(max_examples=40, deadline=None)
 @given(graphs(), st.sampled_from(["right", "down"]))
 def test_neither_vertices_nor_labels_overlap(graph, direction):
     assert_nothing_overlaps(layered(*graph, direction=direction))
 
 
-@settings(max_examples=40, deadline=None)
 @given(graphs())
 def test_no_edge_runs_over_a_strange_vertex_or_label(graph):
     vertices, edges = graph
@@ -81,7 +79,6 @@ def test_no_edge_runs_over_a_strange_vertex_or_label(graph):
                 )
 
 
-@settings(max_examples=40, deadline=None)
 @given(graphs())
 def test_edges_lead_from_border_to_border_along_the_layers(graph):
     vertices, edges = graph
@@ -98,7 +95,6 @@ def test_edges_lead_from_border_to_border_along_the_layers(graph):
             assert (x0 < x1) == rises
 
 
-@settings(max_examples=40, deadline=None)
 @given(graphs())
 def test_groups_hold_their_members_and_nothing_else(graph):
     vertices, edges = graph
@@ -120,7 +116,6 @@ def test_groups_hold_their_members_and_nothing_else(graph):
                 assert not box.overlaps(another, 0.01)
 
 
-@settings(max_examples=60, deadline=None)
 @given(graphs(), st.randoms(use_true_random=False))
 def test_the_order_of_the_input_does_not_matter(graph, random):
     vertices, edges = graph
@@ -130,7 +125,6 @@ def test_the_order_of_the_input_does_not_matter(graph, random):
     assert layered(vertices, edges) == before
 
 
-@settings(max_examples=40, deadline=None)
 @given(graphs(), st.sampled_from(["right", "down"]))
 def test_everything_is_within_the_page(graph, direction):
     layout = layered(*graph, direction=direction)
@@ -171,7 +165,6 @@ def has_cycle(arcs) -> bool:
         arcs = fewer
 
 
-@settings(max_examples=60, deadline=None)
 @given(
     st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5)).filter(lambda a: a[0] != a[1]), max_size=5),
     st.tuples(*(st.integers(0, i) for i in range(5))),

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 pytest.importorskip("meshcat")
@@ -173,7 +173,6 @@ def test_a_large_floor_is_painted_before_what_stands_on_its_far_end():
     assert painted(floor, thing).order == [0, 1]
 
 
-@settings(max_examples=40)
 @given(
     st.lists(
         st.tuples(*[st.integers(1, 39)] * 2, st.integers(2, 25), st.floats(1, 9)), min_size=1, max_size=8

@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -39,7 +39,6 @@ def decoded(data) -> list[np.ndarray]:
     return maps
 
 
-@settings(max_examples=60)
 @given(st.data())
 def test_every_map_comes_back_wherever_it_lies(data):
     grids = []

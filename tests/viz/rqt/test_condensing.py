@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.viz import rqt_graph
@@ -79,7 +79,6 @@ TOPICS = [*(f"/t{i}" for i in range(6)), "/a1", "/x/b2"]  # a node and a topic m
 ENDS = st.dictionaries(st.sampled_from(TOPICS), st.sets(NAMES, max_size=6), max_size=8)
 
 
-@settings(max_examples=80)
 @given(ENDS, ENDS, st.sampled_from(MODES), st.integers(1, 40))
 def test_nothing_is_lost_and_nothing_invented(publishers, subscribers, mode, limit):
     state = graph_state(

@@ -6,7 +6,7 @@ import re
 import xml.etree.ElementTree as ET
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError
@@ -353,7 +353,6 @@ hostile = st.text(min_size=1, max_size=12).map(lambda text: "/" + text.replace("
 triples = st.lists(st.tuples(hostile, hostile, hostile), max_size=8)
 
 
-@settings(max_examples=60, deadline=None)
 @given(triples, st.sampled_from(["nodes_only", "nodes_topics_all", "nodes_topics_active"]))
 def test_every_name_is_in_the_text_and_in_well_formed_svg_whatever_it_is(flows, mode):
     publishers: dict[str, set[str]] = {}
@@ -372,7 +371,6 @@ def test_every_name_is_in_the_text_and_in_well_formed_svg_whatever_it_is(flows, 
                    == cleaned.replace("\N{REPLACEMENT CHARACTER}", "") for text in shown)  # fmt: skip
 
 
-@settings(max_examples=30, deadline=None)
 @given(triples, st.randoms(use_true_random=False))
 def test_the_order_of_registration_does_not_change_a_byte(flows, random):
     def picture():

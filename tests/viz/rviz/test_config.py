@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.viz.rviz import Config, ConfigError
@@ -129,7 +129,6 @@ JUNK = st.recursive(
 )  # fmt: skip
 
 
-@settings(max_examples=25, deadline=None)
 @given(
     displays=st.lists(JUNK, max_size=4),
     rest=st.dictionaries(st.sampled_from(["Global Options", "Tools", "Views"]), JUNK),

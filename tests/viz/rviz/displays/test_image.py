@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.msgs import message_class
@@ -106,7 +106,6 @@ def test_a_large_image_is_thinned_and_light_in_a_page(seen):
     assert len(still(seen.scene).svg) < 150_000
 
 
-@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
 @given(
     st.binary(max_size=64),
     st.sampled_from([*COLOURS, *GREYS, *RANGES, "", "x"]),

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.time import Duration
@@ -287,7 +287,6 @@ def test_many_loose_triangles_are_thinned_flat_and_solid(shown):
 numbers = st.one_of(st.floats(width=32), st.sampled_from([0.0, 1.0, -1.0, 0.5]))
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
 @given(
     st.integers(-1, 12),
     st.lists(numbers, min_size=3, max_size=3),
