@@ -175,7 +175,7 @@ class Stageros(Simulation):
             try:
                 self.engine.add(name, model, robot.pose)
             except RosminiError as error:
-                raise StageError(robot.place, str(error)) from error
+                raise StageError(robot.place, str(error), "a robot cannot start there") from error
             found.append((robot, name, names))
         for robot, name, names in found:
             try:

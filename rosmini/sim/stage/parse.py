@@ -32,9 +32,6 @@ DEEPEST = 100
 
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
-WORLD_FILES = (".inc", ".world")
-"""How the names of files end whose words are quoted in errors; another file may be anything that has been included."""
-
 MOST = 100_000
 """The largest number of entities of a world."""
 
@@ -84,13 +81,7 @@ class Parsed:
 
 def parse_file(path: Path) -> Parsed:
     """The entities of a world file and all that it includes. Raises `StageError`."""
-    try:
-        return parse(read(path), path)
-    except StageError as error:
-        where = error.place.path
-        if where == path or where.suffix in WORLD_FILES:
-            raise
-        raise StageError(error.place, "this is no world file") from None
+    return parse(read(path), path)
 
 
 def parse(words: Iterable[Token], path: Path) -> Parsed:
@@ -254,4 +245,4 @@ def unknown_kind(entity: Entity, known: Iterable[str], macros: Iterable[str]) ->
     """The error of an entity of which nothing is known."""
     hint = nearest(entity.kind, [*known, *macros])
     what = f"there is no model {entity.kind!r} in Stage, and none is defined before it is used"
-    return StageError(entity.place, f"{what}{'; ' + hint if hint else ''}")
+    return StageError(entity.place, f"{what}{'; ' + hint if hint else ''}", "Stage has no such model")

@@ -250,9 +250,8 @@ def _checked(laser: StageLaser, reader: Reader, units: Units) -> list[StageLaser
         units.note(laser.place, what, left_out="a ranger that measures nothing")
         return []
     if laser.samples > MOST_BEAMS:
-        raise StageError(
-            reader.place("samples"), f"samples is {laser.samples}; a ranger has {MOST_BEAMS} at the most"
-        )
+        most = f"a ranger has {MOST_BEAMS} samples at most"
+        raise StageError(reader.place("samples"), f"samples is {laser.samples}; {most}", most)
     if not 0 <= laser.range_min < laser.range_max:
         span = f"from {laser.range_min:g} m to {laser.range_max:g} m"
         units.note(reader.place(name), f"a ranger measures {span}; the first is taken for 0")
@@ -269,8 +268,8 @@ def _camera(thing: Thing, base: Thing, units: Units) -> list[StageCamera]:
     reader = thing.reader
     width, height = (int(part) for part in reader.several("resolution", "ff", CAMERA_RESOLUTION))
     if width * height > MOST_PIXELS:
-        what = f"resolution is [{width} {height}]; a picture has {MOST_PIXELS} pixels at the most"
-        raise StageError(reader.place("resolution"), what)
+        most = f"a picture has {MOST_PIXELS} pixels at most"
+        raise StageError(reader.place("resolution"), f"resolution is [{width} {height}]; {most}", most)
     horizontal, vertical = reader.several("fov", "ff", CAMERA_FOV)  # in degrees, whatever unit_angle says
     near, far = reader.several("range", "ll", CAMERA_RANGE)
     wrong = ""

@@ -257,7 +257,9 @@ class Maker:
         path = find_file(name, self.parsed.path, place.path)
         if path is None:
             where = searched(self.parsed.path, place.path)
-            raise StageError(place, f'there is no bitmap "{name}" {where}')
+            raise StageError(
+                place, f'there is no bitmap "{name}" {where}', f"there is no such bitmap {where}"
+            )
         if path not in self._images:
             self._images[path] = image(path, place)
         return self._images[path]

@@ -50,28 +50,24 @@ class Token(NamedTuple):
     place: Place
 
 
-def tokens(text: str, path: Path, *, quoted: bool = True) -> Iterator[Token]:
-    """The words of the text of the file `path`; includes are left as they are.
-
-    Raises `StageError`, which quotes the text unless `quoted` is False.
-    """
-    at, line = 0, 1
+def tokens(text: str, path: Path, *, included: bool = False) -> Iterator[Token]:
+    """Yield the words of the text of the file `path`, and includes as words. Raises `StageError`."""
+    at, place = 0, Place(path, 1, included)
     while at < len(text):
         found = _TOKEN.match(text, at)
         if found is None:
             column = at - text.rfind("\n", 0, at)
-            what = _complaint(text, at) if quoted else f"this is no world file from column {column} on"
-            raise StageError(Place(path, line), what)
+            raise StageError(place, _complaint(text, at), f"this is no world file from column {column} on")
         at = found.end()
         match found.lastgroup:
             case "line":
-                line += 1
+                place = Place(path, place.line + 1, included)
             case "word" | "number" as kind:
-                yield Token(kind, found.group(), Place(path, line))
+                yield Token(kind, found.group(), place)
             case "string":
-                yield Token("string", found.group()[1:-1], Place(path, line))
+                yield Token("string", found.group()[1:-1], place)
             case "mark":
-                yield Token(found.group(), found.group(), Place(path, line))  # type: ignore[arg-type]
+                yield Token(found.group(), found.group(), place)  # type: ignore[arg-type]
 
 
 def _complaint(text: str, at: int) -> str:
@@ -114,8 +110,7 @@ def _included(path: Path, root: Path, above: tuple[Path, ...], so_far: _Included
     except OSError as error:
         where = Place(path, 1)
         raise StageError(where, f"the file cannot be read: {error.strerror or error}") from error
-    # A file may include any other: what is in that is not for everybody who sees an error.
-    words = tokens(text, path, quoted=not above)
+    words = tokens(text, path, included=bool(above))
     for word in words:
         if word.kind != "word" or word.text != "include":
             yield word
@@ -125,12 +120,14 @@ def _included(path: Path, root: Path, above: tuple[Path, ...], so_far: _Included
             raise StageError(word.place, 'after include comes a file in double quotes: include "robot.inc"')
         target = find_file(name.text, root, path)
         if target is None:
-            raise StageError(name.place, f'there is no file "{name.text}" to include {searched(root, path)}')
+            missing = f"to include {searched(root, path)}"
+            what = f'there is no file "{name.text}" {missing}'
+            raise StageError(name.place, what, f"there is no such file {missing}")
         chain = [each.resolve() for each in (*above, path)]
         if target.resolve() in chain:
             circle = [*chain[chain.index(target.resolve()) :], target.resolve()]
             way = " -> ".join(each.name for each in circle)
-            raise StageError(name.place, f'"{name.text}" includes itself: {way}')
+            raise StageError(name.place, f'"{name.text}" includes itself: {way}', "the file includes itself")
         yield from _included(target, root, (*above, path), so_far)
 
 

@@ -158,12 +158,27 @@ def test_broken_files_name_their_line(text: str, line: int, words: str):
     assert words in str(caught.value)
 
 
-@pytest.mark.parametrize("text", ["secret", "secret:x:0", "a secret:x"])
-def test_errors_do_not_quote_a_file_that_is_included(text: str, tmp_path: Path):
-    (tmp_path / "passwd").write_text(f"\n{text}\n", encoding="utf-8")
+@pytest.mark.parametrize("name", ["passwd", "a.inc", "b.world"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "secret",
+        "secret:x:0",
+        "a secret:x",
+        "a [1 secret]",
+        "define secret",
+        "define secret secret ( ) secret ( )",
+        "secret ( )",
+        'include "secret"',
+        'model ( bitmap "secret" )',
+        'position ( name "secret" size [1 1 1] ranger ( sensor ( samples 1000000000 ) ) )',
+    ],
+)
+def test_errors_do_not_quote_a_file_that_is_included(text: str, name: str, tmp_path: Path):
+    (tmp_path / name).write_text(f"\n{text}\n", encoding="utf-8")
     world = tmp_path / "a.world"
-    world.write_text('include "passwd"\n', encoding="utf-8")
-    with pytest.raises(StageError, match=r"passwd:2: ") as caught:
+    world.write_text(f'include "{name}"\n', encoding="utf-8")
+    with pytest.raises(StageError, match=rf"{name}:2: ") as caught:
         load(world)
     assert "secret" not in str(caught.value)
 
@@ -204,7 +219,7 @@ def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path
 def test_what_includes_itself_is_refused(tmp_path: Path, world):
     (tmp_path / "a.inc").write_text('\ninclude "b.inc"', encoding="utf-8")
     (tmp_path / "b.inc").write_text('include "a.inc"', encoding="utf-8")
-    with pytest.raises(StageError, match=r'b.inc:1: "a.inc" includes itself'):
+    with pytest.raises(StageError, match=r"b.inc:1: .*includes itself"):
         world('include "a.inc"')
 
 
@@ -461,10 +476,10 @@ def test_bounds_and_odometry(world):
     ("text", "words"),
     [
         ("modle( )", "there is no model 'modle' in Stage, and none is defined before it is used; did you mean model?"),
-        (robot("samples 1000000000"), "samples is 1000000000; a ranger has 100000 at the most"),
+        (robot("samples 1000000000"), "samples is 1000000000; a ranger has 100000"),
         (
             "position( camera( resolution [100000 100000] ) )",
-            "resolution is [100000 100000]; a picture has 16777216 pixels at the most",
+            "resolution is [100000 100000]; a picture has 16777216 pixels",
         ),
         ('model( bitmap "nothing.png" )', 'there is no bitmap "nothing.png" in'),
         ('model( bitmap "text.png" )', "cannot be read: this is no image"),
