@@ -8,7 +8,6 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from rosmini.viz.rqt import GraphState, rqt_console, rqt_graph
 from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
@@ -20,7 +19,10 @@ if TYPE_CHECKING:
     from rosmini.viz.plots import plot
     from rosmini.viz.recording_pictures import recording_picture, recording_plots
     from rosmini.viz.rqt.bag import rqt_bag
+    from rosmini.viz.rqt.console import rqt_console
     from rosmini.viz.rqt.definitions import rqt_action, rqt_msg, rqt_srv
+    from rosmini.viz.rqt.graph import rqt_graph
+    from rosmini.viz.rqt.graph_state import GraphState
     from rosmini.viz.rqt.plot import rqt_plot
     from rosmini.viz.rqt.topics import rqt_topic
     from rosmini.viz.scan_pictures import scan_picture
@@ -63,6 +65,9 @@ __all__ = [
 ]
 
 _LATER = {
+    "GraphState": "rosmini.viz.rqt.graph_state",
+    "rqt_console": "rosmini.viz.rqt.console",
+    "rqt_graph": "rosmini.viz.rqt.graph",
     "rqt_action": "rosmini.viz.rqt.definitions",
     "rqt_srv": "rosmini.viz.rqt.definitions",
     "rqt_msg": "rosmini.viz.rqt.definitions",

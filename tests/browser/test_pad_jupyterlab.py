@@ -31,7 +31,7 @@ pad
 BLIND = [
     """
 from rosmini import Graph
-from rosmini.viz.live import TeleopPad
+from rosmini.viz.live.pad import TeleopPad
 graph = Graph()
 pad = TeleopPad(graph)
 graph.live()

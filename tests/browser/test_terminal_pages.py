@@ -48,9 +48,9 @@ graph.run()
 PAGES = """
 from rosmini import rosrun
 from rosmini.ros.net import connect
-from rosmini.viz.live import TeleopPad
+from rosmini.viz.live.pad import TeleopPad
 from rosmini.viz.live.loopback import PageServer
-from rosmini.viz.live.rqt import MessagePublisher
+from rosmini.viz.rqt import MessagePublisher
 
 with connect() as graph:
     simulator = rosrun("rosmini_sim", "simulator", "_world:=room", graph=graph).instance()

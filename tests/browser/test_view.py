@@ -12,7 +12,7 @@ import pytest
 from rosmini import Graph, rosrun
 from rosmini.sim.simulator import Simulator
 from rosmini.viz.embed import STATIC
-from rosmini.viz.live import SimulationView
+from rosmini.viz.live.simulation_view import SimulationView
 from rosmini.viz.live.view_link import SCRIPTS, ViewLink
 
 from ..processes import wait_until

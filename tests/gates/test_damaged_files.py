@@ -31,7 +31,7 @@ from rosmini.ros import launch
 from rosmini.ros.catkin.project import read_project
 from rosmini.sim import sdf, stage, urdf
 from rosmini.sim.urdf import meshes
-from rosmini.viz.live.rqt.perspective import Perspective
+from rosmini.viz.rqt.perspective import Perspective
 from rosmini.viz.rviz.config import Config
 
 ROUNDS = 150

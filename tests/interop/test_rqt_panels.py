@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini.ros.net.connecting import connect
-from rosmini.viz.live.rqt import LoggerLevel, MessagePublisher, NodeGraph, Plot, ServiceCaller, TopicMonitor
+from rosmini.viz.rqt import LoggerLevel, MessagePublisher, NodeGraph, Plot, ServiceCaller, TopicMonitor
 
 from ..processes import start, wait_until
 from .conftest import SYSTEM_PYTHON

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from abc import abstractmethod
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.core.errors import DefinitionError, IllegalName, UnknownPackage, UnknownType
 from rosmini.msgs.registry import registry
 from rosmini.viz.rqt.table import Table
 from rosmini.viz.view import ViewError
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+from .panel import Panel, bar
+from .parts import Control, Row, Rows
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from rosmini.core.graph import Graph
     from rosmini.msgs.definition import MessageSpec
+    from rosmini.viz.rqt.table import Table
+
+    from .parts import Part
 
 COLUMNS = ("Tree", "Type", "Path")
 
@@ -62,3 +70,78 @@ def _fields(spec: MessageSpec, depth: int = 1, path: str = "") -> Iterator[tuple
         yield depth, field.ros_name, field.type, where
         if not field.builtin:
             yield from _fields(registry().definition(field.base), depth + 1, f"{where}/")
+
+
+REDRAW_S = 1.0
+"""How often a picture is drawn again [s]."""
+
+
+class _TypeBrowser(Panel):
+    """The fields of a type."""
+
+    example: ClassVar[str]
+
+    def __init__(self, graph: Graph, kind: str = "", *, name: str | None = None) -> None:
+        super().__init__(graph, name=name)
+        self.choose(kind or self.example)
+
+    @abstractmethod
+    def _draw(self, kind: str) -> Table:
+        """The fields of a type."""
+
+    def choose(self, kind: str) -> None:
+        """Show another type. Raises ``ViewError`` if no package here defines it."""
+        self._table = self._draw(kind)
+        self.kind = kind
+
+    def parts(self) -> Sequence[Part]:
+        """The type, and its fields."""
+        rows = tuple(
+            Row((tree.strip(), kind, path), (len(tree) - len(tree.lstrip())) // 2)
+            for tree, kind, path in self._table.rows
+        )
+        return [
+            bar(Control("type", "Type", "text", self.kind)),
+            Rows(self._table.columns, rows, f"Fields of {self.kind}"),
+        ]
+
+    def _operate(self, _key: Sequence[str], value: Any) -> None:
+        self.choose(value)
+
+    def settings(self) -> dict[str, Any]:
+        """The type."""
+        return {"type": self.kind}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Show the type that was kept."""
+        self.choose(str(settings.get("type", self.kind)))
+
+
+class MessageTypes(_TypeBrowser):
+    """The fields of a message type (http://wiki.ros.org/rqt_msg)."""
+
+    tool, heading, plugin = "rqt_msg", "Message Type Browser", "rqt_msg/Messages"
+    example = "geometry_msgs/Twist"
+
+    def _draw(self, kind: str) -> Table:
+        return rqt_msg(kind)
+
+
+class ServiceTypes(_TypeBrowser):
+    """The fields of a service type (http://wiki.ros.org/rqt_srv)."""
+
+    tool, heading, plugin = "rqt_srv", "Service Type Browser", "rqt_srv/Services"
+    example = "nav_msgs/GetPlan"
+
+    def _draw(self, kind: str) -> Table:
+        return rqt_srv(kind)
+
+
+class ActionTypes(_TypeBrowser):
+    """The fields of an action type (http://wiki.ros.org/rqt_action)."""
+
+    tool, heading, plugin = "rqt_action", "Action Type Browser", "rqt_action/ActionPlugin"
+    example = "move_base_msgs/MoveBase"
+
+    def _draw(self, kind: str) -> Table:
+        return rqt_action(kind)

@@ -3,7 +3,7 @@
    It needs rosmini-meshcat.js and is called by rosmini-rqt.js:
 
      rosminiRviz.show(panel, content, buffers)   `content` is {type: "solid", whole, camera, labels, grips, turns, background, size} of
-                                                 `rosmini/viz/live/rviz_solid.py`, of which only what has changed is there; buffers are
+                                                 `rosmini/viz/rviz/solid_page.py`, of which only what has changed is there; buffers are
                                                  commands of meshcat's viewer.
 
    `camera` is [N, x, y, z, yaw, pitch, distance, field of view]: what one looks at [m], from where [rad, m], and an angle [deg]. The mouse

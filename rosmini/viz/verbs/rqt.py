@@ -84,12 +84,12 @@ def _add_live(parser: Parser) -> Parser:
 
 
 def _live(kind: str, call: Call, *words: str, **options: Any) -> Shown:
-    """Open a panel of `rosmini.viz.live.rqt`. Raises ``VerbError`` in a terminal, where a page operates nothing."""
+    """Open a panel of `rosmini.viz.rqt`. Raises ``VerbError`` in a terminal, where a page operates nothing."""
     if call.in_terminal:
         raise VerbError(
             "--live is for notebooks: what is written in a terminal is a page, and nothing in it goes on"
         )
-    from rosmini.viz.live import rqt
+    from rosmini.viz import rqt
 
     return Shown(view=vars(rqt)[kind](call.graph, *words, **options))
 
@@ -385,13 +385,13 @@ def robot_steering(given: Values, call: Call) -> Shown:
     """Open a pad for a robot of the graph's simulator: the robot that is named, or else the first."""
     from rosmini.sim.simulation import Simulation
     from rosmini.sim.turtlesim import TurtleSim
-    from rosmini.viz.live import teleop_pad
+    from rosmini.viz.live.pad import TeleopPad
 
     if len(given.words) > 1:
         _steering_parser().error("rqt_robot_steering takes one robot")
     programs = [node.program for _, node in sorted(call.graph.nodes.items())]
     driven = next((each for each in programs if isinstance(each, Simulation | TurtleSim)), call.graph)
-    return Shown(view=teleop_pad(driven, robot="".join(given.words), title=given.title))
+    return Shown(view=TeleopPad(driven, robot="".join(given.words), title=given.title))
 
 
 def _gui_parser() -> Parser:
@@ -404,7 +404,7 @@ def _gui_parser() -> Parser:
 
 
 def _gui_in_terminal(words: Sequence[str]) -> int:
-    from rosmini.viz.live.rqt import Perspective
+    from rosmini.viz.rqt import Perspective
     from rosmini.viz.rqt.plugins import PLUGINS
 
     given, serves = _gui_parser().parse(words), {row[2]: row[3] for row in PLUGINS}

@@ -82,7 +82,7 @@ def show(given: Values, call: Call) -> Result:
 
 def _live(given: Values, call: Call) -> Result:
     """Open the window: in a notebook a widget, in a terminal a page that is served until Ctrl-C."""
-    from rosmini.viz.live.rviz import RVizWindow
+    from rosmini.viz.rviz.window import RVizWindow
 
     window = RVizWindow(call.graph, given.display_config, fixed_frame=given.fixed_frame)
     if window.scene.warning:

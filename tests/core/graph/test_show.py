@@ -8,7 +8,8 @@ from importlib.metadata import entry_points
 
 import pytest
 
-from rosmini.viz.live import SimulationView, TeleopPad
+from rosmini.viz.live.pad import TeleopPad
+from rosmini.viz.live.simulation_view import SimulationView
 
 DRIVEN = {"show3d": "simulation_3d", "view": "simulation_view", "pad": "teleop_pad"}
 SHOWN = {

@@ -4,15 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini import Graph
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
-
-
-@pytest.fixture
-def graph():
-    with Graph() as graph:
-        yield graph
 
 
 @pytest.fixture

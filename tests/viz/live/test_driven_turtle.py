@@ -9,8 +9,9 @@ import pytest
 
 from rosmini import rosrun
 from rosmini.msgs.geometry_msgs.msg import Twist
-from rosmini.viz.live import TeleopError, TeleopPad
+from rosmini.viz.live.pad import TeleopPad
 from rosmini.viz.live.page import pad_data
+from rosmini.viz.live.teleop import TeleopError
 
 from .test_live import Page
 

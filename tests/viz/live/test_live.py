@@ -14,8 +14,9 @@ from rosmini import rosrun
 from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
-from rosmini.viz.live import TeleopError, TeleopPad
 from rosmini.viz.live.live import Link
+from rosmini.viz.live.pad import TeleopPad
+from rosmini.viz.live.teleop import TeleopError
 
 
 class Page:

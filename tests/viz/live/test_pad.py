@@ -8,7 +8,8 @@ from rosmini import Graph
 from rosmini.core.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
-from rosmini.viz.live import Limits, TeleopError, TeleopPad
+from rosmini.viz.live.pad import TeleopPad
+from rosmini.viz.live.teleop import Limits, TeleopError
 
 
 def test_a_key_publishes_at_once_and_then_every_tenth_of_a_second(graph, heard):

@@ -16,7 +16,7 @@ from rosmini.sim.engine import RobotGone
 from rosmini.sim.gazebo.errors import UnknownEntity
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import WorldError
-from rosmini.viz.live import SimulationView
+from rosmini.viz.live.simulation_view import SimulationView
 from rosmini.viz.live.view_link import ViewLink
 from rosmini.viz.view import ViewError
 

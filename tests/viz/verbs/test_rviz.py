@@ -10,8 +10,8 @@ import pytest
 from rosmini import Graph
 from rosmini.core.errors import UsageError
 from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.viz.live.rviz import RVizWindow
 from rosmini.viz.rviz import ConfigError, RvizView
+from rosmini.viz.rviz.window import RVizWindow
 from rosmini.viz.verbs.rqt import Shown
 from rosmini.viz.verbs.rviz import TOOL
 

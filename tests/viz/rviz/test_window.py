@@ -16,9 +16,9 @@ from rosmini.msgs.visualization_msgs.msg import InteractiveMarker, InteractiveMa
 from rosmini.ros.interactive_markers import InteractiveMarkerServer
 from rosmini.ros.launch import roslaunch
 from rosmini.viz import ViewError
-from rosmini.viz.live.rqt.parts import Drawing, Rows
-from rosmini.viz.live.rviz import RVizWindow
+from rosmini.viz.rqt.parts import Drawing, Rows
 from rosmini.viz.rviz import Config
+from rosmini.viz.rviz.window import RVizWindow
 
 
 def grid(side: int = 40) -> OccupancyGrid:

@@ -7,9 +7,9 @@ import json
 import pytest
 
 from rosmini.msgs.std_msgs.msg import Float64
-from rosmini.viz.live.rqt import Rqt
-from rosmini.viz.live.rqt.window import PANELS
+from rosmini.viz.rqt import Rqt
 from rosmini.viz.rqt.plugins import PLUGINS
+from rosmini.viz.rqt.window import PANELS
 from rosmini.viz.view import ViewError
 
 

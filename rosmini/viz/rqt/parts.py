@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from rosmini.viz.rounding import fixed
-from rosmini.viz.view import ViewError
+from rosmini.viz.svg import element
+from rosmini.viz.view import PNG_MIME, Picture, ViewError
 
 Kind = Literal["text", "number", "slider", "choice", "check", "button"]
 Value = str | float | bool
@@ -18,7 +19,7 @@ class Control:
     """Something to operate.
 
     Attributes:
-        key: what a page and :meth:`~rosmini.viz.live.rqt.panel.Panel.set` call it; parts of it are separated by ``/``.
+        key: what a page and :meth:`~rosmini.viz.rqt.panel.Panel.set` call it; parts of it are separated by ``/``.
         label: what a reader sees, and a screen reader says.
         kind: "slider" and "number" have a number, within ``minimum`` and ``maximum``; "choice" one of ``choices``.
         value: what it shows; of a button nothing.
@@ -234,3 +235,12 @@ def _table(part: Rows) -> str:
 def number_text(value: float) -> str:
     """Return a number as a person would write it: ``10``, ``0.25``."""
     return str(round(value)) if value == round(value) and abs(value) < 1e15 else fixed(value, 6).rstrip("0")
+
+
+def drawn(picture: Picture) -> Drawing:
+    """Return a picture as a part of a panel."""
+    if picture.svg is not None:
+        return Drawing(picture.svg, picture.text)
+    data, _ = picture._repr_mimebundle_()
+    image = element("img", src=f"data:{PNG_MIME};base64,{''.join(data[PNG_MIME].split())}", alt=picture.alt)
+    return Drawing(image, picture.text)

@@ -35,7 +35,7 @@ QUIET_S = 0.6
 
 
 class LinkedPanel(Protocol):
-    """A panel, as its page sees it: :class:`~rosmini.viz.live.rqt.panel.Panel`."""
+    """A panel, as its page sees it: :class:`~rosmini.viz.rqt.panel.Panel`."""
 
     graph: Graph
     look_s: ClassVar[float]

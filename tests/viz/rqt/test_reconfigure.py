@@ -13,8 +13,8 @@ from rosmini.core.dynamic_reconfigure import (
     ReconfigurableParameter,
     Server,
 )
-from rosmini.viz.live.rqt import DynamicReconfigure
-from rosmini.viz.live.rqt.parts import controls
+from rosmini.viz.rqt import DynamicReconfigure
+from rosmini.viz.rqt.parts import controls
 from rosmini.viz.view import ViewError
 
 SPEEDS = repr(

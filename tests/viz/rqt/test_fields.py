@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.msgs import message_class
-from rosmini.viz.live.rqt.fields import Fields, value_table
+from rosmini.viz.rqt.fields import Fields, value_table
 from rosmini.viz.view import ViewError
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.viz.live.rqt.perspective import Perspective, Running
+from rosmini.viz.rqt.perspective import Perspective, Running
 from rosmini.viz.view import ViewError
 
 

@@ -14,12 +14,11 @@ from rosmini.core.packages import address_of
 from rosmini.core.verbs import Parser
 from rosmini.viz.rviz import Config
 
-from .rviz import RVizWindow
+from .window import RVizWindow
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Graph, Node
-
-    from .loopback import PageServer
+    from rosmini.viz.live.loopback import PageServer
 
 
 class RViz:
@@ -54,7 +53,7 @@ class RViz:
         self._serve(self.window)
 
     def _serve(self, window: RVizWindow) -> None:
-        from .loopback import PageServer, open_window
+        from rosmini.viz.live.loopback import PageServer, open_window
 
         self._server = PageServer(window.link.widget, title="RViz")
         open_window(self._server, window.node.name.lstrip("/"))

@@ -14,8 +14,8 @@ from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl
 from rosmini.ros.interactive_markers import InteractiveMarkerServer
 from rosmini.viz import ViewError
-from rosmini.viz.live.rviz import RVizWindow
 from rosmini.viz.rviz.projection import Perspective
+from rosmini.viz.rviz.window import RVizWindow
 
 
 @pytest.fixture

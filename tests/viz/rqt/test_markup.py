@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from html.parser import HTMLParser
 
-from rosmini.viz.live.rqt.markup import markup, page
-from rosmini.viz.live.rqt.parts import Bar, Box, Control, Drawing, Row, Rows, Words
+from rosmini.viz.rqt.markup import markup, page
+from rosmini.viz.rqt.parts import Bar, Box, Control, Drawing, Row, Rows, Words
 
 EVIL = '<b>"x"</b>&'
 ALL = (

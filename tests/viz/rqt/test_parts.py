@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.viz.live.rqt.parts import Bar, Box, Control, Drawing, Row, Rows, Words, controls, text_of, within
+from rosmini.viz.rqt.parts import Bar, Box, Control, Drawing, Row, Rows, Words, controls, text_of, within
 from rosmini.viz.view import ViewError
 
 RATE = Control("rate", "Rate", "number", 2.5, minimum=0.0, maximum=10.0)

@@ -8,7 +8,7 @@ import pytest
 from rosmini.msgs.geometry_msgs.msg import TransformStamped
 from rosmini.msgs.sensor_msgs.msg import Image
 from rosmini.msgs.tf2_msgs.msg import TFMessage
-from rosmini.viz.live.rqt import ActionTypes, ImageView, MessageTypes, ServiceTypes, TfTree
+from rosmini.viz.rqt import ActionTypes, ImageView, MessageTypes, ServiceTypes, TfTree
 from rosmini.viz.view import ViewError
 
 

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from rosmini.viz.figures import WIDTH
+from rosmini.viz.rqt.panel import Panel, bar
+from rosmini.viz.rqt.parts import Control, Drawing, Row, Rows, Words
 from rosmini.viz.rviz import Config, Level, Scene
 from rosmini.viz.rviz.displays.group import Group
 from rosmini.viz.rviz.flat import draw
@@ -34,18 +36,16 @@ from rosmini.viz.rviz.views import (
 )
 from rosmini.viz.view import ViewError
 
-from .rqt.panel import Panel, bar
-from .rqt.parts import Control, Drawing, Row, Rows, Words
-from .rviz_solid import HOST, NUMBERS, SCRIPTS, SolidPage, is_possible, turn
+from .solid_page import HOST, NUMBERS, SCRIPTS, SolidPage, is_possible, turn
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Graph, Node
+    from rosmini.viz.rqt.parts import Part
     from rosmini.viz.rviz import Display, Layer
     from rosmini.viz.rviz.primitives import Floats, Primitive
     from rosmini.viz.rviz.projection import Look, Projection
 
-    from .rqt.parts import Part
-    from .rviz_solid import Message
+    from .solid_page import Message
 
 SETTLES_NS = 2_000_000_000
 """Time for which the view follows new data [ns], unless the user is moving it."""

@@ -1,7 +1,7 @@
 """`rqt` itself: several plugins in one window, with its menus File, Plugins, Running and Perspectives.
 
 The menus are those of the real one (http://wiki.ros.org/rqt/UserGuide). A perspective is an arrangement that was
-saved; files of the real rqt can be imported and exported (:mod:`~rosmini.viz.live.rqt.perspective`).
+saved; files of the real rqt can be imported and exported (:mod:`~rosmini.viz.rqt.perspective`).
 """
 
 from __future__ import annotations
@@ -13,9 +13,10 @@ from rosmini.viz.rqt.plugins import PLUGINS
 from rosmini.viz.view import ViewError
 
 from .bag import BagTimeline
-from .browsers import ActionTypes, ImageView, MessageTypes, ServiceTypes, TfTree
 from .console import LogConsole
+from .definitions import ActionTypes, MessageTypes, ServiceTypes
 from .graph import NodeGraph
+from .image_view import ImageView
 from .logger_level import LoggerLevel
 from .panel import Panel, bar
 from .parts import Box, Control, Words, within
@@ -24,7 +25,8 @@ from .plot import Plot
 from .publisher import MessagePublisher
 from .reconfigure import DynamicReconfigure
 from .service_caller import ServiceCaller
-from .topic import TopicMonitor
+from .tf_tree import TfTree
+from .topics import TopicMonitor
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -1,0 +1,88 @@
+"""Panels that only show: the fields of types, the tree of frames, images."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.msgs import message_class
+from rosmini.ros.introspection.topics import types
+from rosmini.viz.image_pictures import image_picture
+from rosmini.viz.view import ViewError
+
+from .panel import Panel, bar
+from .parts import Control, Drawing, Words, drawn
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rosmini.core.graph import Graph
+
+    from .parts import Part
+
+REDRAW_S = 1.0
+"""How often a picture is drawn again [s]."""
+
+
+class ImageView(Panel):
+    """The newest image on a topic (http://wiki.ros.org/rqt_image_view).
+
+    Args:
+        graph: the graph.
+        topic: the one that is chosen first.
+        name: of the panel's node.
+
+    Raises:
+        ViewError: no images are published there.
+
+    """
+
+    tool, heading, plugin = "rqt_image_view", "Image View", "rqt_image_view/ImageView"
+
+    def __init__(self, graph: Graph, topic: str = "", *, name: str | None = None) -> None:
+        super().__init__(graph, name=name)
+        self.topic = ""
+        self._image: Any = None
+        self._subscriber: Any = None
+        self._drawn: tuple[float, Drawing] | None = None
+        if topic:
+            self.choose(topic)
+
+    def names(self) -> list[str]:
+        """Return the topics of images, sorted."""
+        return sorted(name for name, kind in types(self.graph) if kind == "sensor_msgs/Image")
+
+    def choose(self, topic: str) -> None:
+        """Show another topic. Raises ``ViewError``."""
+        if topic not in self.names():
+            known = ", ".join(self.names()) or "no topics of images"
+            raise ViewError(f"no images come on {topic!r:.80}; there are {known}")
+        if self._subscriber is not None:
+            self._subscriber.unregister()
+        self.topic, self._image, self._drawn = topic, None, None
+        self._subscriber = self.node.subscriber(topic, message_class("sensor_msgs/Image"), self._take)
+
+    def _take(self, image: Any) -> None:
+        self._image = image
+
+    def parts(self) -> Sequence[Part]:
+        """The topic, and the image."""
+        choices = tuple(dict.fromkeys((self.topic, *self.names())))
+        head = bar(Control("topic", "Topic", "choice", self.topic, choices))
+        if self._image is None:
+            return [head, Words("no image has come yet")]
+        now = self.graph.now().to_sec()
+        if self._drawn is None or abs(now - self._drawn[0]) >= REDRAW_S:
+            self._drawn = (now, drawn(image_picture(self._image, title=self.topic)))
+        return [head, self._drawn[1]]
+
+    def _operate(self, _key: Sequence[str], value: Any) -> None:
+        self.choose(value)
+
+    def settings(self) -> dict[str, Any]:
+        """The topic."""
+        return {"topic": self.topic}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Show the topic that was kept."""
+        if settings.get("topic"):
+            self.choose(str(settings["topic"]))

@@ -1,0 +1,13 @@
+"""A graph that ends with the test."""
+
+from __future__ import annotations
+
+import pytest
+
+from rosmini import Graph
+
+
+@pytest.fixture
+def graph():
+    with Graph() as graph:
+        yield graph
