@@ -1,8 +1,8 @@
 """Exercises that check themselves.
 
-A notebook hands an answer to `check`, which prints one of three things: that the exercise is not attempted yet,
-what is wrong with the answer and a hint, or that it is right. What "right" means stands in
-`rosmini/book/exercises/chapter_NN.py`, one `Exercise` per exercise. CONTRIBUTING.md tells how to write one.
+A notebook passes an answer to `check`, which prints one of three things: that the exercise has not been attempted yet,
+what is wrong with the answer and a hint, or that it is right. `rosmini/book/exercises/chapter_NN.py` has one `Exercise`
+for each exercise, which decides this. `book/about/writing_chapters.md` explains how to write one.
 """
 
 from __future__ import annotations
