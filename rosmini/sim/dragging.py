@@ -1,4 +1,4 @@
-"""Taking things by hand: what a view of a running world does with a mouse, a finger or a key."""
+"""Dragging things with a mouse, a finger or a key in a view of a running world."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from .world import Obstacle, WorldError
 
 
 def drag(engine: Engine, name: str, pose: Pose) -> None:
-    """Lift a robot, or a thing that can be pushed, and put it down elsewhere, at rest.
+    """Lift a robot or a movable obstacle and put it down elsewhere, at rest.
 
-    Raises `WorldError` if something, such as a wall, is in the way, or for what moves by itself, and `RobotGone` for an
-    unknown name; nothing has changed then.
+    Raises `WorldError` if a wall or another object is in the way, or if the obstacle moves by itself, and `RobotGone`
+    for an unknown name; nothing has changed then.
     """
     if name in engine.robots:
         engine.place(name, pose)
@@ -35,7 +35,7 @@ def drag(engine: Engine, name: str, pose: Pose) -> None:
 
 
 def check_room(engine: Engine, thing: Obstacle, pose: Pose) -> None:
-    """Raise `WorldError` if a wall, or something else that is fixed, is where a thing is to be."""
+    """Raise `WorldError` if a wall or another fixed object occupies the pose."""
     fixtures = engine.contacts.ground.fixtures
     for shape, place in simple_parts(thing.shape, pose):
         if isinstance(shape, ROUND):

@@ -1,4 +1,4 @@
-"""What is fixed in a world, and which of it is in the way of a footprint."""
+"""The fixed obstacles of a world, and the test whether they block a footprint."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .shapes import ROUND, Simple, outline_at
 
 Floats = NDArray[np.float64]
 Footprint = Sequence[tuple[float, float]] | Floats | float
-"""Vertices (n, 2), counter-clockwise, seen from a pose, or the radius of a disc around it [m]."""
+"""Vertices (n, 2), counter-clockwise, relative to a pose, or the radius of a disc around it [m]."""
 
 
 class Fixtures:
-    """Walls (n, 4), and fixed obstacles, which may come and go; `solid`: the walls go around what is solid."""
+    """Walls (n, 4) and fixed obstacles, which can be added and removed; `solid`: the walls enclose solid areas."""
 
     def __init__(self, walls: Floats, *, solid: bool) -> None:
         self._walls, self._solid = walls, solid
@@ -30,7 +30,7 @@ class Fixtures:
         self._bottoms: dict[str, float] = {}
 
     def insert(self, name: str, bottom: float, parts: Iterable[tuple[Simple, Pose]]) -> None:
-        """Insert a fixed obstacle: its name, how high above the ground it begins [m], its shapes and their poses."""
+        """Insert a fixed obstacle: its name, its lower edge above the ground [m], its shapes and their poses."""
         self._bottoms[name] = bottom
         for shape, pose in parts:
             if isinstance(shape, ROUND):
@@ -39,12 +39,12 @@ class Fixtures:
                 self._overlaps.insert(name, Outline(outline_at(shape, pose)))
 
     def remove(self, name: str) -> None:
-        """Remove an obstacle, if it is there."""
+        """Remove an obstacle if it exists."""
         if self._bottoms.pop(name, None) is not None:
             self._overlaps.remove(name)
 
     def blocked(self, pose: Pose, footprint: Footprint, height: float) -> str | None:
-        """Return what is in the way of a footprint of this height at `pose`, as `World.blocked` does."""
+        """Describe what blocks a footprint of this height at `pose`, as `World.blocked` does; None if nothing does."""
         if isinstance(footprint, (int, float)):
             outline = Outline(np.array([pose[:2]], dtype=np.float64), float(footprint))
         else:

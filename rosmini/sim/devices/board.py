@@ -1,4 +1,4 @@
-"""What TurtleBot3's board tells beside the motion: the battery, and the state of its switches, motors and encoders."""
+"""State that TurtleBot3's board reports besides motion: battery, switches, motors and encoders."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ if TYPE_CHECKING:
     from rosmini.sim.engine.robot import Robot
 
 BOARD_RATE = 30.0
-"""So often TurtleBot3's firmware tells its state [Hz]: DRIVE_INFORMATION_PUBLISH_FREQUENCY."""
+"""Rate at which TurtleBot3's firmware reports its state [Hz]: DRIVE_INFORMATION_PUBLISH_FREQUENCY."""
 
 DRAIN_S = 1.0
-"""What was drawn is added up over so long, and then taken from the battery [s]."""
+"""Interval over which consumption is summed before it is taken from the battery [s]."""
 
 
 class BatteryDevice(Device):
     """`sensor_msgs/BatteryState` of a battery that drains, faster while the robot drives and pushes.
 
-    When it is empty, the motors of `drive` get no current any more.
+    When the battery is empty, the motors of `drive` lose power.
 
     Args:
-        host: where it happens.
+        host: the simulated world.
         robot: the engine's name of the robot.
-        battery: which one; without it a Burger's, full.
-        drive: whose motors it feeds; None: nothing happens to the robot when it is empty.
-        topic: where it is published; None: nowhere.
-        frame: what the header says.
-        rate: how often [Hz].
-        name: the device's; without it robot/battery.
+        battery: the battery; a full one of a Burger if not given.
+        drive: the drive whose motors it powers; None: nothing happens to the robot when the battery is empty.
+        topic: where it is published; None: not published.
+        frame: the frame of the header.
+        rate: messages per second [Hz].
+        name: the device's name; robot/battery if not given.
 
     """
 
@@ -61,8 +61,8 @@ class BatteryDevice(Device):
         self.battery = battery or Battery()
         self.drive = drive
         self.shown: Charge = self.battery.read()
-        """What it showed last."""
-        self._used, self._since = 0.0, 0.0  # [J] and [s] that are not taken from it yet
+        """The charge that was reported last."""
+        self._used, self._since = 0.0, 0.0  # energy [J] and time [s] that are not taken from the battery yet
         message: Any = message_class("sensor_msgs/BatteryState")()
         message.header.frame_id = frame
         model = self.battery.model
@@ -76,7 +76,7 @@ class BatteryDevice(Device):
         self._outlet = None if topic is None else Outlet(host.node, topic, message, varying)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Drain the battery, and tell how it is."""
+        """Drain the battery and publish its state."""
         robot = self.robot
         fastest = robot.model.max_linear
         left, right = (min(abs(speed) / fastest, 1.0) for speed in (robot.left, robot.right))
@@ -105,7 +105,7 @@ class BatteryDevice(Device):
             )
 
     def charge(self, level: float = 1.0) -> None:
-        """Charge it, or put in another one that is so full (0 to 1); the motors get current again.
+        """Charge the battery, or insert one with this level (0 to 1); the motors have power again.
 
         Raises `BatteryError`.
         """
@@ -115,7 +115,7 @@ class BatteryDevice(Device):
             self.drive.power(True)
 
     def close(self) -> None:
-        """End the topic."""
+        """Close the topic."""
         if self._outlet is not None:
             self._outlet.close()
 
@@ -123,17 +123,17 @@ class BatteryDevice(Device):
 class SensorStateDevice(Sensor):
     """`turtlebot3_msgs/SensorState`: bumper, motors, encoders and voltage.
 
-    There is no cliff sensor, sonar, light sensor, lamp or button: 0.
+    The cliff sensor, sonar, light sensor, lamp and button do not exist and read 0.
 
     Args:
         host: the simulated world.
-        drive: whose encoders and motors.
-        battery: whose voltage; None: 0.0 V.
-        bumper: which switches it has; a Burger as it is sold has none in its way.
+        drive: the drive whose encoders and motors are reported.
+        battery: the battery whose voltage is reported; None: 0.0 V.
+        bumper: its switches; a stock Burger has none.
         topic: where it is published.
         frame: the frame of the header; the firmware leaves it empty.
-        rate: how often [Hz].
-        name: the device's; robot/sensor_state if not given.
+        rate: messages per second [Hz].
+        name: the device's name; robot/sensor_state if not given.
 
     """
 
@@ -172,14 +172,14 @@ class SensorStateDevice(Sensor):
 
 
 class Switches:
-    """TurtleBot3's topics `motor_power` (std_msgs/Bool) and `reset` (std_msgs/Empty): current for the motors.
+    """TurtleBot3's topics `motor_power` (std_msgs/Bool) and `reset` (std_msgs/Empty).
 
-    Odometry at zero and a calibrated gyroscope.
+    The first switches the motors' power; the second sets the odometry to zero and calibrates the gyroscope.
 
     Args:
-        host: where they are.
-        drive: whose motors and odometry.
-        calibrate: what is done at a reset before the odometry begins at zero.
+        host: the simulated world.
+        drive: the drive whose motors and odometry they control.
+        calibrate: called at a reset, before the odometry is set to zero.
         motor_power: the topic that switches the motors.
         reset: the topic that resets.
 
@@ -212,16 +212,16 @@ class Switches:
         self._drive.reset_odometry()
 
     def close(self) -> None:
-        """End the topics."""
+        """Close the topics."""
         for subscriber in self._subscribers:
             subscriber.unregister()
 
 
 def contacts(host: Host, robot: str) -> list[tuple[tuple[float, float], float]]:
-    """Where a robot touches something, in the frame of the world [m], and how hard [N]."""
+    """Return the points at which a robot touches something, in the world's frame [m], with their forces [N]."""
     return [((touch.x, touch.y), touch.force) for touch in host.engine.touching(robot)]
 
 
 def _int32(number: int) -> int:
-    """A number as 32 bits hold it: what is too large begins again below."""
+    """Return a number as a signed 32-bit integer, with wrap-around."""
     return (number + 2**31) % 2**32 - 2**31

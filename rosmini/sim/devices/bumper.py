@@ -1,4 +1,4 @@
-"""What a robot touches, as Gazebo's bumper tells it."""
+"""Contacts of a robot, as Gazebo's bumper plugin reports them."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from .sensor import Sensor
 
 
 class Bumper(Sensor):
-    """`gazebo_msgs/ContactsState`: one state for each thing that is touched, with places, normals and forces.
+    """`gazebo_msgs/ContactsState`: one state for each object touched, with positions, normals and forces.
 
     Args:
         host: the simulated world.
-        robot: the engine's name of what carries it.
+        robot: the engine's name of the robot that carries it.
         topic: where it is published.
         frame: the world's frame, in which everything is published.
-        rate: how often [Hz].
-        collision: what its own collision is called in the messages; the robot's name if not given.
-        height: how high above the ground it is touched [m].
-        name: the device's; robot/bumper if not given.
+        rate: messages per second [Hz].
+        collision: the name of its own collision in the messages; the robot's name if not given.
+        height: height of the contacts above the ground [m].
+        name: the device's name; robot/bumper if not given.
 
     """
 
@@ -48,11 +48,11 @@ class Bumper(Sensor):
         self._height = height
 
     def sample(self, _: int) -> tuple[list[Any]]:
-        """Return what it touches."""
+        """Return the contact states as the value of the message's only varying field."""
         return (self.states(),)
 
     def states(self) -> list[Any]:
-        """Return what is touched now: `gazebo_msgs/ContactState`s, in the order in which the engine finds them."""
+        """Return the current contacts: `gazebo_msgs/ContactState`s, in the engine's order."""
         state, wrench, vector = (
             message_class(kind)
             for kind in ("gazebo_msgs/ContactState", "geometry_msgs/Wrench", "geometry_msgs/Vector3")

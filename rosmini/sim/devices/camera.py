@@ -1,4 +1,4 @@
-"""What a camera on a robot sees: images, depths and points, rendered only while somebody listens."""
+"""A robot's camera: images, depths and points, rendered only while a node listens."""
 
 from __future__ import annotations
 
@@ -24,29 +24,29 @@ Depths = NDArray[np.float32]
 
 
 DEAR = 20e6
-"""From so many pixels in each second of simulated time on, a camera warns: drawing them takes two seconds or more."""
+"""Rendering load [pixels/s of simulated time] that causes a warning: it takes about two seconds or more."""
 
 
 class CameraDevice(Device):
     """`sensor_msgs/Image` and `sensor_msgs/CameraInfo` of a camera on a robot.
 
-    And, if it measures that, depths and points.
+    A depth camera also publishes depths and points.
 
     Args:
-        host: where it happens.
+        host: the simulated world.
         robot: the engine's name of the robot.
-        camera: which camera, and where it sits.
-        image: the topic of the images (rgb8); None: there are none.
-        info: the topic of the camera's numbers; None: they are not told.
-        depth: the topic of the depths (32FC1, metres, inf beyond reach: REP 117 and 118); None: they are not told.
-        depth_info: the topic of the numbers that belong to the depths.
+        camera: the camera's model and mount.
+        image: the topic of the images (rgb8); None: not published.
+        info: the topic of the camera's calibration; None: not published.
+        depth: the topic of the depths (32FC1, metres, inf beyond reach: REP 117 and 118); None: not published.
+        depth_info: the topic of the calibration that belongs to the depths.
         points: the topic of the coloured points (`sensor_msgs/PointCloud2`, x, y, z in the optical frame, rgb); None:
-            they are not told.
-        frame: what the header says: the optical frame; without it what the camera's model says.
-        rate: how often; without it as often as the camera's model says [Hz].
-        noise: scales the noise of the camera's model; 0: none.
-        baseline: how far it sits to the right of a first camera [m]: Gazebo's `hackBaseline`.
-        name: the device's; without it robot/ and the camera's name.
+            not published.
+        frame: the optical frame, for the header; the camera model's if not given.
+        rate: images per second [Hz]; the camera model's if not given.
+        noise: scales the noise of the camera's model; 0: no noise.
+        baseline: distance to the right of a first camera [m]: Gazebo's `hackBaseline`.
+        name: the device's name; robot/ and the camera's name if not given.
 
     """
 
@@ -94,13 +94,13 @@ class CameraDevice(Device):
         return tuple(each for each in every if each is not None)
 
     def wanted(self) -> bool:
-        """Tell whether anybody listens to anything."""
+        """Return True if any of its topics has a subscriber."""
         return any(outlet.heard() for outlet in self.outlets())
 
     def due(self, stamp: Stamp, number: int, /) -> None:
-        """Look, and tell those who listen.
+        """Render and publish to the topics that have subscribers.
 
-        Each image has noise of its own, whether those before it were wanted or not.
+        The noise depends on the image's number alone, whether or not earlier images were rendered.
         """
         for info in (self._info, self._depth_info):
             if info is not None and info.heard():
@@ -114,13 +114,13 @@ class CameraDevice(Device):
         self.publish_pixels(stamp, image, depths)
 
     def publish_pixels(self, stamp: Stamp, image: NDArray[Any], depths: NDArray[Any]) -> None:
-        """Publish an image and depths, each if somebody listens."""
+        """Publish an image and depths, each if its topic has a subscriber."""
         for outlet, pixels in ((self._image, image), (self._depth, depths)):
             if outlet is not None and outlet.heard():
                 outlet.publish(stamp, [pixels.tobytes()])
 
     def warn(self) -> None:
-        """Warn, once, if what is to be drawn costs more time than a second in each second of the world."""
+        """Warn, once, if rendering takes longer than real time."""
         width, height = self.camera.width, self.camera.height
         pixels = width * height * self.rate
         if self._warned or pixels < DEAR:
@@ -141,7 +141,7 @@ class CameraDevice(Device):
         return capture(self.camera, self.robot.pose, self._scene(), noise=noise)
 
     def _scene(self) -> Scene:
-        """All that there is to see now; what is fixed is kept, as long as the world is the same."""
+        """Return everything visible now; the fixed part is cached until the world changes."""
         engine = self.host.engine
         world = engine.world
         fixed = [obstacle for obstacle in world.obstacles if obstacle.fixed]
@@ -153,13 +153,13 @@ class CameraDevice(Device):
         return self._fixed[1] + Scene.of(others) if others else self._fixed[1]
 
     def close(self) -> None:
-        """End the topics."""
+        """Close the topics."""
         for outlet in self.outlets():
             outlet.close()
 
 
 def heard(outlet: Outlet | None) -> bool:
-    """Return whether there is such a topic and somebody listens."""
+    """Return True if there is such a topic and it has a subscriber."""
     return outlet is not None and outlet.heard() > 0
 
 
@@ -172,7 +172,7 @@ def image_message(camera: CameraModel, frame: str, encoding: str, size: int) -> 
 
 
 def info_message(camera: CameraModel, frame: str, baseline: float) -> Any:
-    """Return the numbers of a camera without distortion."""
+    """Return the calibration of a camera without distortion."""
     info = camera_info(camera, baseline)
     message = message_class("sensor_msgs/CameraInfo")(height=info.height, width=info.width)
     message.header.frame_id = frame
@@ -182,7 +182,7 @@ def info_message(camera: CameraModel, frame: str, baseline: float) -> Any:
 
 
 POINT = np.dtype([("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("rgb", "<u4")])
-"""One point of a cloud; its colour as 0x00rrggbb, which others read as a float32."""
+"""One point of a cloud; its colour as 0x00rrggbb, which other programs read as a float32."""
 
 
 def points_message(camera: CameraModel, frame: str) -> Any:
@@ -201,9 +201,9 @@ def points_message(camera: CameraModel, frame: str) -> Any:
 
 
 def cloud(camera: CameraModel, image: Image, depths: Depths) -> NDArray[Any]:
-    """The points (h, w) of type `POINT` that the pixels show, in the optical frame.
+    """Return the points (h, w) of type `POINT` that the pixels show, in the optical frame.
 
-    Nan where nothing is within reach.
+    A point is nan where nothing is within reach.
     """
     k = camera_info(camera).K
     height, width = depths.shape

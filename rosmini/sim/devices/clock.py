@@ -1,4 +1,4 @@
-"""The world's time for the whole graph."""
+"""The world's time, published for the whole graph."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ class ClockDevice(Device):
     """`rosgraph_msgs/Clock`: the time of the host's stamps, for nodes with /use_sim_time.
 
     Args:
-        host: whose time; one that counts `from_zero`, because any other follows the graph's own time.
-        rate: how often [Hz].
+        host: the simulated world; it must count `from_zero`, because any other follows the graph's own time.
+        rate: messages per second [Hz].
         topic: where it is published.
 
     """
@@ -32,10 +32,10 @@ class ClockDevice(Device):
             self._outlet.publish(stamp, stamp)
 
     def tell(self) -> None:
-        """Publish it immediately: after time was reset, or stepped while paused."""
+        """Publish the time immediately: after a reset of time, or a step while paused."""
         now = self.host.stamp
         self.due((now.secs, now.nsecs), 0)
 
     def close(self) -> None:
-        """End the topic."""
+        """Close the topic."""
         self._outlet.close()

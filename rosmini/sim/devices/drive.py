@@ -1,6 +1,6 @@
-"""What moves a robot, and what tells how it moved: `cmd_vel` in.
+"""The devices that move a robot and report its motion.
 
-`odom`, `/tf`, `joint_states` and the ground truth out.
+`cmd_vel` in; `odom`, `/tf`, `joint_states` and the ground truth out.
 """
 
 from __future__ import annotations
@@ -37,17 +37,17 @@ if TYPE_CHECKING:
     from rosmini.sim.engine.robot import Robot
 
 WHEELS = ("wheel_left_joint", "wheel_right_joint")
-"""The joints of TurtleBot3's wheels."""
+"""Names of TurtleBot3's wheel joints."""
 
 SOURCES = ("encoder", "world", "start")
-"""From where a drive takes its odometry: the encoders of its wheels; the truth in the frame of the world.
+"""Sources of a drive's odometry: the wheel encoders, the true pose in the world's frame, or the true pose
 
-The truth seen from where it started.
+relative to where the robot started.
 """
 
 
 class Reckoned(NamedTuple):
-    """What odometry reports: the pose in its frame, and the speeds ahead and aside [m/s] and to the left [rad/s]."""
+    """Odometry as reported: the pose in its frame, and the speeds ahead and aside [m/s] and to the left [rad/s]."""
 
     pose: Pose
     v: float
@@ -59,26 +59,26 @@ class DifferentialDrive(Device):
     """Two driven wheels: a `geometry_msgs/Twist` in, `nav_msgs/Odometry` and a transform out.
 
     Args:
-        host: where it happens.
+        host: the simulated world.
         robot: the engine's name of the robot.
-        cmd_vel: the topic of the commands; None: nobody can command it by a topic.
-        odom: the topic of the odometry; None: it is not published.
-        odom_frame: the frame that the odometry is told in.
-        base_frame: the robot's own frame.
-        tf: the topic of the transform between the two, as a rule "/tf"; None: it is not published.
-        rate: how often; without it as often as the robot's model says [Hz].
-        timeout: how long a command holds [s]; 0: until the next one, as in Gazebo. TurtleBot3 has 0.5, Stage 0.2.
-        source: from where the odometry is taken: "encoder", "world" or "start", see `SOURCES`.
-        imu: what says how far the robot has turned, for an odometry from encoders: TurtleBot3's firmware asks its IMU.
-            None: the wheels do.
-        covariance: of x, y, z and the turns about them, as the odometry's messages state it.
-        name: the device's; without it robot/drive.
+        cmd_vel: the topic of the commands; None: commands by topic are not accepted.
+        odom: the topic of the odometry; None: not published.
+        odom_frame: the frame of the odometry.
+        base_frame: the robot's frame.
+        tf: the topic of the transform between the two, usually "/tf"; None: not published.
+        rate: messages per second [Hz]; the robot model's if not given.
+        timeout: duration of a command [s]; 0: until the next one, as in Gazebo. TurtleBot3 has 0.5, Stage 0.2.
+        source: the source of the odometry: "encoder", "world" or "start", see `SOURCES`.
+        imu: the source of the heading for odometry from encoders: TurtleBot3's firmware uses its IMU. None: the
+            wheels.
+        covariance: of x, y, z and the rotations about them, as stated in the messages.
+        name: the device's name; robot/drive if not given.
 
     """
 
     order = 10.0
     sideways = False
-    """Whether it can go to the side as well."""
+    """True if it can also move sideways."""
 
     def __init__(
         self,
@@ -104,13 +104,13 @@ class DifferentialDrive(Device):
         self.timeout = timeout
         self.odom_frame, self.base_frame = odom_frame, base_frame
         self.odometry = Odometry(self.model)
-        """What the encoders show, and the IMU if it is asked, whatever is told of it."""
+        """Odometry from the encoders, and the IMU if used; computed even if the true pose is reported."""
         self._imu = imu
         self._heading = 0.0
         self.powered = True
-        """False: the motors get no current, and commands have no effect."""
+        """False: the motors have no power, and commands have no effect."""
         self.reckoned = Reckoned((0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
-        """What was told last."""
+        """The odometry that was reported last."""
         self._zero: Pose = self.robot.start
         self._complained: set[str] = set()
         self._outlet: Outlet | None = None
@@ -127,7 +127,7 @@ class DifferentialDrive(Device):
             self.publish_transform(tf)
 
     def publish_transform(self, topic: str = "/tf") -> None:
-        """Publish, from now on, where the robot's frame is in that of the odometry."""
+        """Start publishing the transform from the odometry's frame to the robot's."""
         name = f"transforms of {topic} at {self.rate:g} Hz"
         there = next((device for device in self.host.devices if device.name == name), None)
         if there is None:
@@ -137,19 +137,19 @@ class DifferentialDrive(Device):
             there.join(self)
 
     steered = False
-    """Whether what it is told to turn is the angle of a wheel, as in a car."""
+    """True if its angular command is the angle of a wheel, as in a car."""
 
     @property
     def commanded_by(self) -> str | None:
-        """The topic of its commands, as a global name; None: there is none."""
+        """The topic of its commands, as a global name; None if it has none."""
         return None if self._commands is None else self._commands.topic
 
     # -- commands ------------------------------------------------------------------------------------------------
 
     def command(self, v: float, w: float, vy: float = 0.0) -> None:
-        """Let the robot go ahead and to the side [m/s] and turn to the left [rad/s] until the time-out.
+        """Command the speeds ahead and to the side [m/s] and the turn to the left [rad/s] until the timeout.
 
-        Raises `RosminiError` for no finite number.
+        Raises `RosminiError` for a number that is not finite.
         """
         if not self.powered:
             v = w = vy = 0.0
@@ -160,7 +160,7 @@ class DifferentialDrive(Device):
             self.host.engine.command(self.robot.name, v, w, self.timeout)
 
     def power(self, on: bool) -> None:
-        """Give the motors current, or not: a robot whose motors get none stops, and no command moves it."""
+        """Switch the motors' power: without power the robot stops, and no command moves it."""
         self.powered = on
         if not on:
             self.command(0.0, 0.0)
@@ -189,7 +189,7 @@ class DifferentialDrive(Device):
     # -- odometry ------------------------------------------------------------------------------------------------
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Learn what the encoders show now, and tell it."""
+        """Update the odometry from the encoders and publish it."""
         self._update()
         if self._outlet is not None and self._outlet.heard():
             self._outlet.publish(stamp, odometry_values(*self.reckoned))
@@ -204,7 +204,7 @@ class DifferentialDrive(Device):
             self.reckoned = self._true()
 
     def _turn(self) -> float | None:
-        """How far the robot has turned since the last time as the IMU has it [rad]; None if none is asked."""
+        """Return the robot's rotation since the last call according to the IMU [rad]; None without an IMU."""
         if self._imu is None:
             return None
         before, self._heading = self._heading, self._imu.heading
@@ -217,29 +217,29 @@ class DifferentialDrive(Device):
         return Reckoned(pose, v, vy, w)
 
     def reset(self) -> None:
-        """Begin with an odometry of zero, at the place where the robot is put back to."""
+        """Restart with zero odometry at the robot's start pose."""
         self.odometry = Odometry(self.model)
         self.reckoned = Reckoned((0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
         self._zero = self.robot.start
         self._turn()
 
     def reset_odometry(self) -> None:
-        """Let the odometry be zero here and now, with wheels turned as far as they are: TurtleBot3's topic `reset`."""
+        """Set the odometry to zero here and now, and keep the wheel angles: TurtleBot3's topic `reset`."""
         self._update()
         self.odometry.pose = (0.0, 0.0, 0.0)
         self._zero = self.robot.pose
 
     def state(self) -> Any:
-        """The odometry, and whether the motors have current."""
+        """Return the odometry and the state of the motors."""
         return copy.copy(self.odometry), self.reckoned, self._zero, self.powered, self._heading
 
     def restore(self, state: Any) -> None:
-        """Believe what was believed then."""
+        """Restore what `state` returned."""
         odometry, self.reckoned, self._zero, self.powered, self._heading = state
         self.odometry = copy.copy(odometry)
 
     def close(self) -> None:
-        """End the topics."""
+        """Close the topics."""
         if self._transforms is not None:
             self._transforms.leave(self)
         if self._outlet is not None:
@@ -249,7 +249,7 @@ class DifferentialDrive(Device):
 
 
 class PlanarMove(DifferentialDrive):
-    """A base that goes ahead, to the side and turns as it is told: Gazebo's planar move, Stage's drive "omni".
+    """A base that moves ahead, sideways and turns as commanded: Gazebo's planar move, Stage's drive "omni".
 
     Arguments as for `DifferentialDrive`.
     """
@@ -266,22 +266,22 @@ class PlanarMove(DifferentialDrive):
             self.reckoned = self._true()
 
     def reset(self) -> None:
-        """Begin with an odometry of zero, at the place where the robot is put back to."""
+        """Restart with zero odometry at the robot's start pose."""
         super().reset()
         self._reckoned_from = (0.0, 0.0, 0.0)
 
     def reset_odometry(self) -> None:
-        """Let the odometry be zero here and now."""
+        """Set the odometry to zero here and now."""
         super().reset_odometry()
         if isinstance(self.robot, HolonomicRobot):
             self._reckoned_from = self.robot.reckoned
 
     def state(self) -> Any:
-        """The odometry, and whether the motors have current."""
+        """Return the odometry and the state of the motors."""
         return super().state(), self._reckoned_from
 
     def restore(self, state: Any) -> None:
-        """Believe what was believed then."""
+        """Restore what `state` returned."""
         own, self._reckoned_from = state
         super().restore(own)
 
@@ -307,7 +307,7 @@ class OdometryTransforms(Device):
             self.host.remove(self)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Publish where all are."""
+        """Publish the current transforms."""
         if self._publisher.num_connections():
             made = [make(*stamp, drive.reckoned.pose) for drive, make in self._drives.items()]
             self._publisher.publish_frozen(self._list(transforms=made))
@@ -322,21 +322,21 @@ class OdometryTransforms(Device):
         self._drives = dict(sorted(self._drives.items(), key=lambda item: place[item[0].name]))
 
     def close(self) -> None:
-        """End the topic."""
+        """Close the topic."""
         self._publisher.unregister()
 
 
 class JointStates(Sensor):
-    """`sensor_msgs/JointState` of a drive's two wheels, as far as the encoders show it.
+    """`sensor_msgs/JointState` of a drive's two wheels, as measured by the encoders.
 
     Args:
         host: the simulated world.
-        drive: whose wheels.
+        drive: the drive with the wheels.
         topic: where it is published.
-        joints: the names of the left and of the right wheel's joint.
-        frame: the frame of the header; TurtleBot3's firmware writes base_link, Gazebo's plugin nothing.
-        rate: how often [Hz]; as often as the odometry if not given.
-        name: the device's; robot/joints if not given.
+        joints: the names of the left and right wheel joints.
+        frame: the frame of the header; TurtleBot3's firmware writes base_link, Gazebo's plugin leaves it empty.
+        rate: messages per second [Hz]; the drive's if not given.
+        name: the device's name; robot/joints if not given.
 
     """
 
@@ -365,23 +365,23 @@ class JointStates(Sensor):
         message.name = list(self._joints)
 
     def sample(self, _: int) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return how far the wheels have turned [rad], and how fast they turn [rad/s]."""
+        """Return the angles of the wheels [rad] and their speeds [rad/s]."""
         odometry = self.drive.odometry
         return (odometry.left, odometry.right), (odometry.left_rate, odometry.right_rate)
 
 
 class GroundTruth(Sensor):
-    """`nav_msgs/Odometry` of where a robot really is: Stage's `base_pose_ground_truth`, Gazebo's p3d plugin.
+    """`nav_msgs/Odometry` of a robot's true pose: Stage's `base_pose_ground_truth`, Gazebo's p3d plugin.
 
     Args:
         host: the simulated world.
         robot: the engine's name of the robot.
         topic: where it is published.
         frame: the world's frame.
-        child: the robot's own frame.
-        rate: how often [Hz]; as the robot's model says if not given.
+        child: the robot's frame.
+        rate: messages per second [Hz]; the robot model's if not given.
         covariance: as the messages state it.
-        name: the device's; robot/truth if not given.
+        name: the device's name; robot/truth if not given.
 
     """
 
@@ -412,12 +412,12 @@ class GroundTruth(Sensor):
         describe_odometry(message, *self._fixed)
 
     def sample(self, _: int) -> tuple[float, ...]:
-        """Return where the robot is, and how fast it goes."""
+        """Return the robot's true pose and velocity."""
         return odometry_values(self.robot.pose, *self.robot.velocity)
 
 
 def one_of(what: str, value: str, values: Iterable[str]) -> str:
-    """Return `value`. Raises `RosminiError`, with the nearest, if it is none of `values`."""
+    """Return `value`. Raises `RosminiError`, with the nearest of `values`, if it is not among them."""
     known = tuple(values)
     if value not in known:
         hint = nearest(value, known) or f"it is one of {', '.join(known)}"

@@ -13,23 +13,23 @@ from rosmini.sim.sensors.imu import Imu
 from .sensor import Sensor
 
 ORIENTATION_COVARIANCE, GYRO_COVARIANCE, ACCEL_COVARIANCE = 0.0025, 0.02, 0.04
-"""As TurtleBot3's firmware states them."""
+"""Variances as TurtleBot3's firmware states them."""
 
 STILL = (0.0, 0.0)
 
 
 class ImuDevice(Sensor):
-    """A unit on a robot: its heading counts from where the robot started.
+    """An inertial measurement unit on a robot; its heading counts from the robot's start.
 
     Args:
         host: the simulated world.
         robot: the engine's name of the robot.
-        model: which unit, and where it sits; the one of the robot's model if not given.
+        model: the unit's model and mount; the robot model's if not given.
         topic: where it is published.
-        frame: the frame of the header; the one of the unit's model if not given.
-        rate: how often [Hz]; as the unit's model says if not given.
-        noise: scales the noise and the biases of the unit's model; 0: none.
-        name: the device's; robot/imu if not given.
+        frame: the frame of the header; the unit model's if not given.
+        rate: messages per second [Hz]; the unit model's if not given.
+        noise: scales the noise and the biases of the unit's model; 0: no noise.
+        name: the device's name; robot/imu if not given.
 
     """
 
@@ -84,14 +84,14 @@ class ImuDevice(Sensor):
 
     @property
     def heading(self) -> float:
-        """The robot's heading now [rad, not wrapped], as far as the unit's last sample shows it."""
+        """The robot's heading now [rad, not wrapped], as estimated since the unit's last sample."""
         turned = self.robot.pose[2] - self._heading
         return self._imu.heading(self.host.count(self), turned)
 
     def calibrate(self) -> None:
-        """Take what the gyroscope shows now for its zero: TurtleBot3's topic `reset`. The heading stays."""
+        """Take the gyroscope's current rate as its zero: TurtleBot3's topic `reset`. The heading stays."""
         self._imu.calibrate(self.host.count(self), self.robot.motion().w)
 
     def reset(self) -> None:
-        """Count the heading from where the robot is put back to."""
+        """Count the heading from the robot's start pose again."""
         self._heading = self.robot.start[2]

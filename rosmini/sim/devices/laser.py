@@ -19,18 +19,18 @@ Floats = NDArray[np.float64]
 
 
 class RangeDevice(Sensor):
-    """What publishes the scans of a laser, whichever simulator's it is.
+    """Publishes the scans of a laser, for any of the simulators.
 
     Derive from it: `sample` returns ranges and intensities.
 
     Args:
         host: the simulated world.
         robot: the engine's name of the robot.
-        lidar: which laser, and where it sits.
+        lidar: the laser's model and mount.
         topic: where it is published.
-        frame: the frame of the header; the one of the laser's model if not given.
-        rate: how often [Hz]; as the laser's model says if not given.
-        name: the device's; robot/lidar if not given.
+        frame: the frame of the header; the laser model's if not given.
+        rate: scans per second [Hz]; the laser model's if not given.
+        name: the device's name; robot/lidar if not given.
 
     """
 
@@ -59,25 +59,25 @@ class RangeDevice(Sensor):
             host, robot, topic=topic, frame=frame or lidar.frame, rate=rate or lidar.rate, name=name
         )
         self.pose: Pose = self.robot.pose
-        """Where the robot was when it measured last."""
+        """The robot's pose at the last scan."""
         self.ranges: Floats | None = None
-        """What it measured last, as it was published; None before the first time."""
+        """The last ranges, as published; None before the first scan."""
         self.poses: Floats | None = None
-        """Where it was at each beam of that (beams, 3), if the laser sweeps; else None."""
+        """The robot's pose at each beam of the last scan (beams, 3) if the laser sweeps; otherwise None."""
         self._rng = host.rng(self.name)
         self._last: tuple[Any, ...] = ()
         self.topic: str = self.outlet.publisher.topic
-        """Where it is published, as a global name."""
+        """The topic of the scans, as a global name."""
 
     def describe(self, message: Any) -> None:
-        """Fill in the numbers of the laser."""
+        """Fill in the laser's constants."""
         lidar = self.lidar
         message.angle_min, message.angle_max, message.angle_increment = lidar.message_angles
         message.scan_time = self._scan_time
         message.range_min, message.range_max = lidar.range_min, lidar.range_max
 
     def due(self, stamp: Stamp, number: int, /) -> None:
-        """Measure, note what was measured, and publish it if anybody listens."""
+        """Measure, keep the scan, and publish it if the topic has a subscriber."""
         found = self.sample(number)
         if found is not None:
             ranges, intensities = found
@@ -88,12 +88,12 @@ class RangeDevice(Sensor):
 
     @property
     def seen_from(self) -> Floats:
-        """Where the robot was at each beam of the last scan (beams, 3); (1, 3) if all were measured at once."""
+        """The robot's pose at each beam of the last scan (beams, 3); (1, 3) if all were measured at once."""
         return np.array([self.pose]) if self.poses is None else self.poses
 
     @property
     def message(self) -> Any:
-        """A copy of the last message, whether anybody heard it or not; None before the first."""
+        """A copy of the last message, whether or not it was published; None before the first."""
         return self.outlet.make(*self._last) if self._last else None
 
 
@@ -103,16 +103,16 @@ class Laser(RangeDevice):
     Args:
         host: the simulated world.
         robot: the engine's name of the robot.
-        lidar: which laser, and where it sits; the one of the robot's model if not given.
+        lidar: the laser's model and mount; the robot model's if not given.
         topic: where it is published.
-        frame: the frame of the header; the one of the laser's model if not given.
-        rate: how often [Hz]; as the laser's model says if not given.
-        noise: scales the noise of the laser's model; 0: none.
-        rep_117: publish inf for what is too far and -inf for what is too near; else 0.0, as a real LDS-01 does.
-        measures: measure even if nobody listens, so that `ranges` is up to date.
-        sweep: measure one beam after the other, as a laser that spins does, each from where the robot is then; see
+        frame: the frame of the header; the laser model's if not given.
+        rate: scans per second [Hz]; the laser model's if not given.
+        noise: scales the noise of the laser's model; 0: no noise.
+        rep_117: publish inf for ranges that are too far and -inf for too near; otherwise 0.0, as a real LDS-01 does.
+        measures: measure even without subscribers, so that `ranges` is up to date.
+        sweep: measure one beam after another, as a spinning laser does, each from the robot's pose at its time; see
             `rosmini.sim.sensors.lidar`.
-        name: the device's; robot/lidar if not given.
+        name: the device's name; robot/lidar if not given.
 
     """
 
@@ -144,13 +144,13 @@ class Laser(RangeDevice):
             raycast.expect(lidar.beams * (rate or lidar.rate))
 
     def describe(self, message: Any) -> None:
-        """Fill in the numbers of the laser."""
+        """Fill in the laser's constants."""
         super().describe(message)
         # the stamp of a sweep is the time of the first beam in the message, which is measured last
         message.time_increment = 0.0 - self._beam_time
 
     def sample(self, _: int) -> tuple[Floats, tuple[()]] | None:
-        """Return the ranges. Noise is drawn even if nobody listens, so that it does not depend on who does."""
+        """Return the ranges. Noise is drawn even without subscribers, so that it does not depend on them."""
         noise = None
         if self._deviation:
             noise = self._rng.standard_normal(self.lidar.beams) * self._deviation

@@ -1,10 +1,10 @@
-"""Topics in a namespace, and frames with a prefix."""
+"""Names of topics in a namespace and of frames with a prefix."""
 
 from __future__ import annotations
 
 
 def within(namespace: str, topic: str) -> str:
-    """Return a topic in a namespace; one that begins with a slash stays as it is.
+    """Return a topic's name in a namespace; a name that begins with a slash is unchanged.
 
     >>> within("tb3_0", "odom"), within("", "odom"), within("/tb3_0/", "odom"), within("tb3_0", "/tf")
     ('tb3_0/odom', 'odom', '/tb3_0/odom', '/tf')
@@ -15,7 +15,7 @@ def within(namespace: str, topic: str) -> str:
 
 
 def prefixed(prefix: str, frame: str) -> str:
-    """Return a frame with a tf_prefix. No frame begins with a slash (tf2), and one that did gets no prefix.
+    """Return a frame's name with a tf_prefix. tf2 allows no leading slash: it is removed, and no prefix is added.
 
     See http://wiki.ros.org/geometry/CoordinateFrameConventions.
 

@@ -1,4 +1,4 @@
-"""Where the things are that do not stay where they are: what robots push, walkers, doors."""
+"""Poses of the objects that move: those that robots push, walkers and doors."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from rosmini.sim.messages import MAP
 
 
 class ObstacleMarkers(Device):
-    """`visualization_msgs/MarkerArray` of all that moves: a marker for each simple part, its namespace the name.
+    """`visualization_msgs/MarkerArray` of all moving objects: one marker per simple part, with the object's name as ns.
 
     Args:
-        host: where it happens.
+        host: the simulated world.
         topic: where it is published.
         frame: the world's frame.
-        rate: how often [Hz].
-        name: the device's.
+        rate: messages per second [Hz].
+        name: the device's name.
 
     """
 
@@ -40,16 +40,16 @@ class ObstacleMarkers(Device):
         self._markers = Markers(frame)
 
     def wanted(self) -> bool:
-        """Tell whether anybody listens."""
+        """Return True if the topic has a subscriber."""
         return self._publisher.num_connections() > 0
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Say where they are, and which have gone."""
+        """Publish the poses, and deletions of the objects that are gone."""
         self._publisher.publish(self._message(stamp))
 
     def _message(self, stamp: Stamp) -> Any:
         return self._markers.message(self.host.engine.obstacles(), stamp)
 
     def close(self) -> None:
-        """End the topic."""
+        """Close the topic."""
         self._publisher.unregister()

@@ -1,4 +1,4 @@
-"""What all sensors share. A new sensor is one class in one file, see `Sensor`."""
+"""Common parts of all sensors. A new sensor is one class in one file, see `Sensor`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ STAMP = ("header.stamp.secs", "header.stamp.nsecs")
 class Outlet:
     """A topic of a device.
 
-    Its messages are all like `message`, as it is now, but for the stamp and the fields `varying`. A message without a
+    All messages equal `message` as it was at first, except for the stamp and the fields `varying`. A message without
     header has no stamp.
     """
 
@@ -28,26 +28,26 @@ class Outlet:
     ) -> None:
         self.publisher = node.publisher(topic, type(message), queue_size=queue_size)
         self.heard = self.publisher.num_connections
-        """Returns how many listen."""
+        """Returns the number of subscribers."""
         self._stamped = bool(message._has_header)
         self.make = template(message, *(STAMP if self._stamped else ()), *varying)
-        """Makes a message from the seconds and nanoseconds of its stamp, and the values of the varying fields."""
+        """Makes a message from the seconds and nanoseconds of its stamp and the values of the varying fields."""
 
     def publish(self, stamp: Stamp, values: Sequence[Any] = ()) -> None:
         """Publish a message with the values of the varying fields."""
         self.publisher.publish_frozen(self.make(*stamp, *values) if self._stamped else self.make(*values))
 
     def close(self) -> None:
-        """End the topic."""
+        """Close the topic."""
         self.publisher.unregister()
 
 
 class Sensor(Device):
-    """Something on a robot that measures, and publishes what it measures. Derive from it to make a new one.
+    """A device that measures and publishes its samples. Derive from it to make a new one.
 
-    The class declares the message, the topic, the rate, and its place among devices that are due at the same instant;
-    `describe` fills in what is the same in all messages, and `sample` returns what is not. A robot of the simulator
-    gets it by `simulator.robot().add(Odometer)`.
+    The class declares the message, the topic, the rate, and its order among devices that are due at the same instant;
+    `describe` fills in the fields that never change, and `sample` returns those that do. Add it to a simulated robot
+    with `simulator.robot().add(Odometer)`.
 
     >>> class Odometer(Sensor):
     ...     message_type = "std_msgs/Float64"
@@ -60,11 +60,11 @@ class Sensor(Device):
 
     Args:
         host: the simulated world.
-        robot: the engine's name of the robot; None for a sensor that measures something else.
+        robot: the engine's name of the robot; None for a sensor that does not measure a robot.
         topic: where it is published; `default_topic` if not given.
         frame: the frame of the header; `default_frame` if not given.
         rate: samples a second [Hz]; `default_rate` if not given.
-        name: under which it is saved and draws its noise; robot/`label` if not given.
+        name: the name for saved states and for the random generator; robot/`label` if not given.
 
     """
 
@@ -74,9 +74,9 @@ class Sensor(Device):
     default_rate: ClassVar[float]
     default_frame: ClassVar[str] = ""
     label: ClassVar[str] = ""
-    """What its name ends with; the default topic if empty."""
+    """End of its name; the default topic if empty."""
     varying: ClassVar[tuple[str, ...]] = ()
-    """The fields that `sample` returns the values of."""
+    """The fields whose values `sample` returns."""
     queue_size: ClassVar[int] = 10
 
     def __init__(
@@ -102,17 +102,17 @@ class Sensor(Device):
         self.outlet = Outlet(host.node, topic, message, self.varying, queue_size=self.queue_size)
 
     def describe(self, message: Any) -> None:
-        """Fill in what is the same in all messages. Called once, when the sensor is made."""
+        """Fill in the fields that are the same in all messages; called once, on creation."""
 
     @abstractmethod
     def sample(self, number: int) -> Sequence[Any] | None:
         """Return the values of the `varying` fields in the sample of this number, counted from 1.
 
-        None for no sample.
+        Return None for no sample.
         """
 
     def wanted(self) -> bool:
-        """Return whether anybody listens; if not, no sample is taken."""
+        """Return True if the topic has a subscriber; otherwise no sample is taken."""
         return self.outlet.heard() > 0
 
     def due(self, stamp: Stamp, number: int, /) -> None:
@@ -122,5 +122,5 @@ class Sensor(Device):
             self.outlet.publish(stamp, values)
 
     def close(self) -> None:
-        """End the topic."""
+        """Close the topic."""
         self.outlet.close()

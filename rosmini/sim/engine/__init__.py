@@ -1,4 +1,4 @@
-"""The engine: what moves, touches and pushes, with no node in it."""
+"""The engine: motion, contacts and pushing, without a node."""
 
 from .engine import Engine, RobotGone
 

@@ -1,4 +1,4 @@
-"""Bodies: what robots and things are made of where they can touch one another."""
+"""Bodies: the geometry and mass of robots and obstacles, for contacts."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Velocity = tuple[float, float, float]
 AT_REST: Velocity = (0.0, 0.0, 0.0)
 
 GRIP = 0.7
-"""Friction of rubber wheels on the ground. This and the next two are typical; none is published for the robot."""
+"""Friction of rubber wheels on the ground. This and the next two are typical values; the robot's are not published."""
 
 DRAG = 0.5
 """Friction of a movable obstacle on the ground."""
@@ -39,7 +39,7 @@ FRICTION = 0.3
 
 @dataclass(frozen=True)
 class Surface:
-    """How things rub: coefficients of friction, and the gravity [m/s2] that presses them to the ground."""
+    """Coefficients of friction, and the gravity [m/s2] that presses bodies to the ground."""
 
     grip: float = GRIP
     drag: float = DRAG
@@ -48,14 +48,14 @@ class Surface:
 
 
 class Piece(NamedTuple):
-    """A convex outline (k, 2), counter-clockwise, and a radius: a wall has two corners, a disc one."""
+    """A convex outline (k, 2), counter-clockwise, with a radius: a wall has two corners, a disc one."""
 
     corners: Floats
     radius: float
 
 
 def pieces_of(shape: Shape, pose: Pose = (0.0, 0.0, 0.0)) -> list[Piece]:
-    """The convex pieces of a shape at a pose."""
+    """Return the convex pieces of a shape at a pose."""
     found: list[Piece] = []
     for part, place in simple_parts(shape, pose):
         if isinstance(part, ROUND):
@@ -66,7 +66,7 @@ def pieces_of(shape: Shape, pose: Pose = (0.0, 0.0, 0.0)) -> list[Piece]:
 
 
 class Mass(NamedTuple):
-    """How heavy a body is [kg], its moment of inertia about its centre of mass [kg m2], and where that is [m]."""
+    """A body's mass [kg], its moment of inertia about its centre of mass [kg m2], and the centre's position [m]."""
 
     mass: float
     inertia: float
@@ -75,8 +75,8 @@ class Mass(NamedTuple):
 
 
 def spread(pieces: Sequence[Piece], mass: float) -> Mass:
-    """The inertia and the centre of a mass that is spread evenly over convex pieces."""
-    parts = []  # of each piece the area, its centre, and the second moment of the area about that
+    """Return the moment of inertia and centre of a mass spread evenly over convex pieces."""
+    parts = []  # for each piece: its area, its centre, and the second moment of the area about the centre
     for corners, radius in pieces:
         if len(corners) == 1:
             size = math.pi * radius**2
@@ -97,33 +97,33 @@ def spread(pieces: Sequence[Piece], mass: float) -> Mass:
 
 
 class Crate:
-    """A thing that can be pushed; or, without a mass, one that stays where it is put."""
+    """An obstacle that can be pushed, or, if it has no mass, one that stays where it is put."""
 
     def __init__(self, obstacle: Obstacle, instant: Instant, *, shown: bool = True) -> None:
         self.obstacle = obstacle
         self.shown = shown
-        """Told among the obstacles; False: it is the body of a robot model without a drive."""
+        """True if it is listed among the obstacles; False: it is the body of a robot model without a drive."""
         self.reach = reach_of(obstacle.shape)
         self._instant = instant
         self.put(obstacle.pose)
 
     def put(self, pose: Pose, velocity: Velocity = AT_REST) -> None:
-        """Be there now with this velocity of the origin, and go on evenly to the end of the step."""
+        """Set the pose and the velocity of the origin, and extrapolate to the end of the step."""
         now = self._instant.ns
         self._begin_ns, self._end_ns = now, -(-now // STEP_NS) * STEP_NS
         (x, y, theta), (vx, vy, w), dt = pose, velocity, (self._end_ns - now) / SECOND
         self._begin, self._end = pose, (x + vx * dt, y + vy * dt, theta + w * dt)
         self.velocity = velocity
-        """How fast its origin moves, and how it turns, at the end of the last step."""
+        """Velocity of its origin and its rate of turn at the end of the last step."""
 
     def carry(self, begin_ns: int, end_ns: int, end: Pose, velocity: Velocity) -> None:
-        """Go there straight within a step, and have this velocity then."""
+        """Move straight to a pose within a step, and have this velocity at its end."""
         self._begin_ns, self._begin, self._end_ns, self._end = begin_ns, self.pose, end_ns, end
         self.velocity = velocity
 
     @property
     def pose(self) -> Pose:
-        """Where it is now."""
+        """Its current pose."""
         ns = self._instant.ns
         if ns >= self._end_ns:
             return self._end
@@ -131,56 +131,56 @@ class Crate:
 
     @property
     def sliding(self) -> bool:
-        """Whether it moves."""
+        """True if it moves."""
         return self.velocity != AT_REST
 
     def state(self) -> tuple[Any, ...]:
-        """Where it is and how it moves."""
+        """Return its pose and motion."""
         return (self._begin_ns, self._begin, self._end_ns, self._end, self.velocity)
 
     def restore(self, state: tuple[Any, ...]) -> None:
-        """Be as it was then."""
+        """Restore what `state` returned."""
         self._begin_ns, self._begin, self._end_ns, self._end, self.velocity = state
 
 
 @dataclass(eq=False)
 class Body:
-    """Something that is not fixed, as contacts see it."""
+    """A body that is not fixed, for the contact computations."""
 
     name: str
     kind: float
     owner: Placed
-    """What knows where it is."""
+    """The object that knows its pose."""
     pieces: list[Piece]
     bottom: float
     top: float
     mass: Mass
     reach: float
-    """How far the farthest point is from its origin [m]."""
+    """Distance of the farthest point from its origin [m]."""
     restitution: float = 0.0
     rubs: tuple[float | None, float, float] = (None, 0.0, 0.0)
     """Ground friction coefficient (None: the surface's), the load on it [kg], and the lever arm [m]."""
     around: Any = field(default=None, repr=False)
-    """What is fixed around it: for `rosmini.sim.engine.contacts`."""
+    """The fixed outlines near it; used by `rosmini.sim.engine.contacts`."""
 
     def words(self) -> str:
-        """What it is, in words that fit into a sentence."""
+        """Return a description that fits into a sentence."""
         return f"the {'robot' if self.kind == ROBOT else 'obstacle'} {self.name!r}"
 
     def meets(self, bottom: float, top: float) -> bool:
-        """Whether something from `bottom` to `top` can bump into it, or passes over or under it."""
+        """Return True if something from `bottom` to `top` can hit it; False if it passes over or under it."""
         return self.bottom <= top and bottom <= self.top
 
     @cached_property
     def _circle(self) -> tuple[float, float, float]:
-        """The centre and the radius of a circle around its pieces, in its own frame."""
+        """Centre and radius of a circle around its pieces, in its own frame."""
         corners = np.vstack([piece.corners for piece in self.pieces])
         x, y = ((corners.min(axis=0) + corners.max(axis=0)) / 2).tolist()
         farthest = float(np.hypot(corners[:, 0] - x, corners[:, 1] - y).max())
         return x, y, farthest + max(piece.radius for piece in self.pieces)
 
     def row(self, surface: Surface) -> tuple[float, ...]:
-        """Its properties as `rosmini.sim.engine.kernels` wants them."""
+        """Return its properties in the order of `rosmini.sim.engine.kernels`."""
         x, y, girth = self._circle
         drag, load, lever = self.rubs
         default = surface.grip if self.kind == ROBOT else surface.drag
@@ -193,7 +193,7 @@ class Body:
 
 
 def body_of_robot(name: str, model: RobotModel, owner: Placed) -> Body:
-    """The body of a robot with a drive."""
+    """Return the body of a robot with a drive."""
     lever = model.wheel_separation / 2 if model.drive == "differential" else model.reach / 2
     pieces = [Piece(np.array(model.footprint, dtype=float), 0.0)]
     mass = Mass(model.mass, model.inertia)
@@ -202,16 +202,16 @@ def body_of_robot(name: str, model: RobotModel, owner: Placed) -> Body:
 
 
 def body_of_crate(crate: Crate) -> Body:
-    """The body of a thing that can be pushed, or put elsewhere."""
+    """Return the body of an obstacle that can be pushed or put elsewhere."""
     obstacle = crate.obstacle
     if obstacle.mass is None:
         return body_of_leaf(obstacle, crate)
     pieces = pieces_of(obstacle.shape)
     mass = spread(pieces, obstacle.mass)
-    # the lever of friction that is spread over a disc of this size is two thirds of its radius
+    # friction spread evenly over a disc of this area has a lever of two thirds of its radius
     size = sum(math.pi * p.radius**2 if len(p.corners) == 1 else area(p.corners) for p in pieces)
     radius = math.sqrt(size / math.pi)
-    if isinstance(obstacle.shape, Compound):  # that of the disc with the same moment of inertia, m r^2 / 2
+    if isinstance(obstacle.shape, Compound):  # use the disc with the same moment of inertia, m r^2 / 2
         radius = math.sqrt(2 * mass.inertia / mass.mass)
     rubs = (obstacle.drag, obstacle.mass, 2 / 3 * radius)
     return Body(
@@ -221,7 +221,7 @@ def body_of_crate(crate: Crate) -> Body:
 
 
 def body_of_leaf(obstacle: Obstacle, owner: Placed) -> Body:
-    """The body of a thing that nobody pushes, but that is not fixed."""
+    """Return the body of an obstacle that cannot be pushed but is not fixed."""
     reach, mass = reach_of(obstacle.shape), Mass(1.0, 1.0)
     return Body(
         obstacle.name, LEAF, owner, pieces_of(obstacle.shape), obstacle.bottom, obstacle.height, mass, reach

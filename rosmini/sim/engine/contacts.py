@@ -1,4 +1,4 @@
-"""What is where, and what is in whose way: all bodies of a world, and its ground."""
+"""All bodies of a world and its ground: overlaps, contacts and neighbours."""
 
 from __future__ import annotations
 
@@ -32,32 +32,32 @@ from .robot import Robot
 from .scene import Loops, Near, contact_points
 
 OVERLAP = 1e-4
-"""By so much [m] a robot may be put into something, for want of digits."""
+"""Overlap [m] that is ignored when a robot is placed, because of rounding."""
 
 FEEL = 1e-4
-"""What is so near [m] touches."""
+"""Maximum distance at which two bodies touch [m]."""
 
 NEARER = 1e-6
-"""What passes something at an even distance comes no nearer to it but by rounding [m]."""
+"""Approach [m] that counts as rounding: a body passing at a constant distance comes no nearer than this."""
 
 
 class Touch(NamedTuple):
-    """One place where something touches another."""
+    """One contact point between two objects."""
 
     other: str
-    """The name of the other: a robot's or an obstacle's; "wall" for a wall."""
+    """The name of the other object: a robot or an obstacle; "wall" for a wall."""
     x: float
-    """Where, in the frame map [m]."""
+    """The contact point, in the frame map [m]."""
     y: float
     nx: float
-    """The direction of the push: from the other into what was asked for, of length 1."""
+    """Direction of the push, of length 1: from the other object into the one asked about."""
     ny: float
     force: float
-    """How hard the other pushes here along that direction [N], averaged over the last step; friction is not counted."""
+    """Force of the other object along that direction [N], averaged over the last step, without friction."""
 
 
 class Contacts:
-    """The bodies of one world; robots and things come and go by name."""
+    """The bodies of one world; robots and obstacles are added and removed by name."""
 
     def __init__(self, instant: Instant) -> None:
         self.surface = Surface()
@@ -65,38 +65,38 @@ class Contacts:
         self.ground = Ground(World("void"))
         self.bodies: dict[str, Body] = {}
         self.loose: dict[str, Crate] = {}
-        """What can be pushed, or put elsewhere, but has no drive and does not move by itself."""
+        """Obstacles that can be pushed or put elsewhere; they have no drive and do not move by themselves."""
         self._loops = Loops()
         self._cells = Cells()
         self._roaming: dict[str, Body] = {}
-        """What goes where nobody tells the cells."""
+        """Bodies that move without an update of the cells."""
         self.forces: tuple[float, list[tuple[str, str, float]]] = (-1.0, [])
-        """Until when [ns] which bodies push which others how hard [N]."""
+        """Time until which they apply [ns], and for each pair of bodies the force between them [N]."""
 
     # -- what comes and goes -------------------------------------------------------------------------------------
 
     def add_robot(self, robot: Robot) -> None:
-        """Take in the body of a robot with a drive."""
+        """Add the body of a robot with a drive."""
         self._roaming[robot.name] = self.bodies[robot.name] = body_of_robot(robot.name, robot.model, robot)
 
     def add_mover(self, mover: Mover) -> None:
-        """Take in the body of something that moves by itself."""
+        """Add the body of an obstacle that moves by itself."""
         name = mover.obstacle.name
         self._roaming[name] = self.bodies[name] = body_of_leaf(mover.obstacle, mover)
 
     def add_crate(self, crate: Crate) -> None:
-        """Take in the body of a thing that can be pushed, or put elsewhere."""
+        """Add the body of an obstacle that can be pushed or put elsewhere."""
         name = crate.obstacle.name
         self.loose[name], self.bodies[name] = crate, body_of_crate(crate)
         self.settle(crate)
 
     def settle(self, crate: Crate) -> None:
-        """Note where a thing is now, or gets to in this step."""
+        """Update the cells with the pose of an obstacle now or at the end of this step."""
         (x, y, _), r = crate.pose, crate.reach + 0.1
         self._cells.put(crate.obstacle.name, (x - r, y - r, x + r, y + r))
 
     def remove(self, name: str) -> None:
-        """Take a body, or a fixed obstacle, away."""
+        """Remove a body or a fixed obstacle."""
         self.bodies.pop(name, None)
         self._roaming.pop(name, None)
         self.loose.pop(name, None)
@@ -104,7 +104,7 @@ class Contacts:
         self.ground.remove(name)
 
     def clear(self) -> None:
-        """Take all bodies away, and leave the ground."""
+        """Remove all bodies and keep the ground."""
         self.bodies.clear()
         self._roaming.clear()
         self.loose.clear()
@@ -112,13 +112,13 @@ class Contacts:
 
     @property
     def crates(self) -> list[Crate]:
-        """All things that can be pushed."""
+        """All obstacles that can be pushed."""
         return [crate for crate in self.loose.values() if crate.obstacle.movable]
 
     # -- who is near ---------------------------------------------------------------------------------------------
 
     def near(self, x: float, y: float, reach: float) -> Iterator[Body]:
-        """The bodies whose circles come so near [m] to a place."""
+        """Yield the bodies whose circles are within `reach` [m] of a position."""
         for name in self._cells.near(x, y, reach):
             yield from self._if_near(self.bodies[name], x, y, reach)
         for body in self._roaming.values():
@@ -130,7 +130,7 @@ class Contacts:
         return (body,) if math.hypot(px - x, py - y) <= reach + body.reach else ()
 
     def around(self, bodies: Iterable[Body], reach: float) -> list[Body]:
-        """The bodies whose circles come so near [m] to those of any of some."""
+        """Return the bodies whose circles are within `reach` [m] of the circle of any of the given bodies."""
         places = [(*body.owner.pose[:2], body.reach) for body in bodies]
         found: dict[Body, None] = {}
         if self._cells:
@@ -147,7 +147,7 @@ class Contacts:
         return list(found)
 
     def scene(self, bodies: Iterable[Body], margin: float) -> Near:
-        """Tables of bodies that go no farther than `margin` [m] before it is asked again."""
+        """Return tables of bodies that move at most `margin` [m] before the next call."""
         ordered = sorted(bodies, key=lambda body: body.name)
         return Near(
             ordered, [body.owner.pose for body in ordered], self.ground, self.surface, margin, self._loops
@@ -156,19 +156,19 @@ class Contacts:
     # -- what is in the way --------------------------------------------------------------------------------------
 
     def hindrance(self, model: RobotModel, pose: Pose, ignoring: str = "") -> str | None:
-        """Return what a robot of this model overlaps at `pose` that is not fixed, in words; None if it has room."""
+        """Describe a body that a robot of this model would overlap at `pose`; None if there is room."""
         pieces = [Piece(np.array(model.footprint, dtype=float), 0.0)]
         return next(self._in_the_way(pieces, pose, ignoring, 0.0, model.height, model.reach), None)
 
     def hindrance_of(self, obstacle: Obstacle, pose: Pose) -> str | None:
-        """The same of a thing; fixed things and walls do not count."""
+        """Describe a body, not fixed, that an obstacle would overlap at `pose`; None if there is room."""
         pieces, reach = pieces_of(obstacle.shape), self.reach_of(obstacle)
         bottom, top = obstacle.bottom, obstacle.height
         return next(self._in_the_way(pieces, pose, obstacle.name, bottom, top, reach), None)
 
     @staticmethod
     def reach_of(obstacle: Obstacle) -> float:
-        """How far the farthest point of an obstacle is from its origin [m]."""
+        """Return the distance of an obstacle's farthest point from its origin [m]."""
         return Crate(obstacle, Instant()).reach
 
     def _in_the_way(
@@ -183,7 +183,7 @@ class Contacts:
                     yield body.words()
 
     def stuck(self, name: str, pose: Pose, keep: float) -> bool:
-        """Whether a mover at `pose` would be nearer to something that can give way than now, and nearer than `keep`."""
+        """Return True if a mover at `pose` would be nearer to a body that is not fixed than now and than `keep`."""
         body = self.bodies[name]
         now, then = body.owner.pose, pose
         for other in self.near(pose[0], pose[1], body.reach + keep + math.dist(now[:2], then[:2])):
@@ -199,7 +199,7 @@ class Contacts:
     # -- what touches --------------------------------------------------------------------------------------------
 
     def touches(self, name: str) -> list[Touch]:
-        """What a robot or a thing touches now, and where; with the force of the last step."""
+        """Return the current contacts of a robot or an obstacle, with the forces of the last step."""
         body = self.bodies[name]
         pose = body.owner.pose
         placed = [_at(piece, pose) for piece in body.pieces]
@@ -225,7 +225,7 @@ class Contacts:
         return found
 
     def _force(self, body: Body, other: str, mate: Body | None, normal: tuple[float, float]) -> float:
-        """How hard the other pushes a body along a normal [N]."""
+        """Return the force of the other object on a body along a normal [N]."""
         until, forces = self.forces
         if body.kind == ROBOT and (mate is None or mate.name not in self.loose):
             nx, ny = normal
@@ -236,16 +236,16 @@ class Contacts:
         return sum(force for one, two, force in forces if {one, two} == {body.name, other})
 
     def tune(self, surface: Surface) -> None:
-        """Let things rub otherwise from now on."""
+        """Use other friction coefficients and gravity from now on."""
         self.surface = surface
 
     def obstacles(self) -> tuple[Obstacle, ...]:
-        """The movable obstacles where they are now."""
+        """Return the movable obstacles at their current poses."""
         return tuple(replace(crate.obstacle, pose=crate.pose) for crate in self.crates if crate.shown)
 
 
 def _pressed(body: Body, nx: float, ny: float, surface: Surface) -> float:
-    """How hard slipping wheels press a robot against an obstacle: the part of Coulomb's mu m g along the normal."""
+    """Return the force of slipping wheels against an obstacle: the part of Coulomb's mu m g along the normal."""
     if not isinstance(body.owner, Robot):
         return 0.0
     sx, sy = body.owner.slip
@@ -265,7 +265,7 @@ def _contact(a: Piece, b: Piece, least: float) -> Contact:
 
 
 def _overlap(one: list[Piece], other: list[Piece], around: float = 0.0) -> float:
-    """How deep the deepest of some pieces, and what is `around` them, reach into others [m]; 0 if they do not."""
+    """Return the deepest overlap of two sets of pieces [m], the first grown by `around`; 0 without an overlap."""
     hits = (_contact(a, b, -around) for a in one for b in other)
     deep = (max(hit[3], hit[6]) if hit[0] == 2 else hit[3] for hit in hits if hit[0])
     return max((each + around for each in deep), default=0.0)

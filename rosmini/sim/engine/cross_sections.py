@@ -1,6 +1,6 @@
-"""Cross-sections of obstacles and robots at one height: what a laser there can hit.
+"""Cross-sections of obstacles and robots at one height, for lasers mounted there.
 
-Straight edges are segments (n, 4), round shapes discs (m, 3), as `rosmini.core.geometry.raycast` takes them.
+Straight edges are segments (n, 4), round shapes discs (m, 3), as expected by `rosmini.core.geometry.raycast`.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def _placed(shape: Box | Polygon, pose: Pose) -> Floats:
 def obstacle_section(obstacle: Obstacle, height: float, pose: Pose | None = None) -> CrossSection:
     """Return the cross-section of an obstacle at `height` [m] above the ground, at `pose` or where it is.
 
-    An obstacle that lasers do not see has none.
+    An obstacle that lasers cannot see has an empty one.
     """
     if not obstacle.seen_by_lasers or not obstacle.bottom <= height <= obstacle.height:
         return NOTHING

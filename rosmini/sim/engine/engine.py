@@ -1,4 +1,4 @@
-"""The engine: robots, movable obstacles and time, with no node in it.
+"""The engine: robots, movable obstacles and time, without a node.
 
 >>> import numpy as np
 >>> from rosmini.sim.models import BURGER
@@ -10,8 +10,8 @@
 >>> round(robot.pose[0], 9)
 0.2
 
-What touches nothing moves in closed form; contacts are decided on one fixed grid of time. To ask where
-something is, to scan, to take a state and to bring one back changes nothing of what happens: see
+Bodies without contacts move in closed form; contacts are resolved on one fixed grid of time. Queries, scans, and
+saving and restoring a state do not change the simulation: see
 `rosmini.sim.engine.stepper`.
 """
 
@@ -48,20 +48,20 @@ from .sweep import Sweeps
 Floats = NDArray[np.float64]
 
 PLAY = 0.999
-"""A footprint shrinks by this factor when a free place is looked for: by 0.1 mm on each side of a Burger."""
+"""Factor by which a footprint shrinks when searching for a free place: 0.1 mm on each side of a Burger."""
 
 __all__ = ["STEP", "Engine", "EngineState", "RobotGone"]
 
 
 class RobotGone(RosminiError):
-    """A robot was asked for that is not, or no longer, in the world."""
+    """No robot or obstacle of this name is in the world, or it has been removed."""
 
 
 class Engine:
-    """A world with robots in it. Times are seconds since the engine was made.
+    """A world with robots in it. Times are in seconds since the engine was created.
 
-    `rng(name)` returns the random generator of that name; `noise` scales the robots' errors (0: none).
-    `world` has all obstacles where they were inserted; `obstacles` returns where those are now that can move.
+    `rng(name)` returns the random generator of that name; `noise` scales the robots' errors (0: no errors).
+    `world` has all obstacles at their initial poses; `obstacles` returns the movable ones at their current poses.
     """
 
     def __init__(
@@ -73,11 +73,11 @@ class Engine:
         self.robots = self._all.robots
         """All robots, by name."""
         self.movers = self._all.movers
-        """The things that move by themselves."""
+        """Obstacles that move by themselves."""
         self.contacts = self._all.contacts
-        """The bodies."""
+        """The bodies of all robots and obstacles."""
         self.trails = self._all.trails
-        """Where all were lately."""
+        """Recent poses of all bodies."""
         self._stepper = Stepper(self._all)
         self._begin(world)
         self._sweeps = Sweeps(self._all, self.scan)
@@ -87,7 +87,7 @@ class Engine:
         self._stepper.invalidate_clearance()
 
     def _begin(self, world: World) -> None:
-        """Be in a world in which there is nothing yet but what is fixed."""
+        """Load a world with only its fixed obstacles."""
         self._world: World | None = world
         self._plain = world
         self._obstacles = {obstacle.name: obstacle for obstacle in world.obstacles}
@@ -106,25 +106,25 @@ class Engine:
 
     @property
     def now(self) -> float:
-        """The time [s] since the engine was made."""
+        """The time [s] since the engine was created."""
         return self._all.now
 
     @property
     def laser_view(self) -> LaserView:
-        """What lasers see."""
+        """The cross-sections that lasers see."""
         return self._all.laser_view
 
     @property
     def changed(self) -> int:
-        """How often something came, went, or was put elsewhere."""
+        """Number of times a body was added, removed or put elsewhere."""
         return self._all.changed
 
     # -- robots --------------------------------------------------------------------------------------------------
 
     def add(self, name: str, model: RobotModel, pose: Pose | None = None) -> Robot:
-        """Put a robot into the world; without a pose at the first start that is free.
+        """Add a robot; without a pose at the first free start of the world.
 
-        Raises `WorldError`, which names what stands there, and `RosminiError` if the name is taken.
+        Raises `WorldError`, which names the obstacle in the way, and `RosminiError` if the name is taken.
         """
         self._check_name(name)
         where = self._start(model) if pose is None else self._free(model, pose)
@@ -143,7 +143,7 @@ class Engine:
         return new
 
     def _changed(self, pose: Pose, reach: float) -> None:
-        """Invalidate the clearance of what may reach what came, or went, or was put there."""
+        """Invalidate the clearances near a body that was added, removed or put elsewhere."""
         self._all.changed += 1
         self._stepper.lift(self.contacts.near(pose[0], pose[1], reach + VIEW))
 
@@ -160,7 +160,7 @@ class Engine:
         )
 
     def remove(self, name: str) -> None:
-        """Take a robot out of the world, even while it moves. Raises `RobotGone`."""
+        """Remove a robot, even while it moves. Raises `RobotGone`."""
         gone = self.robot(name)
         del self.robots[name]
         self.trails.forget(name)
@@ -169,7 +169,7 @@ class Engine:
         self._changed(gone.pose, gone.model.reach)
 
     def robot(self, name: str) -> Robot:
-        """Return the robot of this name. Raises `RobotGone`, with the names of those that are there."""
+        """Return the robot of this name. Raises `RobotGone`, with the names of the existing robots."""
         if name not in self.robots:
             there, hint = ", ".join(self.robots) or "none", nearest(name, self.robots)
             msg = f"there is no robot {name!r} in the world {self.world.name!r} (robots: {there}). {hint}"
@@ -177,7 +177,7 @@ class Engine:
         return self.robots[name]
 
     def place(self, name: str, pose: Pose) -> None:
-        """Lift a robot and put it down elsewhere, at rest; its wheels do not notice.
+        """Lift a robot and put it down elsewhere, at rest; its encoders do not change.
 
         Raises `WorldError` and `RobotGone`.
         """
@@ -187,9 +187,9 @@ class Engine:
     def put(self, name: str, pose: Pose, velocity: Velocity = (0.0, 0.0, 0.0)) -> None:
         """Lift a robot or an obstacle and put it down elsewhere, with a velocity in the frame map [m/s, m/s, rad/s].
 
-        A robot is told to stop by that; it slows down as its drive can, and of a velocity to its side one with two
-        wheels takes nothing. What cannot be pushed takes no velocity. Raises `WorldError` if something stands there, or
-        for what moves by itself; `RobotGone` if there is no such thing.
+        The robot's command becomes zero, so it slows down as its drive allows. A robot on two wheels ignores a sideways
+        velocity, a fixed obstacle any velocity. Raises `WorldError` if something is in the way or the obstacle moves by
+        itself, and `RobotGone` for an unknown name.
         """
         if not all(math.isfinite(part) for part in (*pose, *velocity)):
             msg = f"{name!r} cannot be placed at {pose} with the velocity {velocity}: all numbers have to be finite"
@@ -232,7 +232,7 @@ class Engine:
             self._insert(replace(obstacle, pose=pose))
 
     def reset(self) -> None:
-        """Put every robot and every obstacle back to where it began, with encoders at zero."""
+        """Return every robot and obstacle to its initial pose, with encoders at zero."""
         self.trails.clear()
         for crate in self.contacts.loose.values():
             self._put_loose(crate.obstacle.name, crate.obstacle.pose)
@@ -248,8 +248,8 @@ class Engine:
     def command(self, name: str, v: float, w: float, timeout: float = 0.0, *, vy: float = 0.0) -> None:
         """Command a robot's wheels: v [m/s] ahead, w [rad/s] to the left, vy [m/s] to its left side, within its limits.
 
-        After `timeout` seconds without another command the robot stops; 0: never. A robot on two wheels takes no notice
-        of vy. Raises `RosminiError` for what is no finite number, and for a thing without a drive.
+        After `timeout` seconds without another command the robot stops; 0: never. A robot on two wheels ignores vy.
+        Raises `RosminiError` for a number that is not finite, and for an object without a drive.
         """
         told = self.robot(name)
         if not math.isfinite(v + w + vy):
@@ -269,10 +269,10 @@ class Engine:
         )
 
     def hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
-        """Return what stands at `pose`, in words; None if a robot has room there."""
+        """Describe the object that occupies `pose`; None if a robot has room there."""
         corners = np.array(model.footprint)
         middle = corners.mean(axis=0)
-        within = middle + (corners - middle) * PLAY  # where a robot only touches, it may stand
+        within = middle + (corners - middle) * PLAY  # a robot may be placed where it only touches
         fixtures = self.contacts.ground.fixtures
         return fixtures.blocked(pose, within, model.height) or self.contacts.hindrance(model, pose, name)
 
@@ -284,10 +284,10 @@ class Engine:
     # -- things --------------------------------------------------------------------------------------------------
 
     def insert(self, obstacle: Obstacle) -> None:
-        """Insert an obstacle while time goes on: a fixed one, one that can be pushed, or one that moves by itself.
+        """Insert an obstacle at run time: fixed, movable, or moving by itself.
 
-        Raises `RosminiError` if its name is taken, and `WorldError` if a robot, or something that can move, stands
-        there.
+        Raises `RosminiError` if its name is taken, and `WorldError` if a robot or a body that is not fixed is in the
+        way.
         """
         self._check_name(obstacle.name)
         hindrance = self._hindrance_of(obstacle)
@@ -308,7 +308,7 @@ class Engine:
         self._changed(obstacle.pose, self.contacts.reach_of(obstacle))
 
     def take_away(self, name: str) -> None:
-        """Take an obstacle out of the world while time goes on. Raises `RobotGone` if there is none of this name."""
+        """Remove an obstacle at run time. Raises `RobotGone` for an unknown name."""
         gone, pose = self.obstacle(name), self.pose(name)
         del self._obstacles[name]
         self._world = None
@@ -319,7 +319,7 @@ class Engine:
         self._changed(pose, self.contacts.reach_of(gone))
 
     def obstacle(self, name: str) -> Obstacle:
-        """The obstacle of this name, as it was when it came. Raises `RobotGone`."""
+        """Return the obstacle of this name as it was inserted. Raises `RobotGone`."""
         if name not in self._obstacles:
             hint, world = nearest(name, [*self._obstacles, *self.robots]), self._plain.name
             msg = (
@@ -329,12 +329,12 @@ class Engine:
         return self._obstacles[name]
 
     def obstacles(self) -> tuple[Obstacle, ...]:
-        """The movable obstacles where they are now; then those that move by themselves."""
+        """Return the movable obstacles at their current poses, then those that move by themselves."""
         moving = (replace(mover.obstacle, pose=mover.pose) for mover in self.movers.values())
         return (*self.contacts.obstacles(), *moving)
 
     def pose(self, name: str) -> Pose:
-        """Where a robot or an obstacle is now. Raises `RobotGone`."""
+        """Return the current pose of a robot or an obstacle. Raises `RobotGone`."""
         if name in self.robots:
             return self.robots[name].pose
         obstacle = self.obstacle(name)
@@ -344,7 +344,7 @@ class Engine:
         return obstacle.pose if crate is None else crate.pose
 
     def velocity(self, name: str) -> Velocity:
-        """How fast a robot or an obstacle moves now, in the directions of the frame map [m/s, m/s, rad/s].
+        """Return the current velocity of a robot or an obstacle in the frame map [m/s, m/s, rad/s].
 
         Raises `RobotGone`.
         """
@@ -357,10 +357,10 @@ class Engine:
         return self.movers[name].velocity if name in self.movers else (0.0, 0.0, 0.0)
 
     def touching(self, name: str) -> list[Touch]:
-        """What a robot, or an obstacle that can move, touches now: with what, where, and how hard. Raises `RobotGone`.
+        """Return the current contacts of a robot or a movable obstacle, with the forces. Raises `RobotGone`.
 
-        The forces are those of the last step in which anything touched: what a thing was pushed with, or what wheels
-        that slip push with.
+        The forces are those of the last step with a contact: of pushed obstacles, or of slipping wheels against
+        an obstacle.
         """
         if name not in self.robots:
             obstacle = self.obstacle(name)
@@ -370,11 +370,11 @@ class Engine:
 
     @property
     def surface(self) -> Surface:
-        """Everything about friction and gravity."""
+        """Friction coefficients and gravity."""
         return self.contacts.surface
 
     def tune(self, **changes: float) -> None:
-        """Let wheels grip, things drag and rub, or gravity pull otherwise: see `rosmini.sim.engine.bodies.Surface`.
+        """Change friction coefficients or gravity: see `rosmini.sim.engine.bodies.Surface`.
 
         Raises `WorldError`.
         """
@@ -386,21 +386,21 @@ class Engine:
     # -- time ----------------------------------------------------------------------------------------------------
 
     def advance(self, until: float) -> None:
-        """Let time go on until then; what is over stays as it is."""
+        """Advance time to `until` [s]; a time in the past has no effect."""
         ns = to_ns(until)
         if ns >= self._all.instant.ns:
             self._stepper.advance(ns)
             self._all.instant.seconds = max(self.now, until)
 
     def peek(self, name: str, when: float) -> Pose:
-        """Where a robot will be then, soon, without letting time go on: a look changes nothing of what happens.
+        """Return a robot's pose at a time in the near future, without advancing time.
 
-        If something may be in its way until then, the answer is where it is now. Raises `RobotGone`.
+        If something may be in its way by then, the answer is its current pose. Raises `RobotGone`.
         """
         return self._stepper.peek(self.robot(name), to_ns(when))
 
     def state(self) -> EngineState:
-        """Return all that `restore` needs for the same to happen again from now on, to the last bit."""
+        """Return a state from which `restore` reproduces the further run to the last bit."""
         return EngineState(
             now_ns=self._all.instant.ns,
             now=self.now,
@@ -416,9 +416,9 @@ class Engine:
         )
 
     def restore(self, state: EngineState) -> None:
-        """Be as it was when the state was taken, here or in another engine.
+        """Restore a state, taken from this engine or another one.
 
-        Robots that were not there go, others come back.
+        Robots that are not in the state are removed, missing ones are added again.
         """
         if state.world is not self.world:
             self._begin(state.world)
@@ -453,7 +453,7 @@ class Engine:
     # -- what is seen --------------------------------------------------------------------------------------------
 
     def scenery(self, name: str, lidar: LidarModel | None = None) -> tuple[Floats, Floats]:
-        """What the laser of a robot can see in the frame map, other robots too: segments (n, 4) and discs (m, 3)."""
+        """Return what a robot's laser can see in the frame map, with other robots: segments (n, 4), discs (m, 3)."""
         viewer = self.robot(name)
         return self.laser_view.of(
             lidar or viewer.model.laser,
@@ -465,11 +465,11 @@ class Engine:
         )
 
     def scan(self, name: str, noise: Floats | None = None, lidar: LidarModel | None = None) -> Floats:
-        """The ranges (beams,) [m] that a laser on a robot measures now: its own, or another.
+        """Return the ranges (beams,) [m] that a laser on a robot measures now: its own laser, or `lidar`.
 
         See `rosmini.sim.sensors.lidar.scan`.
 
-        Raises `RobotGone`, and `ModelError` if it has none and none is given.
+        Raises `RobotGone`, and `ModelError` if the robot has no laser and `lidar` is not given.
         """
         viewer = self.robot(name)
         laser = lidar or viewer.model.laser
@@ -478,18 +478,18 @@ class Engine:
     def sweep(
         self, name: str, beam_time: float, noise: Floats | None = None, lidar: LidarModel | None = None
     ) -> tuple[Floats, Floats]:
-        """The ranges of a laser that sweeps, and where the robot was at each beam (beams, 3).
+        """Return the ranges of a sweeping laser, and the robot's pose at each beam (beams, 3).
 
-        The first beam is measured now, each further one `beam_time` [s] before. `trails.remember` has to have been told
-        how long that takes altogether. See `rosmini.sim.engine.sweep`.
+        The first beam is measured now, each further one `beam_time` [s] earlier. Call `trails.remember` with the
+        duration of a whole sweep beforehand. See `rosmini.sim.engine.sweep`.
         """
         viewer = self.robot(name)
         return self._sweeps.scan(viewer, viewer.model.laser if lidar is None else lidar, beam_time, noise)
 
     def visible(self, name: str = "") -> list[Part]:
-        """All parts in the world now but thin walls, with their poses in the frame map and their owners' names.
+        """Return all parts in the world now except thin walls, with poses in the frame map and their owners' names.
 
-        What belongs to the robot `name` is left out: no camera sees its own robot.
+        The parts of the robot `name` are left out, because a camera does not see its own robot.
         """
         found = [obstacle_part(o) for o in self.world.obstacles if o.fixed]
         found += [obstacle_part(crate.obstacle, crate.pose) for crate in self.contacts.crates if crate.shown]

@@ -14,7 +14,7 @@ from .trails import Leg
 
 @dataclass(frozen=True)
 class RobotState:
-    """A robot: its model, its place, its wheels, and the generator of their slips."""
+    """A robot's model, pose and wheels, and the random generator of its slip."""
 
     name: str
     model: RobotModel
@@ -23,7 +23,7 @@ class RobotState:
 
 @dataclass(frozen=True)
 class EngineState:
-    """An engine: see `rosmini.sim.engine.Engine.state`."""
+    """The state of an engine: see `rosmini.sim.engine.Engine.state`."""
 
     now_ns: int
     """The time [ns] since the engine began."""
@@ -33,13 +33,13 @@ class EngineState:
     noise: float
     surface: Surface
     slips_ns: int
-    """When the wheels' slip changes next."""
+    """Time of the next change of the wheels' slip [ns]."""
     robots: tuple[RobotState, ...]
     things: dict[str, tuple[Any, ...]]
-    """What can be pushed, or put elsewhere: where it is, and how fast it moves."""
+    """Poses and velocities of the obstacles that can be pushed or put elsewhere."""
     movers: dict[str, tuple[int, float, bool, int]]
-    """What moves by itself: since when it goes or waits, at which time of its own, which of the two, and its pace."""
+    """For each mover: time of its last start or stop [ns], its clock then [s], whether it waits, and its pace."""
     forces: tuple[float, list[tuple[str, str, float]]]
-    """Until when which bodies push which others, and how hard."""
+    """Time until which they apply [ns], and for each pair of bodies the force between them [N]."""
     trails: dict[str, tuple[Leg, ...]]
-    """Where all were lately."""
+    """Recent poses of all bodies."""

@@ -1,17 +1,17 @@
-"""The drives: from a commanded velocity to the way of the robot, in closed form.
+"""The drives: a robot's path in closed form, from its commanded velocity.
 
-A wheel's rim has a speed u [m/s] and goes over to the wanted one at the rate a [m/s2], as fast as it can: a ramp. So
-nothing here depends on the step with which it is asked. With b the distance of the wheels, v and w the speed ahead
+A wheel's rim has a speed u [m/s] and changes to the target speed at the rate a [m/s2]: a linear ramp. So
+no result depends on the time step. With b the wheel separation, v and w the speed ahead
 [m/s] and to the left [rad/s]:
 
     u_left = v - w b / 2,   u_right = v + w b / 2;   v = (u_left + u_right) / 2,   w = (u_right - u_left) / b
 
-(Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2011, section 3.2.) Where the robot's
-own speeds v and w have limits too, at most a_v and a_w, they go over to the wanted ones each at its limit, and both
+(Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2011, section 3.2.) If the robot's
+speeds v and w have limits too, at most a_v and a_w, each changes to its target at its limit, and both change
 more slowly if a rim cannot follow.
 
-A holonomic robot has the speed vy to its left side besides, and each of v, vy and w goes over to the wanted one by
-itself. Headings are counter-clockwise and never wrapped.
+A holonomic robot also has a speed vy to its left side, and each of v, vy and w changes to its target
+independently. Headings are counter-clockwise and never wrapped.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ import math
 from rosmini.core.geometry.poses import Pose, arc
 
 Phase = tuple[float, float, float]
-"""How long it lasts [s], and at which rates the left and the right rim change their speeds meanwhile [m/s2]."""
+"""Its duration [s], and the rates at which the left and the right rim change their speeds [m/s2]."""
 
-# Gauss and Legendre's four points and weights on (0, 1).
+# Four-point Gauss-Legendre quadrature: nodes and weights on (0, 1).
 _NODES = (
     (0.06943184420297371, 0.17392742256872692),
     (0.33000947820757187, 0.32607257743127307),
@@ -32,32 +32,32 @@ _NODES = (
 )
 
 ROUNDING = 1e-12
-"""Speeds that differ by less [m/s, rad/s] are the same."""
+"""Speeds that differ by less [m/s, rad/s] count as equal."""
 
 PANEL = 0.2
 """The largest turn [rad] within one panel of the quadrature: four points are then exact to a part in 1e11."""
 
 
 def limited(v: float, w: float, max_linear: float, max_angular: float) -> tuple[float, float]:
-    """A commanded velocity, each part of it cut to what the robot can do: what TurtleBot3's firmware does."""
+    """Limit each part of a commanded velocity to what the robot can do, as TurtleBot3's firmware does."""
     return (max(-max_linear, min(max_linear, v)), max(-max_angular, min(max_angular, w)))
 
 
 def rim_speeds(v: float, w: float, separation: float) -> tuple[float, float]:
-    """The speeds of the left and of the right wheel's rim [m/s]."""
+    """Return the speeds of the left and right wheels' rims [m/s]."""
     half = w * separation / 2
     return (v - half, v + half)
 
 
 def body_velocity(left: float, right: float, separation: float) -> tuple[float, float]:
-    """The speeds ahead [m/s] and to the left [rad/s] of a robot whose wheels roll."""
+    """Return the speeds ahead [m/s] and to the left [rad/s] of a robot whose wheels roll."""
     return ((left + right) / 2, (right - left) / separation)
 
 
 def ramp(speed: float, target: float, acceleration: float, dt: float) -> tuple[float, float]:
-    """The distance [m] in `dt` seconds from `speed` to `target` [m/s] at `acceleration` [m/s2], and the speed then.
+    """Return the distance [m] and the final speed after `dt` seconds from `speed` to `target` at `acceleration`.
 
-    A stop from u takes u / a seconds and the way u^2 / 2a.
+    A stop from u takes u / a seconds and the distance u^2 / 2a.
 
     >>> ramp(0.22, 0.0, 1.0, 1.0)
     (0.0242, 0.0)
@@ -72,7 +72,7 @@ def ramp(speed: float, target: float, acceleration: float, dt: float) -> tuple[f
 def phases(
     left: float, right: float, left_target: float, right_target: float, acceleration: float, dt: float
 ) -> list[Phase]:
-    """The `dt` seconds in which the rims approach their targets, cut where one arrives: one to three phases."""
+    """Divide `dt` seconds, in which the rims approach their targets, at each arrival: one to three phases."""
     rises = (left_target - left, right_target - right)
     ends = [abs(rise) / acceleration for rise in rises]
     found: list[Phase] = []
@@ -97,7 +97,7 @@ def limited_phases(
     limits: tuple[float, float, float],
     dt: float,
 ) -> list[Phase]:
-    """The `dt` seconds in which a robot's speeds v and w approach their targets within limits: one to three phases.
+    """Divide `dt` seconds, in which a robot's v and w approach their targets within limits: one to three phases.
 
     The limits are those of v [m/s2], of w [rad/s2] and of a rim [m/s2].
     """
@@ -114,7 +114,7 @@ def limited_phases(
             slower = min(1.0, rim / (a + b * half))
             a, b = a * slower, b * slower
         ends = [abs(rise) / rate for rise, rate in ((rise_v, a), (rise_w, b)) if rate]
-        if not ends or min(ends) == 0:  # a limit that is infinite was heeded when the command came
+        if not ends or min(ends) == 0:  # infinite limits were applied when the command arrived
             found.append((dt, 0.0, 0.0))
             break
         h = min(*ends, dt)
@@ -126,11 +126,11 @@ def limited_phases(
 
 
 Speeds = tuple[float, float, float]
-"""Ahead and to the left side [m/s], and to the left [rad/s]."""
+"""Speeds ahead and to the left side [m/s], and rate of turn to the left [rad/s]."""
 
 
 def ramps(speeds: Speeds, targets: Speeds, limits: Speeds, dt: float) -> list[tuple[float, Speeds]]:
-    """The `dt` seconds in which each speed approaches its target at its limit: phases with durations and rates."""
+    """Divide `dt` seconds, in which each speed approaches its target at its limit, into durations and rates."""
     rises = tuple(target - speed for speed, target in zip(speeds, targets, strict=True))
     ends = [abs(rise) / limit for rise, limit in zip(rises, limits, strict=True)]
     found: list[tuple[float, Speeds]] = []
@@ -147,10 +147,10 @@ def ramps(speeds: Speeds, targets: Speeds, limits: Speeds, dt: float) -> list[tu
 
 
 def glide(pose: Pose, speeds: Speeds, rates: Speeds, dt: float) -> Pose:
-    """Where a holonomic robot is after `dt` seconds that has these speeds, which change at these rates.
+    """Return a holonomic robot's pose after `dt` seconds at these speeds, which change at these rates.
 
-    With constant speeds its way is an arc too: the chord of a unicycle's, from a heading that is turned by the
-    direction of (v, vy).
+    At constant speeds its path is an arc too: that of a unicycle whose heading is turned by the direction of
+    (v, vy).
     """
     v, vy, w = speeds
     dv, dvy, dw = rates
@@ -163,17 +163,17 @@ def glide(pose: Pose, speeds: Speeds, rates: Speeds, dt: float) -> Pose:
         ahead, left = v * dt + dv * dt * dt / 2, vy * dt + dvy * dt * dt / 2
         c, s = math.cos(theta), math.sin(theta)
         return (x + c * ahead - s * left, y + s * ahead + c * left, theta)
-    # a speed to the left is one ahead of a heading that is turned by a quarter
+    # a speed to the left is a speed ahead with the heading turned by 90 degrees
     px, py, heading = unicycle(pose, v, w, dv, dw, dt)
     qx, qy, _ = unicycle((0.0, 0.0, theta + math.pi / 2), vy, w, dvy, dw, dt)
     return (px + qx, py + qy, heading)
 
 
 def unicycle(pose: Pose, v: float, w: float, dv: float, dw: float, dt: float) -> Pose:
-    """Where a robot is after `dt` seconds that has the speeds v + dv t ahead [m/s] and w + dw t to the left [rad/s].
+    """Return a robot's pose after `dt` seconds with the speeds v + dv t ahead [m/s] and w + dw t to the left [rad/s].
 
-    With constant speeds that is an arc, without a turn a line, both exact. Else x is the integral of (v + dv t)
-    cos(theta + w t + dw t^2 / 2), of Fresnel's kind, which has no elementary form: Gauss and Legendre's quadrature, to
+    At constant speeds the path is an arc, without a turn a line, both exact. Otherwise x is the integral of (v + dv t)
+    cos(theta + w t + dw t^2 / 2), a Fresnel integral without an elementary form: Gauss-Legendre quadrature, exact to
     the last digits.
     """
     if dv == 0 and dw == 0:

@@ -1,4 +1,4 @@
-"""What is fixed, and what is where: walls and obstacles that stay, and a grid of squares that knows what is in each."""
+"""Fixed walls and obstacles, and a grid that indexes them by position."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ Box = tuple[float, float, float, float]
 """x and y of the lower and the upper corner [m]."""
 
 SQUARE = 1.0
-"""How large the squares of a grid are [m]."""
+"""Edge length of the grid's cells [m]."""
 
 LARGE = 64
-"""What is in more squares than this is looked at each time."""
+"""Number of cells above which a box is kept in a separate list and always tested."""
 
 
 class Cells:
@@ -37,7 +37,7 @@ class Cells:
         return len(self._where)
 
     def put(self, name: str, box: Box) -> None:
-        """Insert a box, or put it elsewhere."""
+        """Insert a box, or move it."""
         squares = self._covered(box)
         if self._where.get(name) == squares:
             return
@@ -49,7 +49,7 @@ class Cells:
             self._squares.setdefault(square, {})[name] = None
 
     def remove(self, name: str) -> None:
-        """Remove a box, if it is there."""
+        """Remove a box if it exists."""
         for square in self._where.pop(name, ()):
             names = self._squares[square]
             del names[name]
@@ -58,7 +58,7 @@ class Cells:
         self._large.pop(name, None)
 
     def near(self, x: float, y: float, reach: float) -> list[str]:
-        """The boxes that may meet the square that goes from a place so far [m] to each side, and some more."""
+        """Return names of boxes that may meet the square of half-width `reach` [m]; some may be farther away."""
         squares = self._covered((x - reach, y - reach, x + reach, y + reach))
         if not squares:
             return list(self._where)
@@ -69,7 +69,7 @@ class Cells:
 
     @staticmethod
     def _covered(box: Box) -> list[tuple[int, int]]:
-        """The squares that a box covers; none if those are too many."""
+        """Return the cells that a box covers; an empty list if there are too many."""
         left, bottom, right, top = (math.floor(each / SQUARE) for each in box)
         if (right - left + 1) * (top - bottom + 1) > LARGE:
             return []
@@ -77,12 +77,12 @@ class Cells:
 
 
 class FixedPiece(NamedTuple):
-    """A convex piece of something fixed, in the frame map."""
+    """A convex piece of a fixed object, in the frame map."""
 
     order: tuple[int, int]
-    """By which pieces are sorted."""
+    """Sort key of the pieces."""
     name: str
-    """Of the obstacle; "wall" of a wall."""
+    """Name of the obstacle; "wall" for a wall."""
     bottom: float
     top: float
     piece: Piece
@@ -90,14 +90,14 @@ class FixedPiece(NamedTuple):
 
 
 def box_of(piece: Piece) -> Box:
-    """The box around a piece."""
+    """Return the bounding box of a piece."""
     (x0, y0), (x1, y1) = piece.corners.min(axis=0).tolist(), piece.corners.max(axis=0).tolist()
     r = piece.radius
     return (x0 - r, y0 - r, x1 + r, y1 + r)
 
 
 class Ground:
-    """The walls of a world, and obstacles that do not move, which come and go."""
+    """The walls of a world and its fixed obstacles, which can be added and removed."""
 
     def __init__(self, world: World) -> None:
         self._walls, self._height = world.hard_walls, world.wall_height
@@ -107,12 +107,12 @@ class Ground:
         self._pieces: dict[str, list[FixedPiece]] = {}
         self._number = 0
         self.fixtures = Fixtures(self._walls, solid=world.solid)
-        """The same, for who asks what is in the way."""
+        """The same obstacles, for collision queries."""
         self.version = 0
-        """How often anything came or went."""
+        """Number of changes so far."""
 
     def insert(self, obstacle: Obstacle) -> None:
-        """Put a fixed obstacle where its pose is; a passable one is no part of the ground."""
+        """Insert a fixed obstacle at its pose; passable ones are ignored."""
         if obstacle.passable:
             return
         self.version += 1
@@ -127,14 +127,14 @@ class Ground:
         self.cells.put(name, (min(x0s), min(y0s), max(x1s), max(y1s)))
 
     def remove(self, name: str) -> None:
-        """Take an obstacle away, if it is there."""
+        """Remove an obstacle if it exists."""
         if self._pieces.pop(name, None) is not None:
             self.version += 1
             self.cells.remove(name)
             self.fixtures.remove(name)
 
     def near(self, x: float, y: float, reach: float) -> list[FixedPiece]:
-        """The pieces that meet the square of half-width `reach` [m] around a place, in insertion order."""
+        """Return the pieces that meet the square of half-width `reach` [m] around a position, in insertion order."""
         low_x, low_y, high_x, high_y = x - reach, y - reach, x + reach, y + reach
         found = [
             piece

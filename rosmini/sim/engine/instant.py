@@ -1,4 +1,4 @@
-"""The time of an engine, and what is somewhere at it."""
+"""The time of an engine, and the interface of objects with a pose."""
 
 from __future__ import annotations
 
@@ -7,40 +7,40 @@ from typing import Protocol
 from rosmini.core.geometry.poses import Pose
 
 SECOND = 1_000_000_000
-"""[ns]"""
+"""One second [ns]."""
 
 STEP_NS = 5_000_000
-"""How long one step of the physics is [ns]: step k begins at k times that."""
+"""Duration of one physics step [ns]: step k begins at k times that."""
 
 STEP = STEP_NS / SECOND
 """The same [s]."""
 
 
 class Instant:
-    """The present moment, which everything in an engine shares."""
+    """The current time, shared by everything in an engine."""
 
     def __init__(self) -> None:
         self.ns = 0
-        """Since the engine began."""
+        """Nanoseconds since the engine began."""
         self.seconds = 0.0
-        """The same [s], as it was asked for: it may differ by a part of a nanosecond."""
+        """The same in seconds, exactly as requested: it may differ by a fraction of a nanosecond."""
 
 
 class Placed(Protocol):
-    """What is somewhere."""
+    """An object with a pose."""
 
     @property
     def pose(self) -> Pose:
-        """Where it is now."""
+        """Its current pose."""
         ...
 
 
 def between_poses(begin: Pose, end: Pose, part: float) -> Pose:
-    """The pose after so much, from 0 to 1, of a straight way."""
+    """Return the pose at the fraction `part`, from 0 to 1, of a straight motion."""
     x, y, theta = (a + part * (b - a) for a, b in zip(begin, end, strict=True))
     return (x, y, theta)
 
 
 def to_ns(seconds: float) -> int:
-    """Seconds as whole nanoseconds."""
+    """Convert seconds to whole nanoseconds."""
     return round(seconds * SECOND)

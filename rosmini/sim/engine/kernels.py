@@ -1,13 +1,13 @@
-"""The loops of contact: who is pushed out of what, what gives way, and how far it is to what is near.
+"""The loops of contact: robots pushed out of obstacles, pushed obstacles, and clearances.
 
 All bodies are convex outlines with a radius: see `rosmini.sim.engine.outlines`.
 
-Blows and pushes are sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) that
-start from zero in each step, so nothing is remembered, a fixed number of rounds over the contacts in the
-order of the names of the bodies: what is far away changes nothing, not even the last bit.
+Collisions and pushes are sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) that
+start from zero in each step, with a fixed number of iterations over the contacts in the order of the bodies' names.
+Nothing is remembered, and a distant body changes nothing, not even the last bit.
 
-The functions here are plain Python, which is what runs without numba; `compiled` makes machine code of them,
-which does the same to the last bit.
+The functions are plain Python, which runs without numba; `compiled` makes machine code of them with
+the same results to the last bit.
 """
 
 from __future__ import annotations
@@ -29,46 +29,46 @@ Ints = NDArray[np.int64]
 Scene = tuple[
     Floats, Floats, Floats, Floats, Ints, Ints, Floats, Ints, Ints, Floats, Ints, Floats, Ints, Ints
 ]
-"""Bodies and what is near them; see `rosmini.sim.engine.scene`, which makes it.
+"""Bodies and what is near them, as made by `rosmini.sim.engine.scene`:
 
-Of n bodies the poses (n, 3) and properties (n, 13); the corners of their outlines in the body's frame and in the
-world, where each outline begins, which is the first outline of each body, and the radius of each outline; which fixed
-outlines are near each body (where its part of a list begins, and the list), their corners, where each begins, and
-the box around each with its radius; and in the same way which bodies are near each body.
+for n bodies the poses (n, 3) and properties (n, 13); the corners of their outlines in the body's frame and in the
+world, the start of each outline, the first outline of each body, and the radius of each outline; the fixed
+outlines near each body (the start of its part of a list, and the list), their corners, the start of each, and
+the box around each with its radius; and in the same form the bodies near each body.
 """
 
 MASS, INERTIA, MIDDLE_X, MIDDLE_Y, GIRTH, KIND, X, Y, CENTRE_X, CENTRE_Y, RESTITUTION, HOLD, TURN_HOLD = (
     range(13)
 )
-"""The properties of a body: the circle around it in its frame, where the middle of that is now, its centre of mass,
+"""The properties of a body: the circle around it in its frame, the current centre of the circle, its centre of mass,
 and the largest force [N] and torque [N m] with which the ground holds it, or its wheels drive it."""
 
 ROBOT, CRATE, LEAF = 0.0, 1.0, 2.0
-"""Kinds of bodies: driven by wheels, pushed, moved by itself."""
+"""Kinds of bodies: driven by wheels, pushed, moving by itself."""
 
 TOUCH = 1e-9
-"""A robot that reaches into something by less [m] only touches it."""
+"""Overlap [m] below which a robot only touches an obstacle."""
 
 SLACK = 2e-5
-"""So deep [m] a robot reaches into what it pushes: bodies that do not overlap do not push each other."""
+"""Overlap [m] of a robot with an obstacle that it pushes: bodies that do not overlap do not push each other."""
 
 ROUNDS = 20
-"""So often at most a robot is pushed out of what it has driven into; a wedge between two walls takes the most."""
+"""Maximum number of rounds of pushing a robot out of obstacles; a wedge between two walls takes the most."""
 
 QUICK, NEARLY = 4, 1e-6
-"""After so many rounds, robots that push one another may still overlap by so much [m]."""
+"""Rounds after which robots that push each other may still overlap, and by how much [m]."""
 
 ITERATIONS = 30
-"""So often the impulses of all contacts are put right, one after the other."""
+"""Number of iterations over the impulses of all contacts."""
 
 APART = 1e-6
-"""What is no farther apart [m] may push."""
+"""Maximum gap at which two bodies can push each other [m]."""
 
 PART = 0.2
-"""So much of an overlap that no blow explains is taken back in a step."""
+"""Fraction of an overlap, not explained by an impact, that is removed in a step."""
 
 REST = 1e-4
-"""A movable obstacle that is slower [m/s, rad/s] stands."""
+"""Speed below which a movable obstacle stops [m/s, rad/s]."""
 
 
 # -- bodies ----------------------------------------------------------------------------------------------------------
@@ -77,10 +77,10 @@ REST = 1e-4
 def give(
     count: int, d0: float, d1: float, r0: float, r1: float, mass: float, inertia: float
 ) -> tuple[float, float]:
-    """How far to move a body along the normal of a contact [m], and how far to turn it [rad], so that it just touches.
+    """Return how far to move a body along a contact's normal [m] and how far to turn it [rad] so that it just touches.
 
-    Each of the one or two points has a depth and a lever, the part of its place across the normal. The answer is what
-    forces k >= 0 at these points do, along = sum k / m and turn = sum k r / I, that make the overlap vanish.
+    Each of the one or two points has a depth and a lever, its offset across the normal. The result corresponds to
+    forces k >= 0 at these points, with along = sum k / m and turn = sum k r / I, that remove the overlap.
     """
     if count == 2 and abs(r0 - r1) > 1e-9:
         turn = (d0 - d1) / (r0 - r1)
@@ -97,7 +97,7 @@ def give(
 
 
 def stand(i: int, scene: Scene) -> None:
-    """Put the corners of a body, and the middle of its circle, to where its pose is."""
+    """Update a body's corners and the centre of its circle from its pose."""
     poses, bodies, outline, corners, first, begin = scene[0], scene[1], scene[2], scene[3], scene[4], scene[5]
     x, y, c, s = poses[i, 0], poses[i, 1], math.cos(poses[i, 2]), math.sin(poses[i, 2])
     for k in range(first[begin[i]], first[begin[i + 1]]):
@@ -108,13 +108,13 @@ def stand(i: int, scene: Scene) -> None:
 
 
 def beside(i: int, m: int, more: float, bodies: Floats, boxes: Floats) -> bool:
-    """Whether a fixed outline may be within `more` of a body's circle."""
+    """Return True if a fixed outline may be within `more` [m] of a body's circle."""
     x, y, r = bodies[i, X], bodies[i, Y], bodies[i, GIRTH] + more
     return bool(boxes[m, 0] - r <= x <= boxes[m, 2] + r and boxes[m, 1] - r <= y <= boxes[m, 3] + r)
 
 
 def close(i: int, j: int, more: float, bodies: Floats) -> bool:
-    """Whether the circles of two bodies are within `more`."""
+    """Return True if the circles of two bodies are within `more` [m]."""
     dx, dy = bodies[j, X] - bodies[i, X], bodies[j, Y] - bodies[i, Y]
     r = bodies[i, GIRTH] + bodies[j, GIRTH] + more
     return bool(dx * dx + dy * dy <= r * r)
@@ -124,7 +124,7 @@ def close(i: int, j: int, more: float, bodies: Floats) -> bool:
 
 
 def shove(i: int, part: float, nx: float, ny: float, hit: Contact, slack: float, scene: Scene) -> None:
-    """Move a robot along a normal, and turn it, by so much of what brings it out of a contact."""
+    """Move and turn a robot by the fraction `part` of the motion that removes a contact's overlap."""
     poses, bodies = scene[0], scene[1]
     count, _, _, d0, x0, y0, d1, x1, y1 = hit
     x, y = poses[i, 0], poses[i, 1]
@@ -139,7 +139,7 @@ def shove(i: int, part: float, nx: float, ny: float, hit: Contact, slack: float,
 def push_out(i: int, nearly: float, fair: bool, scene: Scene) -> int:
     """Resolve a robot's deepest overlap; return the other robot moved, or itself, or -1 if there was none.
 
-    Of two robots the one gives way whose wheels grip less, or, if both grip alike or it is to be fair, both by half.
+    Of two robots the one whose wheels grip less gives way; if both grip alike or `fair` is set, both by half.
     """
     _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
     worst, who, slack, hit = TOUCH, i, 0.0, NONE
@@ -175,7 +175,7 @@ def push_out(i: int, nearly: float, fair: bool, scene: Scene) -> int:
 
 
 def make_way(queue: Ints, scene: Scene, moved: Ints) -> None:
-    """Resolve the overlaps of robots with things and one another; `moved` becomes 1 for each that was moved."""
+    """Resolve the overlaps of robots with obstacles and each other; set `moved` to 1 for each robot that was moved."""
     poses = scene[0]
     total = poses.shape[0]
     for i in range(total):
@@ -191,7 +191,7 @@ def make_way(queue: Ints, scene: Scene, moved: Ints) -> None:
             if who >= 0:
                 again[i] = again[who] = moved[i] = moved[who] = 1
         left = 0
-        for k in range(count):  # first who was looked at, then who was pushed by them
+        for k in range(count):  # first the robots of this round, then those that they pushed
             if again[waiting[k]]:
                 again[waiting[k]] = 0
                 waiting[left] = waiting[k]
@@ -209,12 +209,12 @@ def make_way(queue: Ints, scene: Scene, moved: Ints) -> None:
 # -- things are pushed -----------------------------------------------------------------------------------------------
 
 FIRST, SECOND, NX, NY, PX, PY, DEPTH, SPEED, BOUNCE, ALONG, ACROSS, PUSH, RUB = range(13)
-"""Of a contact: the bodies, the normal, the place, the depth, how fast it opens, how fast it is to open, the masses
+"""Columns of a contact: the bodies, the normal, the point, the depth, the opening speed, its target, the masses
 along and across the normal, and the impulses."""
 
 
 def arm(i: int, x: float, y: float, scene: Scene) -> tuple[float, float]:
-    """From a body's centre of mass to a place."""
+    """Return the vector from a body's centre of mass to a point."""
     poses, bodies = scene[0], scene[1]
     c, s = math.cos(poses[i, 2]), math.sin(poses[i, 2])
     cx, cy = bodies[i, CENTRE_X], bodies[i, CENTRE_Y]
@@ -222,7 +222,7 @@ def arm(i: int, x: float, y: float, scene: Scene) -> tuple[float, float]:
 
 
 def gather(scene: Scene, hits: Floats) -> int:
-    """Find all contacts, and return how many there are; the second body is -1 - m for the fixed outline m."""
+    """Find all contacts and return their number; the second body is -1 - m for the fixed outline m."""
     _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
     count = 0
     for i in range(bodies.shape[0]):
@@ -247,7 +247,7 @@ def gather(scene: Scene, hits: Floats) -> int:
 
 
 def note(found: Contact, i: int, j: int, hits: Floats, count: int) -> int:
-    """Write down the points of a contact; return how many there are now."""
+    """Append the points of a contact; return the new number of points."""
     points, nx, ny, d0, x0, y0, d1, x1, y1 = found
     for k in range(points):
         hit = hits[count]
@@ -261,7 +261,7 @@ def note(found: Contact, i: int, j: int, hits: Floats, count: int) -> int:
 
 
 def lightness(i: int, rx: float, ry: float, nx: float, ny: float, bodies: Floats) -> float:
-    """By how much the velocity of a body's place changes along a direction for an impulse along that."""
+    """Return the inverse effective mass of a body at a point, along a direction."""
     if i < 0 or bodies[i, KIND] == LEAF:
         return 0.0
     lever = rx * ny - ry * nx
@@ -269,14 +269,14 @@ def lightness(i: int, rx: float, ry: float, nx: float, ny: float, bodies: Floats
 
 
 def speed_at(i: int, rx: float, ry: float, nx: float, ny: float, motion: Floats) -> float:
-    """How fast a body's place moves along a direction."""
+    """Return the speed of a body's point along a direction."""
     if i < 0:
         return 0.0
     return float((motion[i, 0] - motion[i, 2] * ry) * nx + (motion[i, 1] + motion[i, 2] * rx) * ny)
 
 
 def impel(i: int, rx: float, ry: float, px: float, py: float, bodies: Floats, motion: Floats) -> None:
-    """Let an impulse act at a body's place."""
+    """Apply an impulse at a body's point."""
     if i >= 0 and bodies[i, KIND] != LEAF:
         motion[i, 0] += px / bodies[i, MASS]
         motion[i, 1] += py / bodies[i, MASS]
@@ -284,12 +284,12 @@ def impel(i: int, rx: float, ry: float, px: float, py: float, bodies: Floats, mo
 
 
 def rebound(i: int, bodies: Floats) -> float:
-    """How much of its speed a thing has after a blow; what does not move leaves that to the other."""
+    """Return a body's coefficient of restitution; 1 for a body that cannot be pushed, so that the other's applies."""
     return 1.0 if i < 0 or bodies[i, KIND] == LEAF else float(bodies[i, RESTITUTION])
 
 
 def strike(scene: Scene, motion: Floats, hits: Floats, arms: Floats, count: int) -> None:
-    """Learn of each contact what its impulses follow from."""
+    """Compute each contact's effective masses, opening speed and target speed."""
     bodies = scene[1]
     for n in range(count):
         hit = hits[n]
@@ -307,7 +307,7 @@ def strike(scene: Scene, motion: Floats, hits: Floats, arms: Floats, count: int)
 
 
 def press(n: int, friction: float, scene: Scene, motion: Floats, hits: Floats, arms: Floats) -> bool:
-    """Correct the impulses of one contact: no approach, friction within Coulomb's cone. Whether any changed."""
+    """Correct one contact's impulses: no approach, friction within Coulomb's cone. Return True if any changed."""
     bodies, hit = scene[1], hits[n]
     i, j, nx, ny = int(hit[FIRST]), int(hit[SECOND]), hit[NX], hit[NY]
     ax, ay, bx, by = arms[n, 0], arms[n, 1], arms[n, 2], arms[n, 3]
@@ -328,7 +328,7 @@ def press(n: int, friction: float, scene: Scene, motion: Floats, hits: Floats, a
 
 
 def hold(i: int, dt: float, bodies: Floats, motion: Floats, held: Floats) -> bool:
-    """Apply ground friction to a thing, or wheel drive to a robot, within its limit. Whether anything changed."""
+    """Apply ground friction to an obstacle, or wheel drive to a robot, within its limit; return True if it changed."""
     mass, inertia = bodies[i, MASS], bodies[i, INERTIA]
     x = held[i, 0] + (motion[i, 3] - motion[i, 0]) * mass
     y = held[i, 1] + (motion[i, 4] - motion[i, 1]) * mass
@@ -349,10 +349,10 @@ def hold(i: int, dt: float, bodies: Floats, motion: Floats, held: Floats) -> boo
 
 
 def slide(dt: float, friction: float, scene: Scene, motion: Floats, hits: Floats) -> int:
-    """Advance the poses and velocities of pushed and sliding things by a step; return the number of contacts.
+    """Advance the poses and velocities of pushed and sliding obstacles by a step; return the number of contacts.
 
-    `motion` (n, 6) is how fast the centre of mass of each body goes [m/s, m/s, rad/s], and how fast its wheels, or the
-    ground, want it to. Robots push with what they have; where they get to is not found here.
+    `motion` (n, 6) contains the velocity of each body's centre of mass [m/s, m/s, rad/s] and its target velocity, from
+    the wheels or the ground. Robots exert forces here, but their new poses are not computed.
     """
     poses, bodies = scene[0], scene[1]
     total = bodies.shape[0]
@@ -379,7 +379,7 @@ def slide(dt: float, friction: float, scene: Scene, motion: Floats, hits: Floats
 
 
 def part(dt: float, bodies: Floats, hits: Floats, count: int, late: Floats, out: Floats) -> None:
-    """The time since each body's impact (-1: none), and how to undo overlaps that no impact explains."""
+    """Compute the time since each body's impact (-1: no impact) and the motion that undoes other overlaps."""
     for i in range(bodies.shape[0]):
         late[i] = -1.0
     for n in range(count):
@@ -412,7 +412,7 @@ def go_on(
     if abs(vx) <= REST and abs(vy) <= REST and abs(w) <= REST:
         motion[i, 0] = motion[i, 1] = motion[i, 2] = 0.0
         return
-    # what slides freely loses its speed evenly; what is pushed has its new speed at once
+    # a freely sliding body loses its speed evenly; a pushed one has its new speed at once
     old, new = (0.5 * dt, 0.5 * dt) if late < 0.0 else (-late, dt + late)
     x, y, theta = poses[i, 0], poses[i, 1], poses[i, 2]
     cx, cy = bodies[i, CENTRE_X], bodies[i, CENTRE_Y]
@@ -428,7 +428,7 @@ def go_on(
 
 
 def clearances(lookers: Ints, view: float, scene: Scene, rooms: Floats) -> None:
-    """How far robots can move before touching anything, at most `view` [m]; movers share a gap by half."""
+    """Compute how far robots can move before a contact, at most `view` [m]; two movers share a gap by half."""
     _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
     for i in range(bodies.shape[0]):
         stand(i, scene)
@@ -455,7 +455,7 @@ def clearances(lookers: Ints, view: float, scene: Scene, rooms: Floats) -> None:
 
 
 PLAIN: dict[str, Callable[..., Any]] = {each.__name__: each for each in (make_way, slide, clearances)}
-"""The loops without numba."""
+"""The loops in plain Python."""
 
 
 def compiled(name: str) -> Callable[..., Any]:

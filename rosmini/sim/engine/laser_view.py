@@ -1,7 +1,7 @@
-"""What each laser of a world can see, and what is remembered of it.
+"""The part of a world that each laser can see, with caches.
 
-What does not change is computed once: the cross-section of fixed obstacles for each height, that of each robot model
-in the model's own frame. Robots at one moment are placed once, for all lasers.
+What does not change is computed once: the cross-section of fixed obstacles at each height, and that of each robot
+model in the model's own frame. Robots at one moment are placed once, for all lasers.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ MANY = 200
 """Above this number of segments, only those around a laser are cast against."""
 
 MARGIN = 1.0
-"""How far a laser moves before the segments around it are looked up again [m]."""
+"""Distance a laser moves before the segments around it are looked up again [m]."""
 
 
 class RobotSections:
-    """The cross-sections of many robots at one moment and height, and which robot each belongs to."""
+    """The cross-sections of many robots at one moment and height, and the owner of each segment and disc."""
 
     def __init__(
         self, models: Sequence[RobotModel], poses: Floats, template: Callable[[RobotModel], CrossSection]
@@ -68,7 +68,7 @@ class RobotSections:
         self.discs, self.owner_of_disc = np.vstack(discs_of), np.concatenate(owner_of_disc)
 
     def around(self, x: float, y: float, radius: float, own: int) -> CrossSection:
-        """Return what of the other robots is within `radius` [m] of a position."""
+        """Return the parts of the other robots within `radius` [m] of a position."""
         away = np.hypot(self.positions[:, 0] - x, self.positions[:, 1] - y)
         near = away <= radius + self.radii
         if own >= 0:
@@ -85,7 +85,7 @@ def _reach(outline: CrossSection) -> float:
 
 
 class LaserView:
-    """What the lasers of one world see; what does not change is cached."""
+    """The cross-sections that the lasers of one world see; unchanging ones are cached."""
 
     def __init__(self, world: World) -> None:
         self.world = world
@@ -106,7 +106,7 @@ class LaserView:
         self._invalidate_nearby()
 
     def remove(self, name: str) -> None:
-        """Remove an obstacle; harmless if it was never seen."""
+        """Remove an obstacle; harmless if it does not exist."""
         self._movable.pop(name, None)
         if self._fixed.pop(name, None) is not None:
             self._cuts.pop(name, None)
@@ -124,7 +124,7 @@ class LaserView:
         return cuts[height]
 
     def forget_viewer(self, name: str) -> None:
-        """Drop what is cached for the lasers of a robot that is gone."""
+        """Drop the cache of a removed robot's lasers."""
         self._around = {key: kept for key, kept in self._around.items() if key[0] != name}
 
     def solid(self, height: float) -> CrossSection:
@@ -188,16 +188,16 @@ class LaserView:
         moment: Hashable,
         moved: float = 0.0,
     ) -> CrossSection:
-        """Return what a robot's laser can see, in the frame map: all within its range, other robots too.
+        """Return what a robot's laser can see within its range, in the frame map, other robots included.
 
-        `moved` [m] is how far it may have moved while it measured.
+        `moved` [m] is the distance it may have moved during the measurement.
         """
         x, y, theta = viewer.pose
         c, s = math.cos(theta), math.sin(theta)
         mx, my, height = laser.mount
         x, y = x + c * mx - s * my, y + s * mx + c * my
         radius = laser.range_max + 6 * laser.noise
-        # the margin of what is cached covers all but high speeds
+        # the margin of the cache covers all but high speeds
         found = [self.fixed_around(viewer.name, x, y, height, radius + math.floor(moved / MARGIN) * MARGIN)]
         found += [self.movable(crate.obstacle, height, crate.pose) for crate in crates]
         found += [self.movable(mover.obstacle, height, mover.pose) for mover in movers]

@@ -1,4 +1,4 @@
-"""Things that move by themselves, and wait for what is in their way, or go back."""
+"""Obstacles that move by themselves, and wait or turn back when something is in their way."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ DELTA = 1e-4
 
 
 class Mover:
-    """A walker or a door, whose own clock stops while something is in its way."""
+    """A walker or a door; its own clock stops while something is in its way."""
 
     def __init__(self, obstacle: Obstacle, motion: Walk | Door, instant: Instant) -> None:
         self.obstacle = obstacle
         self.reach = reach_of(obstacle.shape)
         self.haste = motion.max_speed + self.reach * motion.max_turn
-        """How fast any point of it can move [m/s]."""
+        """Maximum speed of any of its points [m/s]."""
         self.keep = motion.keep
         self._instant = instant
         self.start()
 
     def start(self) -> None:
-        """Return to its initial pose."""
+        """Return to the initial pose."""
         self._since_ns, self._clock, self.waiting, self.pace = self._instant.ns, 0.0, False, 1
         self.room = 0.0
-        """How far it could move [m] at `room_ns` before its clearance must be measured again."""
+        """Distance it can move [m], measured at `room_ns`, before its clearance must be measured again."""
         self.room_ns = self._instant.ns
 
     @property
@@ -40,17 +40,17 @@ class Mover:
 
     @property
     def rate(self) -> int:
-        """How fast its own clock goes: 0 while it waits, else `pace`, which is -1 for who goes round the other way."""
+        """Rate of its own clock: 0 while it waits, else `pace`, which is -1 for a walker going in reverse."""
         return 0 if self.waiting else self.pace
 
     @property
     def pose(self) -> Pose:
-        """Where it is now."""
+        """Its current pose."""
         return self.obstacle.at(self.clock)
 
     @property
     def velocity(self) -> tuple[float, float, float]:
-        """How fast it moves, in the world's directions [m/s, m/s, rad/s]."""
+        """Its velocity in the frame map [m/s, m/s, rad/s]."""
         if self.waiting:
             return (0.0, 0.0, 0.0)
         before, after = self.pose, self.soon(DELTA)
@@ -58,17 +58,17 @@ class Mover:
         return (vx, vy, w)
 
     def wait(self, *, waiting: bool) -> None:
-        """Stop from now on, or continue."""
+        """Stop or continue."""
         if waiting != self.waiting:
             self._clock, self._since_ns, self.waiting = self.clock, self._instant.ns, waiting
 
     def soon(self, dt: float) -> Pose:
-        """Return its pose `dt` seconds from now, if nothing stops it."""
+        """Return its pose in `dt` seconds if nothing stops it."""
         return self.obstacle.at(self.clock + self.rate * dt)
 
     @property
     def way_back(self) -> tuple[float, int] | None:
-        """Its clock [s] and its pace if it went back from here; None if it stands, or has patience yet."""
+        """Its clock [s] and pace if it turned back from here; None if it cannot, or has not waited long enough yet."""
         motion = self.obstacle.motion
         waited = (self._instant.ns - self._since_ns) / SECOND if self.waiting else 0.0
         if isinstance(motion, Door):
@@ -78,19 +78,19 @@ class Mover:
         return (self.clock, -self.pace) if walks else None
 
     def go_back(self, clock: float, pace: int) -> None:
-        """Go on from a clock at which it is where it is now, at this pace."""
+        """Continue from a clock that gives the same pose, at this pace."""
         self._clock, self._since_ns, self.waiting, self.pace = clock, self._instant.ns, False, pace
 
     def room_left(self, ns: int) -> float:
-        """How far any point of it can still move then [m]."""
+        """Return the distance that any of its points can still move at `ns` [m]."""
         return self.room - self.haste * (ns - self.room_ns) / SECOND
 
     def room_to_go(self, ns: int) -> float:
-        """How far it can still move then [m] before it may have to stop for something."""
+        """Return the distance it can still move at `ns` [m] before it may have to stop for something."""
         return self.room_left(ns) - self.keep
 
     def leg(self) -> tuple[float, Pose, float, tuple[int, int]]:
-        """Return the current leg of its trail: start time [s], pose, its own clock, its rate and since when."""
+        """Return the current leg of its trail: start time [s], pose, its clock, its rate and when that began."""
         course = (self.rate, self._since_ns)
         return (self._since_ns / SECOND, self.obstacle.at(self._clock), self._clock, course)
 

@@ -1,4 +1,4 @@
-"""What is near to a place, of many things that stay where they are."""
+"""Index of fixed boxes by position."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 SQUARE = 2.0
-"""How large the squares are [m] into which the ground is divided; what is larger than one is looked at each time."""
+"""Edge length of the grid's cells [m]; larger boxes are always tested."""
 
 
 class Nearby:
@@ -30,11 +30,11 @@ class Nearby:
         self._keys, self._which = keys[order], which[order]
 
     def within(self, x: float, y: float, reach: float) -> Ints:
-        """Which boxes meet the square that goes from a place so far [m] to each side: their numbers, ascending."""
+        """Return the indices of the boxes that meet the square of half-width `reach` [m], in ascending order."""
         parts = [self._large]
         half = (
             0.5 + 1e-6
-        )  # so many squares is a middle at most from the end of its box, and a little for want of digits
+        )  # a box's centre is at most half a cell from its edge, plus an allowance for rounding errors
         low = np.floor((np.array([x, y]) - self._origin - reach) / SQUARE - half)
         high = np.floor((np.array([x, y]) - self._origin + reach) / SQUARE + half)
         left, bottom = np.maximum(low, 0.0).tolist()
@@ -56,7 +56,7 @@ class Nearby:
 
 
 def boxes_around(segments: Floats) -> Floats:
-    """The boxes (n, 4) around segments (n, 4)."""
+    """Return the bounding boxes (n, 4) of segments (n, 4)."""
     return np.hstack(
         [np.minimum(segments[:, :2], segments[:, 2:]), np.maximum(segments[:, :2], segments[:, 2:])]
     )

@@ -1,8 +1,8 @@
-"""Two convex outlines: how far they are apart, and how they touch. Loops for `rosmini.sim.engine.kernels`.
+"""Distance and contact points of two convex outlines. Loops for `rosmini.sim.engine.kernels`.
 
-An outline has a radius around it: one corner with a radius is a disc, two corners without one are a wall. Two
-outlines overlap by the least way that parts them, which is along the normal of one of their sides (the
-theorem of the separating axis: Gottschalk, Lin and Manocha, SIGGRAPH 1996). They touch with the two sides
+An outline has a radius around it: one corner with a radius is a disc, two corners without one are a wall. The
+depth of an overlap is the shortest motion that separates two outlines, along the normal of one of their sides
+(separating axis theorem: Gottschalk, Lin and Manocha, SIGGRAPH 1996). The contact points lie on the two sides
 that face each other.
 """
 
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 Contact = tuple[int, float, float, float, float, float, float, float, float]
-"""How many points there are, the normal, and of each point its depth and its place."""
+"""Number of points, the normal, and for each point its depth and position."""
 
 NONE: Contact = (0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -24,7 +24,7 @@ NONE: Contact = (0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 def parting(
     a: Floats, a0: int, a1: int, b: Floats, b0: int, b1: int, most: float
 ) -> tuple[float, float, float]:
-    """The largest separation of two outlines along a normal of the first, and that normal; stops above `most`."""
+    """Return the largest separation along a normal of the first outline, and that normal; stops above `most`."""
     best, nx, ny = -math.inf, 0.0, 0.0
     for k in range(a0, a1):
         j = k + 1 if k + 1 < a1 else a0
@@ -44,7 +44,7 @@ def parting(
 
 
 def facing(a: Floats, a0: int, a1: int, nx: float, ny: float) -> tuple[int, int]:
-    """The corners of the side that faces a normal best, of the two sides at the corner farthest along it."""
+    """Return the corners of the side that best faces a normal, of the two sides at the corner farthest along it."""
     far, i = -math.inf, a0
     for k in range(a0, a1):
         along = a[k, 0] * nx + a[k, 1] * ny
@@ -60,7 +60,7 @@ def facing(a: Floats, a0: int, a1: int, nx: float, ny: float) -> tuple[int, int]
 
 
 def height(a: Floats, i: int, j: int, nx: float, ny: float, t: float) -> float:
-    """How far a side reaches along a normal at offset t; a side parallel to the normal counts at its farthest."""
+    """Return a side's extent along a normal at offset t; its maximum if the side is parallel to the normal."""
     ti, tj = a[i, 1] * nx - a[i, 0] * ny, a[j, 1] * nx - a[j, 0] * ny
     hi, hj = a[i, 0] * nx + a[i, 1] * ny, a[j, 0] * nx + a[j, 1] * ny
     if abs(tj - ti) < 1e-12:
@@ -72,7 +72,7 @@ def height(a: Floats, i: int, j: int, nx: float, ny: float, t: float) -> float:
 def contact(
     a: Floats, a0: int, a1: int, ra: float, b: Floats, b0: int, b1: int, rb: float, least: float
 ) -> Contact:
-    """Where and how deep two outlines overlap, if by more than `least`; the normal points to the second."""
+    """Return the points and depth of an overlap above `least`; the normal points from the first to the second."""
     if b1 - b0 == 1:
         return contact_disc(a, a0, a1, ra, b[b0, 0], b[b0, 1], rb, least)
     if a1 - a0 == 1:
@@ -91,7 +91,7 @@ def contact(
     ti, tj = a[i, 1] * nx - a[i, 0] * ny, a[j, 1] * nx - a[j, 0] * ny
     tp, tq = b[p, 1] * nx - b[p, 0] * ny, b[q, 1] * nx - b[q, 0] * ny
     begin, end = max(min(ti, tj), min(tp, tq)), min(max(ti, tj), max(tp, tq))
-    if begin > end:  # for want of digits
+    if begin > end:  # because of rounding
         begin = end = (begin + end) / 2
     h, k = height(a, i, j, nx, ny, begin), height(a, i, j, nx, ny, end)
     depth, deep = h - height(b, p, q, nx, ny, begin), k - height(b, p, q, nx, ny, end)
@@ -107,7 +107,7 @@ def contact(
 
 
 def nearest_side(a: Floats, a0: int, a1: int, x: float, y: float) -> tuple[float, float, float]:
-    """The square of the distance of a place from an outline's sides, and where on them it is nearest."""
+    """Return the squared distance of a point from an outline's sides, and the nearest point on them."""
     best, px, py = math.inf, 0.0, 0.0
     for k in range(a0, a1):
         j = k + 1 if k + 1 < a1 else a0
@@ -127,7 +127,7 @@ def contact_disc(
     a: Floats, a0: int, a1: int, ra: float, x: float, y: float, radius: float, least: float
 ) -> Contact:
     """`contact` of an outline with a disc."""
-    out, nx, ny = -math.inf, 1.0, 0.0  # how far the middle is out of the side that it is farthest out of
+    out, nx, ny = -math.inf, 1.0, 0.0  # distance of the centre from the side that it is farthest outside of
     for k in range(a0, a1):
         j = k + 1 if k + 1 < a1 else a0
         ex, ey = a[j, 0] - a[k, 0], a[j, 1] - a[k, 1]
@@ -151,7 +151,7 @@ def contact_disc(
 
 
 def gap(a: Floats, a0: int, a1: int, ra: float, b: Floats, b0: int, b1: int, rb: float) -> float:
-    """How far two outlines are apart; less than 0 if they overlap."""
+    """Return the distance of two outlines; negative if they overlap."""
     apart, _, _ = parting(a, a0, a1, b, b0, b1, math.inf)
     if b1 - b0 > 1:
         other, _, _ = parting(b, b0, b1, a, a0, a1, math.inf)

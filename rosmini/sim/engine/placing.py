@@ -1,4 +1,4 @@
-"""Where a robot can be put."""
+"""Check whether a robot has room at a pose."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ def free_pose(
 ) -> Pose:
     """Return `pose` as floats if a robot of this model has room there.
 
-    `hindrance(pose)` is what stands there, in words, and `taken(pose)` the same of what can move. Raises `WorldError`,
-    which names the nearest free position, and for numbers that are not finite.
+    `hindrance(pose)` describes the object in the way, and `taken(pose)` does the same for movable bodies. Raises
+    `WorldError`, which names the nearest free position, also for numbers that are not finite.
     """
     if not all(math.isfinite(part) for part in pose):
         raise WorldError(f"a robot cannot be placed at {pose}: x, y and heading have to be finite numbers")

@@ -1,4 +1,4 @@
-"""Everything in an engine that is not fixed: what the facade, the stepper and the sensors share."""
+"""The bodies in an engine that are not fixed, shared by the facade, the stepper and the sensors."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .trails import Trails
 
 
 class Population:
-    """The robots, what moves by itself, what can be pushed, and where they were lately."""
+    """The robots, movers and pushable obstacles of an engine, and their recent poses."""
 
     def __init__(self) -> None:
         self.instant = Instant()
@@ -27,10 +27,10 @@ class Population:
         self.trails = Trails()
         self.laser_view = LaserView(World("void"))
         self.changed = 0
-        """How often something came, went, or was put elsewhere."""
+        """Number of times a body was added, removed or put elsewhere."""
 
     def embody(self, robot: Robot) -> None:
-        """Make the body of a robot."""
+        """Add the body of a robot."""
         if isinstance(robot, Thing):
             model = robot.model
             mass = None if math.isinf(model.mass) else model.mass
@@ -41,7 +41,7 @@ class Population:
             self.contacts.add_robot(robot)
 
     def take_in(self, obstacle: Obstacle) -> None:
-        """Make the body of an obstacle."""
+        """Add the body of an obstacle."""
         if obstacle.movable:
             self.contacts.add_crate(Crate(obstacle, self.instant))
         elif obstacle.motion is not None:
@@ -59,16 +59,16 @@ class Population:
 
     @property
     def drivers(self) -> list[Robot]:
-        """The robots that have a drive."""
+        """The robots with a drive."""
         return [each for each in self.robots.values() if not isinstance(each, Thing)]
 
     @property
     def moving(self) -> list[Robot | Mover]:
-        """The robots that have a drive, and what moves by itself."""
+        """The robots with a drive, and the obstacles that move by themselves."""
         return [*self.drivers, *self.movers.values()]
 
     def note(self, each: Robot | Mover) -> None:
-        """Write into the trail of something on which way it goes on, if that is to be remembered."""
+        """Record the current leg in the trail of a robot or mover, if trails are kept."""
         if not self.trails.span:
             return
         name = each.name if isinstance(each, Robot) else each.obstacle.name

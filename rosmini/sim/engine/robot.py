@@ -1,9 +1,9 @@
-"""One robot of the engine: its pose, its wheels, and how they take it along; and what has no wheels of its own.
+"""A robot of the engine: its pose, its wheels and its motion; also models without wheels.
 
-A robot goes its `Way` from the last time at which anything about it changed (a command, a slip, a push), in
-closed form. Where it is now is computed when somebody asks, from there, and not stored: nobody's asking
-changes the last bit of it. In a step of the physics that keeps it from its way it goes straight from where it
-was to where it gets, and then on a new way.
+A robot follows its `Way`, a path in closed form, from the last time at which anything about it changed (a command,
+a slip, a push). Its current pose is computed from there on request, and not stored, so a query never changes the
+last bit of it. In a physics step in which a contact keeps it from its path, it moves straight from its pose at the
+beginning to the pose at the end, and then follows a new path.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ Floats = NDArray[np.float64]
 
 
 class Step(NamedTuple):
-    """A step of the physics in which a robot was kept from its way."""
+    """A physics step in which a contact kept a robot from its path."""
 
     begin_ns: int
     begin: Pose
     end_ns: int
     end: Pose
     following: Way
-    """On which it goes on."""
+    """The path that it follows afterwards."""
 
 
 class Robot:
-    """A robot with two wheels: where it is, how fast its wheels turn, and what they were told."""
+    """A robot with two wheels: its pose, its wheel speeds and its commands."""
 
     drive: Drive
     _spot: Spot
@@ -56,39 +56,39 @@ class Robot:
         self._instant = instant
         self.stop(pose)
         self._past: tuple[Leg | None, Way] = (None, self._way)
-        """The leg of its trail that was asked for last, and the way on it."""
+        """The leg of its trail that was last asked for, and the path on it."""
 
     def stop(self, pose: Pose) -> None:
-        """Stand still there, with encoders at zero and no command."""
+        """Stop at a pose, with encoders at zero and no command."""
         self._set_out(self._instant.ns, self._new_way(pose, self.drive.still, self.drive.targets))
         self.expires_ns: float = math.inf
-        """When the command is too old."""
+        """Time at which the command expires [ns]."""
         self.touching = False
-        """True while something keeps it from where its wheels would take it."""
+        """True while a contact keeps it from its path."""
         self.seen: Speeds = (0.0, 0.0, 0.0)
-        """Its velocity (ahead, left [m/s], around [rad/s]) in the last step that kept it from its way."""
+        """Its velocity (ahead, left [m/s], rate of turn [rad/s]) in the last step with a contact."""
         self.slip = (0.0, 0.0)
-        """How fast its wheels slid over the ground in that step [m/s], in the world's directions."""
+        """Slip velocity of its wheels over the ground in that step [m/s], in the frame map."""
         self._rates = (0.0, 0.0)
 
     # -- its way -------------------------------------------------------------------------------------------------
 
     def _set_out(self, ns: int, way: Way) -> None:
-        """Go another way from then on."""
+        """Follow another path from a time on."""
         self._since_ns, self._way = ns, way
         self._step: Step | None = None
         self._spot_ns = -1
         self.room = 0.0
-        """How far it could move [m] at `room_ns`, before it has to be looked again whether anything is in its way."""
+        """Distance it can move [m], measured at `room_ns`, before its clearance must be measured again."""
         self.room_ns = ns
         self.haste = self.drive.haste(way.state, way.targets, way.rolling)
-        """How fast any of its corners can go [m/s]."""
+        """Maximum speed of any of its corners [m/s]."""
 
     def _new_way(self, pose: Pose, state: WheelState, targets: Numbers) -> Way:
         return Way(self.drive, pose, state, targets, self.drive.rolling(self.wheels))
 
     def _change(self, state: WheelState, targets: Numbers) -> None:
-        """Change its way: now, or at the end of the step if something keeps it from its way."""
+        """Change its path: now, or at the end of the step if a contact keeps it from its path."""
         ns, pose, room = self._instant.ns, self.pose, self.room_left(self._instant.ns)
         step = self._step
         if step is None:
@@ -108,7 +108,7 @@ class Robot:
         return self._spot
 
     def at(self, ns: int) -> Spot:
-        """Where it is then, unless anything changes until then."""
+        """Return its pose and wheel state at a time, unless anything changes before."""
         step = self._step
         if step is None:
             return self._way.at((ns - self._since_ns) / SECOND)
@@ -119,11 +119,11 @@ class Robot:
         return Spot(between_poses(step.begin, step.end, part), spot.state, spot.rates)
 
     def room_left(self, ns: int) -> float:
-        """How far it can still move then [m]."""
+        """Return the distance it can still move at `ns` [m]."""
         return self.room - self.haste * (ns - self.room_ns) / SECOND
 
     def leg(self) -> tuple[float, Pose, WheelState, tuple[Numbers, Numbers]]:
-        """The current leg of its trail: start time [s], pose, wheel state, and what the way follows from."""
+        """Return the current leg of its trail: start time [s], pose, wheel state, and the inputs of its path."""
         if self._step is None:
             since, way = self._since_ns, self._way
         else:
@@ -131,7 +131,7 @@ class Robot:
         return (since / SECOND, way.pose, way.state, (way.targets, way.rolling))
 
     def later(self, leg: Leg, dt: float) -> Pose:
-        """Where it was so long [s] after the begin of a leg of its trail."""
+        """Return its pose `dt` seconds after the beginning of a leg of its trail."""
         if leg is not self._past[0]:
             _, pose, state, (targets, rolling) = leg
             self._past = (leg, Way(self.drive, pose, state, targets, rolling))
@@ -141,56 +141,56 @@ class Robot:
 
     @property
     def pose(self) -> Pose:
-        """The truth, in the frame map; the heading is not wrapped."""
+        """Its true pose in the frame map; the heading is not wrapped."""
         return self._spot.pose if self._spot_ns == self._instant.ns else self._here().pose
 
     @property
     def standing(self) -> bool:
-        """True while no wheel turns nor is told to."""
+        """True if no wheel turns or is commanded to turn."""
         state = self._here().state
         targets = self._way.targets
         return not any(targets) and state[: len(targets)] == targets
 
     @property
     def left(self) -> float:
-        """How fast the left wheel's rim goes [m/s], if the wheel had the radius on paper."""
+        """Speed of the left wheel's rim [m/s], with the nominal radius."""
         return self._here().state[0]
 
     @property
     def right(self) -> float:
-        """The same of the right wheel."""
+        """Speed of the right wheel's rim [m/s], with the nominal radius."""
         return self._here().state[1]
 
     @property
     def left_way(self) -> float:
-        """How far the left rim has gone [m]."""
+        """Distance travelled by the left rim [m]."""
         return self._here().state[2]
 
     @property
     def right_way(self) -> float:
-        """How far the right rim has gone [m]."""
+        """Distance travelled by the right rim [m]."""
         return self._here().state[3]
 
     @property
     def ticks(self) -> tuple[int, int]:
-        """What the encoders of the left and the right wheel show."""
+        """Counts of the left and the right wheel encoder."""
         r, n = self.model.wheel_radius, self.model.ticks_per_turn
         _, _, left, right = self._here().state
         return (ticks(left / r, n), ticks(right / r, n))
 
     def motion(self) -> Motion:
-        """How it really moves at this moment; for its motion to the side see `velocity` and `acceleration_aside`."""
+        """Return its true current motion; for the sideways part see `velocity` and `acceleration_aside`."""
         if self.touching:
             return Motion(self.seen[0], self.seen[2], *self._rates)
         _, state, rates = self._here()
         v, _, w = self.drive.velocity(state, self._way.rolling)
         if not any(rates):
-            return tuple.__new__(Motion, (v, w, 0.0, 0.0))  # in half the time of Motion(...)
+            return tuple.__new__(Motion, (v, w, 0.0, 0.0))  # half the time of Motion(...)
         dv, _, dw = self.drive.velocity(rates, self._way.rolling)
         return Motion(v, w, dv, dw)
 
     def turning(self) -> tuple[float, Motion]:
-        """Return its heading, not wrapped, and `motion`: all that an IMU needs, without finding its position."""
+        """Return its heading, not wrapped, and `motion`: the input of an IMU, without computing its position."""
         cruise, ns = self._way.cruise, self._instant.ns
         if cruise is not None and self._step is None and not self.touching:
             dt = (ns - self._since_ns) / SECOND - cruise.begin
@@ -200,30 +200,30 @@ class Robot:
 
     @property
     def velocity(self) -> Speeds:
-        """How fast it really goes: ahead and to its left side [m/s], and to the left [rad/s]."""
+        """Its true velocity: ahead and to its left side [m/s], and rate of turn to the left [rad/s]."""
         return self.seen if self.touching else self.drive.velocity(self._here().state, self._way.rolling)
 
     @property
     def acceleration_aside(self) -> float:
-        """How fast its speed to its left side changes [m/s2], but for its turning."""
+        """Rate of change of its speed to the left side [m/s2], without the effect of turning."""
         return 0.0 if self.touching else self.drive.velocity(self._here().rates, self._way.rolling)[1]
 
     def world_velocity(self) -> Speeds:
-        """How it moves now: along x and y of the world [m/s], and to the left [rad/s]."""
+        """Return its current velocity: along x and y of the frame map [m/s], and rate of turn to the left [rad/s]."""
         v, vy, w = self.velocity
         c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         return (c * v - s * vy, s * v + c * vy, w)
 
     def corners(self) -> Floats:
-        """The footprint (k, 2) where the robot is now."""
+        """Return the footprint (k, 2) at the robot's current pose."""
         return transform_points(self.pose, self.model.footprint)
 
     # -- what it is told -----------------------------------------------------------------------------------------
 
     def command(self, v: float, vy: float, w: float) -> None:
-        """Be told to go ahead and to the left side [m/s], and to turn to the left [rad/s], cut to what it can do.
+        """Set the commanded speeds ahead and to the left side [m/s] and turn to the left [rad/s], within its limits.
 
-        Told the same again it goes on as it does. One that is kept from its way takes notice at the end of the step.
+        An equal command changes nothing. During a contact, the command takes effect at the end of the step.
         """
         pose_now = self._here()
         way, old = (self._way, pose_now.state) if self._step is None else (self._step.following, None)
@@ -232,7 +232,7 @@ class Robot:
             self._change(state, targets)
 
     def launch(self, pose: Pose, velocity: Speeds) -> None:
-        """Be there at once with this velocity, and be told to stop."""
+        """Move to a pose at once with this velocity, and command a stop."""
         spot = self._here()
         rolling = self._way.rolling
         moving = self.drive.launched(velocity, rolling)
@@ -249,7 +249,7 @@ class Robot:
             self._change(spot.state, self._way.targets)
 
     def carried(self, begin_ns: int, end_ns: int, wheels: Spot, end: Pose) -> None:
-        """Learn where a step takes it, whose wheels would take it to `wheels`, and note how fast it goes."""
+        """Set the end of a step with a contact, whose wheels alone would lead to `wheels`, and record the velocity."""
         begin = self.pose
         dt = (end_ns - begin_ns) / SECOND
         before = self.velocity
@@ -266,7 +266,7 @@ class Robot:
         self.room = 0.0
 
     def freed(self) -> None:
-        """Learn that nothing keeps it from its way in a step."""
+        """Record that no contact keeps it from its path in a step."""
         self.touching = False
         self.slip = (0.0, 0.0)
 
@@ -275,18 +275,18 @@ class Robot:
     kept: tuple[str, ...] = ("start", "expires_ns", "touching", "seen", "slip", "_rates", "_since_ns")
 
     def state(self) -> dict[str, Any]:
-        """Everything about it but its name and model, its wheels included."""
+        """Return everything about it except its name and model; includes its wheels."""
         step = self._step
         return {
             **{name: getattr(self, name) for name in self.kept},
-            "pose": self.pose,  # for who reads a state
+            "pose": self.pose,  # for readers of a state
             "way": self._way.plain(),
             "step": None if step is None else (*step[:4], step.following.plain()),
             "wheels": self.wheels.state(),
         }
 
     def restore(self, state: dict[str, Any]) -> None:
-        """Be as it was then."""
+        """Restore what `state` returned."""
         self.wheels.restore(state["wheels"])
         self._set_out(self._instant.ns, Way(self.drive, *state["way"]))
         if state["step"] is not None:
@@ -302,33 +302,33 @@ class HolonomicRobot(Robot):
 
     @property
     def speeds(self) -> Speeds:
-        """Ahead and to the left side [m/s], and to the left [rad/s]."""
+        """Speeds ahead and to the left side [m/s], and rate of turn to the left [rad/s]."""
         return three(self._here().state)
 
     @property
     def reckoned(self) -> Pose:
-        """Where it believes to be: what follows from its wheels, from where it was switched on."""
+        """Its estimated pose by dead reckoning from its wheels, relative to the pose at power-on."""
         return three(self._here().state[3:])
 
     @property
     def ticks(self) -> tuple[int, int]:
-        """Nothing is counted."""
+        """Always zero: it has no encoders."""
         return (0, 0)
 
 
 class Thing(Robot):
-    """What has no drive: it stands, or is pushed. It is where its body is."""
+    """A model without a drive: it rests or is pushed. Its pose is that of its body."""
 
     body: Placed
     kept = (*Robot.kept, "_followed_ns")
 
     @property
     def pose(self) -> Pose:
-        """The truth, in the frame map; the heading is not wrapped."""
+        """Its true pose in the frame map; the heading is not wrapped."""
         return self.body.pose
 
     def motion(self) -> Motion:
-        """How it really moves at this moment."""
+        """Return its true current motion."""
         rates = self._rates if self._instant.ns <= self._followed_ns else (0.0, 0.0)
         return Motion(self.seen[0], self.seen[2], *rates)
 
@@ -338,11 +338,11 @@ class Thing(Robot):
 
     @property
     def velocity(self) -> Speeds:
-        """How fast it really goes: ahead and to its left side [m/s], and to the left [rad/s]."""
+        """Its true velocity: ahead and to its left side [m/s], and rate of turn to the left [rad/s]."""
         return self.seen
 
     def command(self, v: float, vy: float, w: float) -> None:
-        """Refuse: it cannot. Raises `RosminiError`."""
+        """Raise `RosminiError`, because it has no drive."""
         if v or vy or w:
             msg = f"{self.name!r} cannot go {v} m/s, {vy} m/s to its side and {w} rad/s: it has no drive"
             raise RosminiError(msg)
@@ -350,18 +350,18 @@ class Thing(Robot):
     _followed_ns = -1
 
     def follow(self, pose: Pose, velocity: Speeds, end_ns: int) -> None:
-        """Record where a step takes it, and its velocity then, in world axes [m/s, m/s, rad/s]."""
+        """Record the pose and velocity at the end of a step, in the frame map [m/s, m/s, rad/s]."""
         (vx, vy, w), c, s = velocity, math.cos(pose[2]), math.sin(pose[2])
         before, self.seen = self.seen, (c * vx + s * vy, c * vy - s * vx, w)
         self._rates = ((self.seen[0] - before[0]) / STEP, (w - before[2]) / STEP)
         self._followed_ns = end_ns
 
     def launch(self, pose: Pose, velocity: Speeds) -> None:  # noqa: ARG002 - its body is put there
-        """Note that it has this velocity."""
+        """Record its velocity."""
         self.seen, self._rates = velocity, (0.0, 0.0)
 
 
 def make_robot(name: str, model: RobotModel, pose: Pose, wheels: RealWheels, instant: Instant) -> Robot:
-    """A robot as its model's drive says."""
+    """Return a robot of the class for its model's drive."""
     kinds = {"differential": Robot, "holonomic": HolonomicRobot, None: Thing}
     return kinds[model.drive](name, model, pose, wheels, instant)

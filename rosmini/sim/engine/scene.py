@@ -1,4 +1,4 @@
-"""Bodies that may touch one another soon, and what is fixed around them, as tables for `rosmini.sim.engine.kernels`."""
+"""Bodies that may touch each other soon, and fixed outlines near them, as tables for `rosmini.sim.engine.kernels`."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 MARGIN = 0.5
-"""So far [m] a body goes until it is looked again what is fixed around it."""
+"""Distance a body can move [m] before the fixed outlines near it are looked up again."""
 
 
 WORTH = 5000
-"""The loops run as plain Python over this number of bodies first; beyond that compiling those that are called pays."""
+"""Number of bodies processed in plain Python first; beyond it compilation of the loops pays off."""
 
 
 def _fastest(name: str) -> Callable[..., Any]:
-    """Return a loop as machine code, or, without numba, as plain Python: which does the same, to the last bit."""
+    """Return a loop as machine code, or without numba as plain Python with the same results to the last bit."""
     try:
         return compiled(name)
     except ImportError as error:
@@ -38,11 +38,11 @@ def _fastest(name: str) -> Callable[..., Any]:
 
 
 KERNELS = {name: cache(partial(_fastest, name)) for name in PLAIN}
-"""The loops; each is compiled when it is called for the first time."""
+"""The loops; each is compiled at its first call."""
 
 
 class Loops:
-    """The loops of one engine, which does not wait for the compiler while it has little for them to do."""
+    """Runs the loops of one engine; while the load is small it does not wait for the compiler."""
 
     def __init__(self) -> None:
         self._done = 0
@@ -50,14 +50,14 @@ class Loops:
     def run(self, name: str, size: int, *args: Any) -> Any:
         """Run a loop over this number of bodies."""
         kernel = KERNELS[name]
-        if self._done < WORTH and not kernel.cache_info().currsize:  # else it is compiled already
+        if self._done < WORTH and not kernel.cache_info().currsize:  # otherwise it is compiled already
             self._done += size
             return PLAIN[name](*args)
         return kernel()(*args)
 
 
 class Near:
-    """Bodies sorted by name, for as long as none of them moves farther than `margin` [m]."""
+    """Tables of bodies sorted by name, valid as long as none of them moves farther than `margin` [m]."""
 
     def __init__(
         self,
@@ -112,7 +112,7 @@ class Near:
         self.hits = np.zeros((2 * most, 13))
 
     def _mates(self, margin: float) -> tuple[Ints, Ints]:
-        """Which bodies may come to each."""
+        """Find the bodies that may come near each body."""
         x, y = self.poses[:, 0], self.poses[:, 1]
         reach = np.array([body.reach for body in self.bodies])
         low, high = np.array([(b.bottom, b.top) for b in self.bodies]).reshape(-1, 2).T
@@ -123,7 +123,7 @@ class Near:
         return _sums(np.bincount(rows, minlength=len(self.bodies)).tolist()), columns.astype(np.int64)
 
     def slide(self, dt: float, motion: Floats) -> list[tuple[str, str, float]]:
-        """Let things slide for a step; return how hard bodies push each other [N]: who, with what, and the force."""
+        """Let objects slide for a step; return each pair of bodies in contact with the force between them [N]."""
         count = self._loops.run(
             "slide", 10 * len(self.bodies), dt, self.friction, self.scene, motion, self.hits
         )
@@ -136,13 +136,13 @@ class Near:
         return [(*pair, force) for pair, force in found.items()]
 
     def make_way(self, queue: list[int]) -> list[int]:
-        """Bring robots out of what they have driven into, first these; return who was moved."""
+        """Resolve the overlaps of robots, these first; return the indices of those that were moved."""
         moved = np.zeros(len(self.bodies), dtype=np.int64)
         self._loops.run("make_way", len(self.bodies), np.array(queue, dtype=np.int64), self.scene, moved)
         return np.flatnonzero(moved).tolist()
 
     def clearances(self, lookers: list[int], view: float) -> list[float]:
-        """How far each body can move until it may touch something, of those who look; inf, or less, of others."""
+        """Return how far each of `lookers` can move before a contact; for the other bodies inf, or an upper bound."""
         rooms = np.full(len(self.bodies), np.inf)
         numbers = np.array(lookers, dtype=np.int64)
         self._loops.run("clearances", len(lookers), numbers, view, self.scene, rooms)
@@ -150,7 +150,7 @@ class Near:
 
 
 def _around(body: Body, pose: Pose, ground: Ground, margin: float) -> list[FixedPiece]:
-    """What of fixed things may come to a body."""
+    """Return the fixed pieces that may come near a body."""
     x, y, _ = pose
     need = body.reach + margin
     if body.around is not None:
@@ -171,13 +171,13 @@ def _sums(counts: Sequence[int]) -> Ints:
 
 
 def _stacked(outlines: Sequence[tuple[Floats, float]]) -> tuple[Floats, Ints, Floats]:
-    """Outlines one below the other: their corners, where each begins, and their radii."""
+    """Stack outlines: return their corners, the start of each, and their radii."""
     corners = np.vstack([np.empty((0, 2)), *(corners for corners, _ in outlines)])
     radii = np.array([radius for _, radius in outlines], dtype=float)
     return corners, _sums([len(corners) for corners, _ in outlines]), radii
 
 
 def contact_points(found: Contact) -> list[tuple[float, float, float]]:
-    """Of each point of a contact its place and its depth."""
+    """Return the position and depth of each point of a contact."""
     count, _, _, d0, x0, y0, d1, x1, y1 = found
     return [(x0, y0, d0), (x1, y1, d1)][:count]

@@ -1,30 +1,30 @@
-"""How time goes on in an engine: one fixed grid of steps, which nobody's looking changes.
+"""The passage of time in an engine: one fixed grid of steps, which queries do not change.
 
-Time is counted in whole nanoseconds since the engine began; step k goes from k * STEP_NS to (k + 1) *
-STEP_NS, always.
+Time is counted in whole nanoseconds since the engine began; step k always goes from k * STEP_NS to (k + 1) *
+STEP_NS.
 
-*Free motion* needs no steps. A robot goes its way in closed form from the last change
-(`rosmini.sim.engine.robot`), whether it is looked at a thousand times meanwhile or never. Commands, slips and
-commands that get too old change the way at exactly their time.
+*Free motion* needs no steps. A robot follows a path in closed form from the last change
+(`rosmini.sim.engine.robot`), no matter how often its pose is asked for. Commands, slips and the expiry of
+commands change the path at exactly their time.
 
-*Contact* is decided at the points of the grid. In a step, first things that slide, are struck or pushed go on
-(impulses, from their places at its begin), then robots that their wheels would take into something are
-brought out of it (at its end). Who is brought out of something leaves its way for that step and goes straight
-to where it gets; from the end of the step on it goes on its way from there. A step is computed once, when
-time first passes its begin, from what was so at its begin and from nothing else. Therefore:
+*Contact* is resolved at the points of the grid. In a step, first the objects that slide or are pushed move
+(by impulses, from their poses at its beginning), then robots that their wheels would take into an obstacle are
+pushed out of it (at its end). A robot that is pushed out leaves its path for that step and moves straight
+to the new pose; from the end of the step on it follows a new path. A step is computed once, when
+time first passes its beginning, and only from the state at its beginning. Therefore:
 
-- where something is within a step lies on the straight line between its begin and its end, and is not stored;
-- a command within a step changes a robot that is kept from its way in this step at the end of the step;
-- what is put somewhere within a step is there at once and goes on evenly; it touches, rubs and is pushed from the
+- a pose within a step lies on the straight line between its beginning and its end, and is not stored;
+- a command within a step takes effect at the end of the step if a contact keeps the robot from its path;
+- an object put somewhere within a step is there at once and moves on evenly; it touches, rubs and is pushed from the
   next step on;
-- friction and gravity that are changed within a step count from the next one on;
-- the solver remembers nothing from step to step, so a state is no more than places and velocities.
+- a change of friction and gravity within a step takes effect from the next one on;
+- the solver remembers nothing from step to step, so a state consists of poses and velocities only.
 
-*Who is looked at* is a matter of speed alone. Each robot, and each thing that moves by itself, has some room:
-so far it can move, and the others with it, before anything can touch; between two that move the gap is
-shared. Who has no room left is looked at, and `PLAN` steps at a time it is settled who may touch anything,
-and who is near to those. Looking at more robots than necessary changes nothing: who touches nothing stays on
-its way.
+*Which bodies are checked* matters only for speed. Each robot and each mover has a clearance, `room`: the distance
+that it can move, and the others with it, before a contact is possible; two movers share the gap between
+them. Bodies without clearance left are checked: every `PLAN` steps the bodies that may touch anything, and those
+near them, are determined. Checking more robots than necessary changes nothing: a robot without a contact stays
+on its path.
 """
 
 from __future__ import annotations
@@ -47,31 +47,31 @@ from .scene import Near
 from .wheel_drives import Spot
 
 PLAN = 10
-"""For so many steps it is settled who may touch anything."""
+"""Number of steps for which the bodies that may touch anything are determined."""
 
 HORIZON = PLAN * STEP
-"""The same [s]."""
+"""Duration of `PLAN` steps [s]."""
 
 VIEW = 0.5
-"""So far [m] a robot looks around itself; what is farther away does not matter yet."""
+"""Distance to which a robot's surroundings are checked [m]; farther bodies do not matter yet."""
 
 SAFE = 1e-4
-"""From so near [m] on, a robot is looked at step by step."""
+"""Gap below which a robot is checked in every step [m]."""
 
 NEAR = 0.02
-"""What comes so near [m] to what may touch something, may be touched."""
+"""Gap to a checked body below which another one is included [m]."""
 
 SLIP_NS = round(SLIP_PERIOD * SECOND)
 
 
 class Stepper:
-    """The time of one engine."""
+    """Advances the time of one engine."""
 
     def __init__(self, population: Population) -> None:
         self._all = population
         self._instant = population.instant
         self.slips_ns = SLIP_NS
-        """When the wheels' slip changes next."""
+        """Time of the next change of the wheels' slip [ns]."""
         self._change_ns: float | None = None
         self._drivers: list[Robot] = []
         self._group: Near | None = None
@@ -86,7 +86,7 @@ class Stepper:
     # -- what happens when ---------------------------------------------------------------------------------------
 
     def advance(self, until_ns: int) -> None:
-        """Let time go on until then; what is over stays as it is."""
+        """Advance time to `until_ns`; a time in the past has no effect."""
         instant = self._instant
         if not self._remembers and self._all.trails.span:
             self._remembers = True
@@ -107,7 +107,7 @@ class Stepper:
         instant.ns = max(instant.ns, until_ns)
 
     def _changes(self) -> None:
-        """Let happen what is due now."""
+        """Apply the changes that are due now."""
         now = self._instant.ns
         for robot in self._drivers:
             if robot.expires_ns <= now:
@@ -122,7 +122,7 @@ class Stepper:
         self._change_ns = None
 
     def commanded(self, robot: Robot) -> None:
-        """Learn that a robot was told something."""
+        """Take notice of a new command to a robot."""
         self._change_ns = None
         self._all.note(robot)
         left = max(self._planned * STEP_NS - self._instant.ns, 0) / SECOND
@@ -130,17 +130,17 @@ class Stepper:
             self._plan_next()
 
     def invalidate_clearance(self) -> None:
-        """Note that something came, went, or was put elsewhere."""
+        """Take notice that a body was added, removed or put elsewhere."""
         self._drivers = self._all.drivers
         self._change_ns = None
         self._plan_next()
 
     def _plan_next(self) -> None:
-        """Settle at the next point of the grid who may touch anything."""
+        """Determine at the next point of the grid which bodies may touch anything."""
         self._planned = self._tick = -(-self._instant.ns // STEP_NS)
 
     def forget(self) -> None:
-        """Forget who may touch what: everything may be elsewhere."""
+        """Discard all clearances: everything may be elsewhere."""
         self._group = None
         for each in self._all.moving:
             each.room = 0.0
@@ -149,7 +149,7 @@ class Stepper:
     # -- who may touch anything ----------------------------------------------------------------------------------
 
     def _leave(self, tick: int) -> None:
-        """Go on from a point of the grid."""
+        """Advance from a point of the grid."""
         if tick >= self._planned:
             self._plan(tick)
         if self._group is None:
@@ -159,12 +159,12 @@ class Stepper:
             self._tick = tick + 1
 
     def _plan(self, tick: int) -> None:
-        """Settle who may touch anything from now on, and until when."""
+        """Determine which bodies may touch anything from now on, and until when."""
         now, drivers, movers = self._instant.ns, self._drivers, list(self._all.movers.values())
         self._keep_apart()
         looked: set[Robot] = set()
         while short := [r for r in drivers if r not in looked and r.room_left(now) < r.haste * HORIZON]:
-            # and who will be short soon, to look seldom and at many at once
+            # include those that will be short soon, to check rarely and many at once
             short += [r for r in drivers if r not in looked and r.room_left(now) < 3 * r.haste * HORIZON]
             looked.update(short)
             self._look(list(dict.fromkeys(short)))
@@ -190,7 +190,7 @@ class Stepper:
             self._planned = tick + max(int(min(steps, default=1e9)), PLAN)
 
     def _gather(self, active: list[Body]) -> None:
-        """Make tables of who may touch anything, and of who is near to them."""
+        """Make tables of the bodies that may touch anything, and of those near them."""
         contacts = self._all.contacts
         speeds = [math.hypot(*c.velocity[:2]) + c.reach * abs(c.velocity[2]) for c in contacts.crates]
         farthest = max([self._haste, *speeds]) * HORIZON
@@ -211,7 +211,7 @@ class Stepper:
                 self._crates.append((i, body.owner))
 
     def _keep_apart(self) -> None:
-        """Renew the clearance of who went in steps, and let nobody else come nearer than circles around them."""
+        """Update the clearances of robots and movers outside the group, using bounding circles around the members."""
         if self._group is None:
             return
         now, members = self._instant.ns, self._group.bodies
@@ -231,7 +231,7 @@ class Stepper:
                     each.room, each.room_ns = max(gap - SAFE, 0.0), now
 
     def _look(self, robots: list[Robot]) -> None:
-        """Measure how far robots can move without touching anything; of a gap to another that moves each has half."""
+        """Measure how far robots can move without a contact; two moving bodies share a gap by half."""
         now, contacts = self._instant.ns, self._all.contacts
         lookers = [contacts.bodies[robot.name] for robot in robots]
         scene = contacts.scene(dict.fromkeys([*lookers, *contacts.around(lookers, VIEW)]), VIEW)
@@ -244,7 +244,7 @@ class Stepper:
                 owner.room, owner.room_ns = room, now
 
     def _look_around(self, mover: Mover) -> None:
-        """Measure how far a mover can go without coming near anything, by bounding circles."""
+        """Measure how far a mover can move without coming near anything, by bounding circles."""
         now, contacts = self._instant.ns, self._all.contacts
         own = contacts.bodies[mover.obstacle.name]
         x, y, _ = mover.pose
@@ -264,7 +264,7 @@ class Stepper:
     # -- a step --------------------------------------------------------------------------------------------------
 
     def _step(self, group: Near) -> None:
-        """Let those go on for a step that may touch something."""
+        """Advance the members of the group by a step."""
         now = self._instant.ns
         for _, mover in self._movers:
             self._let_go(mover)
@@ -298,7 +298,7 @@ class Stepper:
                 self._all.note(robot)
 
     def _let_go(self, mover: Mover) -> None:
-        """Let a mover go on unless something that can give way is in its path; then let it go back if it can."""
+        """Let a mover continue unless a body that can give way is in its path; then let it turn back if it can."""
         mover.wait(waiting=self._is_stuck(mover, mover.clock, mover.pace))
         if mover.waiting:
             back = mover.way_back
@@ -307,13 +307,13 @@ class Stepper:
         self._all.note(mover)
 
     def _is_stuck(self, mover: Mover, clock: float, pace: int) -> bool:
-        """Whether a mover would come too near to something that can give way, from this time of its own [s] on."""
+        """Return True if a mover would come too near to a body that can give way, from this clock [s] on."""
         return self._all.contacts.stuck(
             mover.obstacle.name, mover.obstacle.at(clock + pace * STEP), mover.keep
         )
 
     def _slide(self, group: Near, ahead: list[Spot], end_ns: int) -> None:
-        """Let things slide, be struck and be pushed for a step."""
+        """Let obstacles slide, collide and be pushed for a step."""
         contacts = self._all.contacts
         motion = np.zeros((len(group.bodies), 6))
         for i, body in enumerate(group.bodies):
@@ -335,7 +335,7 @@ class Stepper:
 
     @staticmethod
     def _lever(group: Near, i: int) -> tuple[float, float]:
-        """From the origin of a body to its centre of mass."""
+        """Return the vector from a body's origin to its centre of mass."""
         theta, (x, y) = float(group.poses[i, 2]), group.scene[1][i, [CENTRE_X, CENTRE_Y]].tolist()
         c, s = math.cos(theta), math.sin(theta)
         return c * x - s * y, s * x + c * y
@@ -354,14 +354,14 @@ class Stepper:
     # -- looking ahead -------------------------------------------------------------------------------------------
 
     def peek(self, robot: Robot, when_ns: int) -> Pose:
-        """Where a robot will be then, if nothing can be in its way; else where it is."""
+        """Return a robot's pose at a time if nothing can be in its way by then; otherwise its current pose."""
         now = self._instant.ns
         if when_ns <= now or (self._change_ns is not None and when_ns > self._change_ns):
             return robot.pose
         return robot.at(when_ns).pose if robot.room_left(when_ns) >= 0 else robot.pose
 
     def lift(self, bodies: Iterable[Body]) -> None:
-        """Learn that something came, or was put, near to these."""
+        """Reset the clearances of these bodies, because something was added or moved near them."""
         for body in bodies:
             if isinstance(body.owner, (Robot, Mover)):
                 body.owner.room = 0.0

@@ -1,14 +1,14 @@
-"""What a laser measures that takes time for a revolution: each beam from where the robot was then.
+"""Scans of a laser that takes time for a revolution: each beam starts from the robot's pose at its time.
 
-Exact poses are found at `GRID` + 1 times of a revolution, and between them what moves is taken to go along
-arcs. So beams start exactly where they should while speeds are constant; where they change, at most a T^2 /
-(8 GRID^2) beside it, with a the acceleration and T the time of a revolution: a Burger that begins to turn as
-fast as it can, with 12.5 rad/s^2, is off by 0.6 milliradians for a moment. Others that move are put, for each
-`TOGETHER` beams, to where they are in the middle of them: off by 2.2 ms of their way, half a millimetre for a
+Exact poses are computed at `GRID` + 1 times of a revolution, and moving objects are assumed to follow arcs
+between them. So beams start exactly where they should while speeds are constant; while they change, the error is
+at most a T^2 / (8 GRID^2), with a the acceleration and T the time of a revolution: a Burger that begins to turn with
+12.5 rad/s^2, its maximum, is off by 0.6 milliradians for a moment. Other moving objects are placed, for each
+`TOGETHER` beams, at their pose in the middle of them: an error of 2.2 ms of their motion, half a millimetre for a
 Burger, and 3 mm for a walker at 1.4 m/s.
 
-Where machine code pays, one function does all of it, `rosmini.sim.engine.sweep_kernel.sweep`; else numpy, with the
-same ranges, to the last bit.
+Where machine code pays off, one function does all of it, `rosmini.sim.engine.sweep_kernel.sweep`; otherwise numpy,
+with the same ranges to the last bit.
 """
 
 from __future__ import annotations
@@ -45,30 +45,30 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 GRID = 10
-"""Poses are exact at so many times of a revolution, and at its begin."""
+"""Number of equal parts of a revolution; poses are exact at their ends."""
 
 PARTS = tuple(part / GRID for part in range(GRID, -1, -1))
-"""How much of a revolution is left at these times."""
+"""Fractions of a revolution that remain at these times."""
 
 NO_NOISE: Floats = np.empty(0)
 
 
 class Sweeps:
-    """What moved in an engine during the last revolution, found once for all lasers that turn in step."""
+    """The motion of all bodies during the last revolution, computed once for all lasers that turn in step."""
 
     def __init__(
         self, population: Population, scan: Callable[[str, Floats | None, LidarModel], Floats]
     ) -> None:
         self._population = population
-        self._scan = scan  # all beams at once
+        self._scan = scan  # measures all beams at once
         self._moment: tuple[float, int, float] | None = None
 
     def scan(
         self, viewer: Robot, lidar: LidarModel, beam_time: float, noise: Floats | None
     ) -> tuple[Floats, Floats]:
-        """Return the ranges (beams,) [m], and where the robot was at each beam (beams, 3).
+        """Return the ranges (beams,) [m], and the robot's pose at each beam (beams, 3).
 
-        The first beam is measured now, each further one `beam_time` [s] before.
+        The first beam is measured now, each further one `beam_time` [s] earlier.
         """
         count = lidar.beams
         self._look_back(beam_time * count)
@@ -110,7 +110,7 @@ class Sweeps:
         reach: float,
         seen_from: Floats,
     ) -> Floats:
-        """Do the same without numba, and fill in `seen_from` if the viewer moved."""
+        """Compute the ranges without numba, and fill in `seen_from` if the viewer moved."""
         count, now = lidar.beams, self._population.now
         beams = np.arange(count, dtype=np.float64)
         own = self._numbers.get(viewer.name, -1)
@@ -151,7 +151,7 @@ class Sweeps:
         return self._times[rows], self._poses[rows]
 
     def _look_back(self, duration: float) -> None:
-        """Find where all were during the last `duration` seconds."""
+        """Compute the tracks of all bodies during the last `duration` seconds."""
         everything = self._population
         moment = (everything.now, everything.changed, duration)
         if moment == self._moment:
@@ -184,7 +184,7 @@ class Sweeps:
         ]
 
     def _all(self) -> Iterator[tuple[str, Pose, float, Later | None]]:
-        """Yield what may move: its name, its position, its reach from there [m], and what knows its former poses."""
+        """Yield each body that may move: its name, pose, reach [m], and a function for its former poses."""
         everything = self._population
         for robot in everything.robots.values():
             yield robot.name, robot.pose, robot.model.extent, robot.later
@@ -195,7 +195,7 @@ class Sweeps:
                 yield crate.obstacle.name, crate.pose, crate.reach, None
 
     def _still(self, viewer: Robot, lidar: LidarModel) -> CrossSection:
-        """Return what the laser can see of what did not move."""
+        """Return the objects that did not move, as far as the laser can see them."""
         robots, moved, moment = self._standing, 0.0, (self._moment, "")
         own = self._numbers.get(viewer.name)
         if own is not None:
@@ -206,7 +206,7 @@ class Sweeps:
         )
 
     def _outlines(self, height: float) -> tuple[Ints, Floats, Floats]:
-        """Return the outlines of what moved, each in its own frame: which rows are whose, segments and discs."""
+        """Return the outlines of the bodies that moved, each in its own frame: row ranges, segments and discs."""
         if height not in self._cuts:
             cuts = [self._outline(name, height) for name in self._numbers]
             sides = np.zeros((len(cuts), 4), dtype=np.int64)
@@ -225,7 +225,7 @@ class Sweeps:
 
 
 def _around(poses: Sequence[Pose], reach: float) -> tuple[float, float, float]:
-    """Return a circle, as x, y and radius, that something stays in which reaches so far, on arcs from pose to pose."""
+    """Return a circle (x, y, radius) that contains a body of this reach [m] on arcs from pose to pose."""
     x, y, _ = poses[len(poses) // 2]
     radius = max(math.hypot(px - x, py - y) for px, py, _ in poses)
     bulge = 0.0  # no point of an arc is farther than half its length from the nearer end

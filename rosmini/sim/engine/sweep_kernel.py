@@ -1,7 +1,7 @@
-"""One sweep of a laser in machine code: the loops of `rosmini.sim.engine.sweep`, where all of it is explained.
+"""One sweep of a laser in machine code: the loops of `rosmini.sim.engine.sweep`, which explains the method.
 
-Of everything that moves, number k was at `poses[starts[k]:starts[k + 1]]` at the `times` of the same rows, and went
-along an arc from each of them to the next. Its outline, in its own frame, are the segments from `sides[k, 0]` to before
+Moving body k was at `poses[starts[k]:starts[k + 1]]` at the `times` of the same rows, and followed
+an arc from each of them to the next. Its outline, in its own frame, has the segments from `sides[k, 0]` to before
 `sides[k, 1]`, and the discs from `sides[k, 2]` to before `sides[k, 3]`. Meanwhile it stayed within `around[k]`: x, y,
 radius.
 """
@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 TOGETHER = 8
-"""For so many beams, one after the other, what moves stands still."""
+"""Number of consecutive beams for which other moving bodies are treated as standing still."""
 
 
 def sweep(  # noqa: C901, PLR0912 - one function, for each that is compiled costs the first user time
@@ -48,8 +48,8 @@ def sweep(  # noqa: C901, PLR0912 - one function, for each that is compiled cost
 ) -> None:
     """Fill in `ranges` (beams,), and, unless the viewer stands (`own` is -1), `seen_from` (beams, 3).
 
-    `laser` is where it sits ahead and to the left, the angle of its first beam, the angle between two, how far it
-    reaches, and its shortest and longest range. `noise` may be empty.
+    `laser` contains its position ahead and to the left, the angle of its first beam, the angle between two beams, its
+    reach, and its shortest and longest range. `noise` may be empty.
     """
     count = ranges.shape[0]
     mx, my, first, increment, reach = laser[0], laser[1], laser[2], laser[3], laser[4]
@@ -93,7 +93,7 @@ def sweep(  # noqa: C901, PLR0912 - one function, for each that is compiled cost
         far, size = math.sqrt(ax * ax + ay * ay), around[k, 2] + away
         if k == own or far - size >= reach:
             continue
-        # under which angles it is seen at most, counted from the first ray
+        # the sector in which it can be seen, counted from the first ray
         lowest, width = 0.0, math.inf
         if far > size + 2 * NEAR:
             half = math.asin(size / far) + spread + 2 * MARGIN
@@ -126,18 +126,18 @@ def sweep(  # noqa: C901, PLR0912 - one function, for each that is compiled cost
 
 
 def overlap(first: float, last: float, lowest: float, width: float) -> bool:
-    """Return whether angles from `first` to `last` meet those of a sector, at any number of whole turns."""
+    """Return True if angles from `first` to `last` meet those of a sector, modulo whole turns."""
     turns = math.floor((last - lowest) / TURN)
     return turns >= 0 and lowest + turns * TURN + width >= first
 
 
 def turned(u: float, v: float, x: float, y: float, c: float, s: float) -> tuple[float, float]:
-    """Return where a point (u, v) of something is that is at (x, y), turned by the angle with this cosine and sine."""
+    """Transform a point (u, v) from the frame at (x, y), turned by the angle with this cosine and sine."""
     return x + c * u - s * v, y + s * u + c * v
 
 
 def pose_at(low: int, high: int, times: Floats, poses: Floats, when: float) -> tuple[float, float, float]:
-    """Return where something was that went along arcs between the rows from `low` to before `high`."""
+    """Return the pose at `when` on the arcs between the rows from `low` to before `high`."""
     leg = high - 2
     while leg > low and times[leg] > when:
         leg -= 1
@@ -148,7 +148,7 @@ def pose_at(low: int, high: int, times: Floats, poses: Floats, when: float) -> t
 
 @cache
 def compiled() -> Callable[..., None]:
-    """`sweep` as machine code. Raises `ImportError` without numba."""
+    """Return `sweep` as machine code. Raises `ImportError` without numba."""
     import numba
 
     f, i = numba.float64, numba.int64

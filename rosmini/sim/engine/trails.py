@@ -1,8 +1,8 @@
-"""Where all that moves was lately: what a laser needs that moves on during a revolution, as others do.
+"""Recent poses of everything that moves, for a laser that moves during a revolution, as other bodies do.
 
-A trail is a list of legs. On a leg a robot goes on as its wheels were told, so that each of its poses follows from
-where it began, exactly and whoever asked in between. Where something is pushed, or pushes, its poses are those at the
-ends of the steps of the physics, and it went straight from one to the next.
+A trail is a list of legs. On a leg with a course a robot follows its command, so each pose follows exactly
+from the leg's start, regardless of any queries. For a body that is pushed, or pushes, the poses are those at
+the ends of the physics steps, with straight lines between them.
 """
 
 from __future__ import annotations
@@ -20,44 +20,44 @@ from rosmini.core.geometry.poses import Pose
 Floats = NDArray[np.float64]
 
 Leg = tuple[float, Pose, Any, Any]
-"""Since when [s], from where on, in which state, and on which course.
+"""Start time [s], pose, state, and course.
 
-Without a course it goes straight to where the next leg begins.
+Without a course the body moves straight to the start of the next leg.
 """
 
 WIDE = 1.0
-"""Turns beyond this [rad] are followed in several arcs."""
+"""Larger turns [rad] are divided into several arcs."""
 
 SAME = 1e-11
-"""Poses that differ by less [m, rad] are the same."""
+"""Poses that differ by less [m, rad] count as equal."""
 
 Later = Callable[[Leg, float], Pose]
-"""Where something is so long [s] after the begin of a leg with a course."""
+"""Returns the pose so many seconds after the beginning of a leg with a course."""
 
 
 class Trails:
-    """The trails of all that moves in one engine, by name.
+    """The trails of all moving bodies in one engine, by name.
 
-    Nothing is written down until somebody says how long it is to be remembered.
+    Nothing is recorded until `remember` sets the duration.
     """
 
     def __init__(self) -> None:
         self.span = 0.0
-        """So long they are remembered [s]."""
+        """Duration that is kept [s]."""
         self._legs: dict[str, list[Leg]] = {}
 
     def remember(self, seconds: float) -> None:
-        """Remember at least so much."""
+        """Keep at least this duration [s]."""
         self.span = max(self.span, seconds)
 
     def goes(self, name: str, now: float, pose: Pose, state: Any, course: Any) -> None:
-        """Note that something goes on from here on a course, if it was not on it before."""
+        """Record that a body is on a course from here, unless it was on it before."""
         legs = self._legs.setdefault(name, [])
         if not legs or legs[-1][3] != course:
             self._add(legs, (now, pose, state, course))
 
     def carried(self, name: str, now: float, pose: Pose) -> None:
-        """Note where something is that touches something."""
+        """Record the pose of a body in contact."""
         self._add(self._legs.setdefault(name, []), (now, pose, None, None))
 
     def _add(self, legs: list[Leg], leg: Leg) -> None:
@@ -66,20 +66,20 @@ class Trails:
             legs.pop(0)
 
     def forget(self, name: str) -> None:
-        """Let it be as if something had always been where it is: it came, went, or was put there."""
+        """Delete a trail, as if the body had always been at its pose: it was added, removed or put elsewhere."""
         self._legs.pop(name, None)
 
     def clear(self) -> None:
-        """Forget them all."""
+        """Delete all trails."""
         self._legs.clear()
 
     def track(
         self, name: str, times: Sequence[float], pose: Pose, later: Later | None
     ) -> tuple[Sequence[float], list[Pose]] | None:
-        """Return where something was at enough of the ascending `times` to know its way by arcs.
+        """Return poses at enough of the ascending `times` to describe a body's path by arcs.
 
-        None if it stood still. It is at `pose` at the last of them, which is now. Before its trail begins, it was where
-        that begins.
+        Return None if it did not move. `pose` is its pose at the last of the times, which is now. Before its trail
+        begins, it was at the trail's first pose.
         """
         legs = self._legs.get(name)
         if not legs:
@@ -113,20 +113,20 @@ class Trails:
         return None if all(each == pose for each in found) else (times, found)
 
     def state(self) -> dict[str, tuple[Leg, ...]]:
-        """All of them, to come back to."""
+        """Return all trails."""
         return {name: tuple(legs) for name, legs in self._legs.items()}
 
     def restore(self, state: Mapping[str, tuple[Leg, ...]]) -> None:
-        """Remember what was remembered then."""
+        """Restore what `state` returned."""
         self._legs = {name: list(legs) for name, legs in state.items()}
 
 
 def arc(
     x: float, y: float, theta: float, wx: float, wy: float, turn: float, part: float
 ) -> tuple[float, float, float]:
-    """Return the pose after a part of an arc that leads from (x, y, theta) on by (wx, wy, turn)."""
-    half = turn / 2 if turn != 0.0 else 1e-9  # a line is an arc that nobody can tell from one
-    # chords of an arc are as the sines of half the turns, and a part of it is turned back by what is left of the turn
+    """Return the pose after a fraction of an arc that leads from (x, y, theta) by (wx, wy, turn)."""
+    half = turn / 2 if turn != 0.0 else 1e-9  # an arc with a turn this small is numerically a line
+    # chords are proportional to the sine of half the turn, and that of a partial arc is rotated back by half the rest
     scale, back = math.sin(part * half) / math.sin(half), (part - 1.0) * half
     c, s = scale * math.cos(back), scale * math.sin(back)
     return x + c * wx - s * wy, y + s * wx + c * wy, theta + part * turn

@@ -1,4 +1,4 @@
-"""Drives: how the wheels of a robot take it along, from a state and targets to a way in closed form."""
+"""Drives: from a wheel state and targets to a robot's path in closed form."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from .free_motion import (
 from .odometry import RealWheels
 
 WheelState = tuple[float, ...]
-"""What changes as its wheels turn."""
+"""The quantities that change as its wheels turn."""
 
 Numbers = tuple[float, ...]
 
 
 class Spot(NamedTuple):
-    """Where a robot is on its way: its pose, its wheels, and how fast their speeds change."""
+    """A point on a robot's path: its pose, its wheel state, and the rates of its wheel speeds."""
 
     pose: Pose
     state: WheelState
@@ -39,7 +39,7 @@ class Spot(NamedTuple):
 
 
 class Cruise(NamedTuple):
-    """The last phase of a way, in which speeds stay: when it begins [s], and the heading and the motion then."""
+    """The last phase of a path, with constant speeds: its start [s], and the heading and the motion then."""
 
     begin: float
     theta: float
@@ -47,7 +47,7 @@ class Cruise(NamedTuple):
 
 
 class Way:
-    """The motion of a robot from a pose and a state of its wheels to its targets, and on: phases with steady rates."""
+    """A robot's path from a pose and a wheel state to its targets and beyond: phases with constant rates."""
 
     def __init__(
         self, robot: Drive, pose: Pose, state: WheelState, targets: Numbers, rolling: Numbers
@@ -59,7 +59,7 @@ class Way:
         self._last: Cruise | None = None
 
     def at(self, dt: float) -> Spot:
-        """Where it leads to in so many seconds."""
+        """Return the point after `dt` seconds."""
         while dt >= self._end:
             begin, (pose, state, rates) = self._phases[-1]
             pose, state = self._robot.after(pose, state, rates, self._end - begin, self.rolling)
@@ -74,11 +74,11 @@ class Way:
             return spot
         pose, state, rates = spot
         pose, state = self._robot.after(pose, state, rates, dt - begin, self.rolling)
-        return tuple.__new__(Spot, (pose, state, rates))  # in half the time of Spot(...)
+        return tuple.__new__(Spot, (pose, state, rates))  # half the time of Spot(...)
 
     @property
     def cruise(self) -> Cruise | None:
-        """Its last phase; None until somebody has asked where it is in that."""
+        """Its last phase; None until a point in it has been computed."""
         if self._last is None and self._end == math.inf:
             begin, (pose, state, _) = self._phases[-1]
             v, _, w = self._robot.velocity(state, self.rolling)
@@ -86,61 +86,61 @@ class Way:
         return self._last
 
     def plain(self) -> tuple[Pose, WheelState, Numbers, Numbers]:
-        """All that it follows from."""
+        """Return all inputs of the path."""
         return (self.pose, self.state, self.targets, self.rolling)
 
 
 class Drive(ABC):
-    """How the wheels of a robot take it along: pure functions of its model."""
+    """Kinematics of a robot's wheels: pure functions of its model."""
 
     def __init__(self, model: RobotModel) -> None:
         self.model = model
 
     still: WheelState
-    """The state of wheels that have not turned yet."""
+    """State of wheels that have not turned yet."""
     targets: Numbers
-    """What it is told at first: to stand."""
+    """Initial targets: zero speeds."""
 
     @abstractmethod
     def phases(self, state: WheelState, targets: Numbers) -> list[tuple[float, Numbers]]:
-        """How speeds reach their targets: the length of each phase [s], the last one infinite, and the rates in it."""
+        """Return how speeds reach their targets: each phase's duration [s], the last one infinite, and its rates."""
 
     @abstractmethod
     def after(
         self, pose: Pose, state: WheelState, rates: Numbers, dt: float, rolling: Numbers
     ) -> tuple[Pose, WheelState]:
-        """Where `dt` seconds with these rates lead to."""
+        """Return the pose and state after `dt` seconds with these rates."""
 
     @abstractmethod
     def settled(self, state: WheelState, targets: Numbers) -> WheelState:
-        """The state with speeds that have reached their targets, but for the last digits, equal to them."""
+        """Return the state with speeds set to their targets where they differ only by rounding."""
 
     @abstractmethod
     def told(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
-        """The state and targets after a command (ahead, left, around): speeds without a limit are reached at once."""
+        """Return the state and targets after a command (ahead, left, turn); speeds without a limit change at once."""
 
     @abstractmethod
     def launched(self, velocity: Speeds, rolling: Numbers) -> WheelState:
-        """The state of wheels that roll with a velocity."""
+        """Return the state of wheels that roll with a velocity."""
 
     @abstractmethod
     def rolling(self, wheels: RealWheels) -> Numbers:
-        """How the real wheels take it along."""
+        """Return the real wheels' factors for the motion."""
 
     @abstractmethod
     def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
-        """The true velocity (ahead, left, around) for these wheel speeds, or the acceleration for their rates."""
+        """Return the true velocity (ahead, left, turn) for wheel speeds, or the acceleration for their rates."""
 
     @abstractmethod
     def haste(self, state: WheelState, targets: Numbers, rolling: Numbers) -> float:
-        """How fast any of its corners can go on the way from these speeds to their targets [m/s]."""
+        """Return the maximum speed of any corner between these speeds and their targets [m/s]."""
 
     def _speed(self, velocity: Speeds) -> float:
         return math.hypot(velocity[0], velocity[1]) + self.model.reach * abs(velocity[2])
 
 
 class TwoWheels(Drive):
-    """Two wheels: speeds of the left and right rim [m/s], as on paper, and how far they have gone [m]."""
+    """Two wheels: nominal speeds of the left and right rim [m/s], and their distances [m]."""
 
     still = (0.0, 0.0, 0.0, 0.0)
     targets = (0.0, 0.0)
@@ -177,7 +177,7 @@ class TwoWheels(Drive):
             )
         if left == right == 0.0:
             return pose, state
-        # the way of `geometry.poses.arc`, in as few operations as can be: a robot does this most of the time
+        # the same as `geometry.poses.arc` in as few operations as possible, because this is the usual case
         x, y, theta = pose
         half = w * dt / 2
         chord = v * dt * (math.sin(half) / half if half else 1.0)
@@ -206,12 +206,12 @@ class TwoWheels(Drive):
         return state, targets
 
     def launched(self, velocity: Speeds, rolling: Numbers) -> WheelState:
-        """See `Drive.launched`; of a velocity to the side a robot on two wheels takes none."""
+        """See `Drive.launched`; a robot on two wheels ignores a sideways velocity."""
         left, right = rim_speeds(velocity[0], velocity[2], rolling[2])
         return (left / rolling[0], right / rolling[1])
 
     def rolling(self, wheels: RealWheels) -> Numbers:
-        """Metres on the ground per metre of each rim, and how far the wheels are apart [m]."""
+        """Return metres on the ground per metre of each rim, and the wheel separation [m]."""
         return (wheels.left, wheels.right, wheels.separation)
 
     def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
@@ -228,7 +228,7 @@ class TwoWheels(Drive):
 
 
 class AnySide(Drive):
-    """What goes to any side: speeds ahead, to the left and around, as on paper, and where it believes to be by them."""
+    """A holonomic drive: nominal speeds ahead, to the left and of the turn, and the pose reckoned from them."""
 
     still = (0.0,) * 6
     targets = (0.0, 0.0, 0.0)
@@ -277,7 +277,7 @@ class AnySide(Drive):
         return tuple(speed / factor for speed, factor in zip(velocity, rolling, strict=True))
 
     def rolling(self, wheels: RealWheels) -> Numbers:
-        """By how much it goes farther ahead and to the side, and turns more, than its wheels tell."""
+        """Return the ratios of real to nominal motion ahead, to the side, and in turns."""
         return (wheels.left, wheels.right, self.model.wheel_separation / wheels.separation)
 
     def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
@@ -298,5 +298,5 @@ def _settled(speeds: Numbers, targets: Numbers) -> Numbers:
 
 
 def three(numbers: Numbers) -> tuple[float, float, float]:
-    """The first three numbers."""
+    """Return the first three numbers."""
     return (numbers[0], numbers[1], numbers[2])

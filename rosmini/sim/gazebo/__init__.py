@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import examples, ros_plugins  # their plugins are known from here on
+from . import examples, ros_plugins  # registers their plugins
 from .client import GazeboClient
 from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
 from .plugin_tags import Tags, tag

@@ -1,4 +1,4 @@
-"""Plugins of Gazebo and its ROS packages that rosmini lacks: what they would do, for the warning that says so."""
+"""Plugins of Gazebo and its ROS packages that rosmini lacks, with their purpose, for a warning."""
 
 from __future__ import annotations
 
@@ -48,4 +48,4 @@ ABSENT = {
     "WheelSlipPlugin": "it lets wheels slip",
     "ActorPlugin": "it lets a person walk about; a <script> with a <trajectory> in an <actor> does so here too",
 }  # fmt: skip
-"""By the library's name, without lib and .so."""
+"""Purposes by the library's name, without lib and .so."""

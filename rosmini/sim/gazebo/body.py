@@ -1,4 +1,4 @@
-"""What a model with a drive or sensors is to the engine: parts, outline, mass and wheels, from its links and joints.
+"""Conversion of a model with a drive or sensors for the engine: parts, outline, mass and wheels.
 
 The engine's robots turn about the middle of their axle; a model's origin may be elsewhere. `Body.axle` is the pose of
 the engine's frame in the model's.
@@ -24,18 +24,18 @@ from rosmini.sim.world import Obstacle
 from .errors import SpawnError
 
 TICKS = 1 << 20
-"""Encoder ticks of one turn of a wheel: Gazebo's joints give their angle exactly."""
+"""Encoder ticks per turn of a wheel: Gazebo's joints report their exact angle."""
 
 CIRCLE = 24
-"""Vertices of a round part of an outline."""
+"""Number of vertices of a round part of an outline."""
 
 DOT = 0.005
-"""Half the side of the outline of a model without collisions [m]."""
+"""Half the side length of the outline of a model without collisions [m]."""
 
 
 @dataclass
 class Body:
-    """A model on its way into the engine; plugins say in `ModelPlugin.prepare` how it is driven."""
+    """A model to be added to the engine; plugins describe its drive in `ModelPlugin.prepare`."""
 
     model: SdfModel
     drive: Drive | None = None
@@ -45,13 +45,13 @@ class Body:
     rate: float = 30.0
     axle: Pose = (0.0, 0.0, 0.0)
     wheels: tuple[str, str] | None = None
-    """The joints of the left and of the right wheel."""
+    """The joints of the left and the right wheel."""
     sides: dict[str, int] = field(default_factory=dict)
-    """The joints of all wheels: 0 for one on the left, 1 for one on the right."""
+    """The joints of all wheels: 0 for the left side, 1 for the right side."""
     notes: list[str] = field(default_factory=list)
 
     def joint(self, name: str) -> SdfJoint:
-        """A joint of the model. Raises `SpawnError`."""
+        """Return a joint of the model. Raises `SpawnError`."""
         for joint in self.model.joints:
             if joint.name == name:
                 return joint
@@ -62,9 +62,9 @@ class Body:
     def put_on_wheels(
         self, left: str, right: str, separation: float, radius: float, rear: tuple[str, str] | None = None
     ) -> None:
-        """Let two wheels drive it, or four, two of them in the `rear`. The left ones are seen from where they are.
+        """Set a drive with two wheels, or four with two in the `rear`. Their positions determine the left side.
 
-        The middle of all wheels is what it turns about. Raises `SpawnError` if there are no such joints.
+        The model turns about the middle of all wheels. Raises `SpawnError` if there are no such joints.
         """
         self.drive, self.wheels = "differential", (left, right)
         self.wheel_separation, self.wheel_radius = separation, radius
@@ -94,7 +94,7 @@ class Body:
             )
 
     def robot_model(self) -> RobotModel:
-        """What the engine knows of it."""
+        """Return the engine's model of it."""
         parts = self.parts()
         mass, inertia = self.weight()
         return RobotModel(
@@ -115,7 +115,7 @@ class Body:
         )
 
     def parts(self) -> tuple[Part, ...]:
-        """What others see of it, seen from the middle of its axle."""
+        """Return its visible parts, relative to the middle of its axle."""
         still = replace(self.model, static=True, name="body")
         there = inverse(self.axle)
         found = []
@@ -127,7 +127,7 @@ class Body:
         return tuple(found)
 
     def weight(self) -> tuple[float, float]:
-        """Mass, and inertia about the vertical axis in the middle of the axle [kg, kg m2] (parallel axis theorem)."""
+        """Return mass and inertia [kg, kg m2] about the vertical axis through the axle's middle (Steiner's theorem)."""
         mass = inertia = 0.0
         for _, link, pose in placed_links(self.model):
             own = link.inertial
@@ -142,27 +142,27 @@ class Body:
 
 
 def plugins_of(model: SdfModel) -> list[SdfPlugin]:
-    """The plugins of a model and of the models within it."""
+    """Return the plugins of a model and of its nested models."""
     return [*model.plugins, *(plugin for each in model.models for plugin in plugins_of(each))]
 
 
 def is_still(model: SdfModel) -> bool:
-    """Return whether a model is scenery: nothing drives or pushes it, or measures on it."""
+    """Return True if a model is scenery: it has no plugin and no sensor, and cannot be pushed."""
     if plugins_of(model) or any(link.sensors for _, link, _ in placed_links(model)):
         return False
     return not any(each.movable for each in to_obstacles(model))
 
 
 def lowest(model: SdfModel, pose: Pose6) -> float | None:
-    """How far the lowest point of what is solid of a model is above its origin [m]; None if nothing is."""
-    high = 1000.0  # nothing is under the ground there
+    """Return the height of the lowest solid point of a model above its origin [m]; None if nothing is solid."""
+    high = 1000.0  # high enough that everything is above the ground
     up = (0.0, 0.0, high, pose[3], pose[4], 0.0)
     found = to_obstacles(replace(model, static=True, name="body"), up)
     return min((each.bottom for each in found), default=high) - high if found else None
 
 
 def obstacles_at(pose: Pose6, model: SdfModel, old: tuple[Obstacle, ...]) -> tuple[Obstacle, ...]:
-    """What a fixed model is at another pose, if it was `old` before: rebuilt from its collisions, if there are any."""
+    """Return the obstacles of a fixed model at another pose: rebuilt from its collisions, or `old` ones moved there."""
     if any(link.collisions for _, link, _ in placed_links(model)):
         return to_obstacles(model, pose)
     return tuple(replace(each, pose=(pose[0], pose[1], pose[5])) for each in old)

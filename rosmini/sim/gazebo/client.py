@@ -1,7 +1,7 @@
 """The node `gazebo_ros/gzclient`: a view of a running server in the same process.
 
-It shows the server's world as of the last poses, which it hears as often as Gazebo's client does. The simulation goes
-on with or without a client.
+It shows the server's world as of the last poses, which it receives as often as Gazebo's client does. The simulation
+runs with or without a client.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .snapshot import Pictured, Snapshot
 from .topics import GazeboMaster, Poses, WorldStatistics, address, find_master
 
 WAIT_S = 30.0
-"""How long a client waits for a server."""
+"""Time a client waits for a server [s]."""
 
 IGNORED = ("--verbose", "-g", "--gui-plugin", "--gui-client-plugin")
 
@@ -25,7 +25,7 @@ class GazeboClient(Pictured):
 
     Args:
         node: the started node.
-        args: those of gzclient: --verbose, -g PLUGIN; neither changes anything here.
+        args: arguments of gzclient: --verbose, -g PLUGIN; they have no effect.
 
     Raises:
         ScriptError: other arguments.
@@ -52,7 +52,7 @@ class GazeboClient(Pictured):
             raise ScriptError(f"the server at {address()} has ended")
         self.master: GazeboMaster = master
         self.statistics: WorldStatistics | None = None
-        """The last statistics of the world's time."""
+        """The latest time statistics of the world."""
         self._poses = Poses.of(master.world)
         self._lane = node.spawn(f"{node.name} display")
         self._program = f"gzclient {node.name}"
@@ -97,5 +97,5 @@ class GazeboClient(Pictured):
         return f"{there}: {', '.join(moving)}" if moving else there
 
     def snapshot(self) -> Snapshot:
-        """The world as of the last poses."""
+        """Return the world as of the last poses."""
         return Snapshot.of(self.master.world, self._poses)

@@ -1,4 +1,4 @@
-"""What can go wrong in Gazebo's part of the simulator."""
+"""Errors of Gazebo's part of the simulator."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from rosmini.core.errors import RosminiError
 
 
 class GazeboError(RosminiError):
-    """Something that was asked of a running server is not possible; the simulation goes on."""
+    """A request to a running server cannot be fulfilled; the simulation continues."""
 
 
 class UnknownEntity(GazeboError):
-    """There is no model, link or joint of this name in the world."""
+    """The world has no model, link or joint of this name."""
 
 
 class SpawnError(GazeboError):
-    """A model cannot come into the world."""
+    """A model cannot be inserted into the world."""
 
 
 class UnknownPlugin(GazeboError):

@@ -1,6 +1,6 @@
-"""URDF as Gazebo sees it: Gazebo turns it into an SDF model before anything else, and so does this.
+"""Conversion of URDF to SDF, which Gazebo also does before anything else.
 
-Links on fixed joints become part of the link that they are fixed to, as in Gazebo, unless a `<gazebo>` element says
+A link on a fixed joint becomes part of the link that it is fixed to, as in Gazebo, unless a `<gazebo>` element says
 `preserveFixedJoint` or `disableFixedJointLumping`: so the links of a TurtleBot3 are base_footprint and its two wheels
 (http://classic.gazebosim.org/tutorials?tut=ros_urdf).
 """
@@ -40,17 +40,17 @@ LUMP = "_fixed_joint_lump__"
 
 @dataclass(frozen=True)
 class Converted:
-    """A URDF, or the model of an SDF text, as an SDF model."""
+    """An SDF model, converted from a URDF or read from an SDF text."""
 
     model: SdfModel
     frames: Mapping[str, tuple[str, Pose6]] = field(default_factory=dict)
-    """The links that became part of others: name of the other link, and pose in it."""
+    """The links that became part of another one: name of the other link, and pose in it."""
     warnings: tuple[str, ...] = ()
-    """What is wrong and was left out or replaced, with file and line."""
+    """Faulty items that were left out or replaced, with file and line."""
 
 
 def from_urdf(robot: urdf.Robot) -> Converted:
-    """The SDF model of a robot. Raises `UrdfError` for a sensor or plugin without what it must have."""
+    """Return the SDF model of a robot. Raises `UrdfError` for a sensor or plugin that lacks a required element."""
     return _Conversion(robot).converted()
 
 
@@ -61,7 +61,7 @@ class _Conversion:
         self.about: dict[str, list[Element]] = {}
         for extension in robot.extensions:
             self.about.setdefault(extension.reference, []).append(extension.element)
-        self.host = {robot.root: robot.root}  # from each link to the one that it becomes part of
+        self.host = {robot.root: robot.root}  # maps each link to the one that it becomes part of
         for joint in robot.order:
             lumped = joint.type == "fixed" and not self._kept(joint.name)
             self.host[joint.child] = self.host[joint.parent] if lumped else joint.child
@@ -89,7 +89,7 @@ class _Conversion:
         return Converted(model, lumped, wrong)
 
     def _kept(self, joint: str) -> bool:
-        """Return whether a fixed joint is to be kept."""
+        """Return True if a fixed joint must be preserved."""
         for element in self.about.get(joint, []):
             for tag in ("preserveFixedJoint", "disableFixedJointLumping"):
                 found = element.find(tag)
@@ -98,7 +98,7 @@ class _Conversion:
         return False
 
     def _pose(self, origin: Matrix, host: str, name: str) -> Pose6:
-        """A pose of a link's own, seen from the link that it became part of."""
+        """Convert a pose on a link to the frame of the link that it became part of."""
         if host == name:
             return pose6(origin)
         return pose6(self._seen_from(host, name, origin))
@@ -157,7 +157,7 @@ class _Conversion:
         return replace(own, pose=self._pose(matrix(own.pose), host, name))
 
     def _inertial(self, name: str, parts: list[urdf.Link]) -> SdfInertial:
-        """The masses of all parts as one (parallel axis theorem)."""
+        """Combine the masses of all parts into one (parallel axis theorem)."""
         bodies = []
         for part in parts:
             if part.inertial is not None and part.inertial.mass > 0:

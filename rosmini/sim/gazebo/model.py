@@ -1,8 +1,8 @@
-"""A model in the running world, and the world as models and plugins see it.
+"""A model in the running world, and the interface of the world for models and plugins.
 
-What drives or carries a sensor is a robot of the engine. Anything else is one or more fixed obstacles if it is
-static, and one that can be pushed if not. Everything stands upright on flat ground: height, roll and pitch stay as
-they were at first.
+A model with a drive or a sensor is a robot of the engine. Any other model consists of fixed obstacles if it is
+static, and is a movable obstacle if not. Everything stands upright on flat ground: height, roll and pitch never
+change.
 """
 
 from __future__ import annotations
@@ -33,29 +33,29 @@ from .errors import UnknownEntity
 from .physics_properties import PhysicsProperties
 
 Velocity = tuple[float, float, float]
-"""Along x and y of the world [m/s], and counter-clockwise [rad/s]."""
+"""Along x and y of the world [m/s], and rate of turn, counter-clockwise [rad/s]."""
 
 STILL: Velocity = (0.0, 0.0, 0.0)
 
 WORLD_FRAMES = ("", "world", "map", "/map")
-"""What stands for the world where a model or a link is named."""
+"""Names of the world's frame."""
 
 
 class GazeboWorld(ABC):
-    """The world as its models and plugins see it (gazebo::physics::World); `RunningWorld` is one."""
+    """The world as its models and plugins see it (gazebo::physics::World); implemented by `RunningWorld`."""
 
     node: Node
     name: str
     noise: float
-    """Scales the noise of all sensors; 0: none."""
+    """Scale of the noise of all sensors; 0: no noise."""
     physics: PhysicsProperties
     flat: World
-    """Its walls and fixed obstacles, as they were at first."""
+    """Its walls and fixed obstacles as loaded."""
     engine: Engine
     host: Host
     """Its time: `pause`, `unpause`, `step`."""
     models: dict[str, Model]
-    """By name, in insertion order."""
+    """Models by name, in insertion order."""
 
     def __repr__(self) -> str:
         return f"<GazeboWorld {self.name}: {len(self.models)} models, {self.now:.3f} s{', paused' * self.paused}>"
@@ -67,7 +67,7 @@ class GazeboWorld(ABC):
 
     @property
     def paused(self) -> bool:
-        """Whether time stands still."""
+        """True if time is paused."""
         return self.host.paused
 
     @abstractmethod
@@ -80,32 +80,32 @@ class GazeboWorld(ABC):
         namespace: str = "",
         frames: Mapping[str, tuple[str, Pose6]] | None = None,
     ) -> Model:
-        """Insert a model, as `name`, at `pose`, from which its own pose counts. Unless static it stands on the ground.
+        """Insert a model as `name` at `pose`, to which its own pose is relative. Unless static it stands on the ground.
 
-        Raises `SpawnError`, and inserts nothing, if the name is used, something stands there, or a plugin lacks what it
-        needs; and what the readers raise.
+        Raises `SpawnError`, and inserts nothing, if the name is used, another object is in the way, or a plugin lacks
+        what it needs; also raises the readers' errors.
         """
 
     @abstractmethod
     def delete(self, name: str) -> None:
-        """Remove a model, whether it moves or not: its topics end, all else goes on. Raises `UnknownEntity`."""
+        """Remove a model, whether or not it moves: its topics close, all else continues. Raises `UnknownEntity`."""
 
     @abstractmethod
     def move(self, model: Model, pose: Pose6, velocity: Velocity = STILL) -> None:
         """Put a model elsewhere, with a velocity in the world's frame.
 
-        Raises `GazeboError` for what is not finite, `WorldError` if something is in the way.
+        Raises `GazeboError` for values that are not finite, `WorldError` if something is in the way.
         """
 
     def model(self, name: str) -> Model:
-        """The model of this name. Raises `UnknownEntity`, with the nearest."""
+        """Return the model of this name. Raises `UnknownEntity`, with the nearest name."""
         if name not in self.models:
             hint = nearest(name, self.models) or f"the models are: {', '.join(self.models) or 'none'}"
             raise UnknownEntity(f"there is no model {name!r} in the world {self.name!r}; {hint}")
         return self.models[name]
 
     def entity(self, name: str) -> tuple[Model, str]:
-        """The model and the link that `model::link` names; `model` means its first link. Raises `UnknownEntity`."""
+        """Return the model and link named by `model::link`; `model` means its first link. Raises `UnknownEntity`."""
         model_name, _, link = name.partition("::")
         model = self.model(model_name)
         if not link:
@@ -115,7 +115,7 @@ class GazeboWorld(ABC):
         return model, link
 
     def frame(self, name: str) -> tuple[Pose6, Velocity]:
-        """Pose and velocity, in the world, of a model, of a link, or of the world itself. Raises `UnknownEntity`."""
+        """Return pose and velocity in the world of a model, a link, or the world itself. Raises `UnknownEntity`."""
         if name in WORLD_FRAMES:
             return ORIGIN, STILL
         model, link = self.entity(name)
@@ -124,7 +124,7 @@ class GazeboWorld(ABC):
         return model.link_pose(link), model.link_velocity(link)
 
     def holds(self, name: str) -> bool:
-        """Return whether what the engine calls so cannot be pushed: a wall, or a fixed obstacle."""
+        """Return True if the engine's object of this name cannot be pushed: a wall or a fixed obstacle."""
         if name in self.engine.robots:
             return math.isinf(self.engine.robots[name].model.mass)
         return not any(each.name == name for each in self.engine.obstacles())
@@ -132,24 +132,24 @@ class GazeboWorld(ABC):
 
 @dataclass
 class Model:
-    """A model in a world; made by `GazeboWorld.spawn`."""
+    """A model in a world; created by `GazeboWorld.spawn`."""
 
     world: GazeboWorld
     name: str
     sdf: SdfModel
-    """What it is, seen from its own origin."""
+    """Its description, relative to its own origin."""
     start: Pose6
-    """Where it was spawned, and where a reset puts it."""
+    """The pose where it was spawned, and to which a reset returns it."""
     namespace: str = ""
-    """Of its topics, unless its plugins name their own."""
+    """Namespace of its topics, unless its plugins set their own."""
     frames: Mapping[str, tuple[str, Pose6]] = field(default_factory=dict)
-    """Links of its URDF that became part of others: of which, and their pose in it."""
+    """Links of its URDF that became part of another one: name of the other link, and pose in it."""
     body: Body | None = None
-    """None for a thing, which is no robot of the engine."""
+    """None for an obstacle, which is not a robot of the engine."""
     obstacles: tuple[str, ...] = ()
-    """The names of its obstacles in the engine, if it is a thing."""
+    """The names of its obstacles in the engine, if it is not a robot."""
     fixed: Pose6 | None = None
-    """Its pose if nothing but a service moves it."""
+    """Its pose if only services move it."""
     sensors: list[Sensor] = field(default_factory=list)
 
     def __repr__(self) -> str:
@@ -158,7 +158,7 @@ class Model:
 
     @property
     def static(self) -> bool:
-        """Whether it never moves by itself."""
+        """True if it never moves by itself."""
         return self.sdf.static
 
     @property
@@ -170,7 +170,7 @@ class Model:
 
     @property
     def flat(self) -> Pose:
-        """Where its origin is: x [m], y [m] and heading [rad]."""
+        """Pose of its origin: x [m], y [m] and heading [rad]."""
         if self.fixed is not None:
             return (self.fixed[0], self.fixed[1], self.fixed[5])
         if self.body is not None:
@@ -180,13 +180,13 @@ class Model:
 
     @property
     def pose(self) -> Pose6:
-        """Where its origin is: x, y, z [m], roll, pitch, yaw [rad]."""
+        """Pose of its origin: x, y, z [m], roll, pitch, yaw [rad]."""
         x, y, yaw = self.flat
         return (x, y, self.start[2], self.start[3], self.start[4], yaw)
 
     @property
     def velocity(self) -> Velocity:
-        """How fast its origin goes, in the frame of the world."""
+        """Velocity of its origin in the world's frame."""
         if self.fixed is not None:
             return STILL
         vx, vy, w = self.world.engine.velocity(self.name if self.body is not None else self.obstacles[0])
@@ -206,14 +206,14 @@ class Model:
     def set_pose(self, pose: Pose6, velocity: Velocity = STILL) -> None:
         """Put it elsewhere, with a velocity in the world's frame.
 
-        Raises `GazeboError` for what is not finite, `WorldError` if something is in the way.
+        Raises `GazeboError` for values that are not finite, `WorldError` if something is in the way.
         """
         self.world.move(self, pose, velocity)
 
     def set_velocity(self, velocity: Velocity) -> None:
-        """Push, drag or kick it: give it a velocity in the world's frame. If something is in its way, it keeps its own.
+        """Give it a velocity in the world's frame, as if it were pushed. If something is in its way, it keeps its own.
 
-        A driven robot's wheels undo that. Raises `GazeboError` for what is not finite.
+        The wheels of a driven robot counteract it. Raises `GazeboError` for values that are not finite.
         """
         self.world.host.catch_up()
         vx, vy, w = velocity
@@ -222,7 +222,7 @@ class Model:
                 self.name if self.body is not None else self.obstacles[0]
             ):
                 inwards = min(0.0, vx * touch.nx + vy * touch.ny)
-                if inwards and self.world.holds(touch.other):  # what cannot be pushed would have to be
+                if inwards and self.world.holds(touch.other):  # it cannot be pushed, so this part is lost
                     vx, vy = vx - inwards * touch.nx, vy - inwards * touch.ny
         with contextlib.suppress(WorldError):
             self.world.move(self, self.pose, (vx, vy, w))
@@ -240,7 +240,7 @@ class Model:
         return tuple(joint.name for joint in self.sdf.joints)
 
     def link_frame(self, link: str) -> Pose6:
-        """Where a link, or one that became part of another, is in the model. Raises `UnknownEntity`."""
+        """Return the pose in the model of a link, or of one that became part of another. Raises `UnknownEntity`."""
         places = {name: pose for name, _, pose in placed_links(self.sdf)}
         if link in self.frames:
             host, inside = self.frames[link]
@@ -252,14 +252,14 @@ class Model:
         raise UnknownEntity(f"the model {self.name!r} has no link {link!r}; {hint}")
 
     def on_robot(self, pose: Pose6) -> Pose6:
-        """A pose in the model, seen from the robot of the engine, which turns about the middle of its axle."""
+        """Convert a pose in the model to the frame of the engine's robot, which turns about the middle of its axle."""
         if self.body is None or self.body.axle == (0.0, 0.0, 0.0):
             return pose
         x, y, yaw = inverse(self.body.axle)
         return compose6((x, y, 0.0, 0.0, 0.0, yaw), pose)
 
     def link_in_model(self, link: str) -> Pose6:
-        """Pose of a link in the model now: wheels turn. Raises `UnknownEntity`."""
+        """Return the current pose of a link in the model, with wheels turned. Raises `UnknownEntity`."""
         frame = self.link_frame(link)
         wheels = self.body.sides if self.body is not None else {}
         for joint in self.sdf.joints:
@@ -268,17 +268,17 @@ class Model:
         return frame
 
     def link_pose(self, link: str) -> Pose6:
-        """Where a link is in the world. Raises `UnknownEntity`."""
+        """Return the pose of a link in the world. Raises `UnknownEntity`."""
         return compose6(self.pose, self.link_in_model(link))
 
     def link_velocity(self, link: str) -> Velocity:
-        """How fast a link goes, in the frame of the world."""
+        """Return the velocity of a link in the world's frame."""
         vx, vy, w = self.velocity
         at, here = self.flat, self.link_pose(link)
         return (vx - w * (here[1] - at[1]), vy + w * (here[0] - at[0]), w)
 
     def joint(self, name: str) -> tuple[float, float]:
-        """The position of a joint and its rate [rad, rad/s]; 0 for all but wheels. Raises `UnknownEntity`."""
+        """Return the position and rate of a joint [rad, rad/s]; 0 for all except wheels. Raises `UnknownEntity`."""
         if name not in self.joints:
             hint = nearest(name, self.joints) or f"its joints are: {', '.join(self.joints) or 'none'}"
             raise UnknownEntity(f"the model {self.name!r} has no joint {name!r}; {hint}")
@@ -298,11 +298,11 @@ class Sensor:
     model: Model
     sdf: SdfSensor
     link: str
-    """The link that it sits on."""
+    """The link that carries it."""
 
     @property
     def name(self) -> str:
-        """As in the file."""
+        """Its name in the file."""
         return self.sdf.name
 
     @property
@@ -312,22 +312,22 @@ class Sensor:
 
     @property
     def element(self) -> Element:
-        """The raw tag."""
+        """Its tag."""
         return self.sdf.element
 
     @property
     def device_name(self) -> str:
-        """Under which its device draws noise: model/sensor."""
+        """Name of its device, which seeds its noise: model/sensor."""
         return f"{self.model.name}/{self.name}"
 
     @property
     def mount(self) -> Pose6:
-        """Where it sits, seen from the robot of the engine."""
+        """Its pose relative to the engine's robot."""
         return self.model.on_robot(compose6(self.model.link_frame(self.link), self.sdf.pose))
 
 
 def _spin(axis: tuple[float, float, float], angle: float) -> Pose6:
-    """A turn about an axis, as a pose."""
+    """Return a rotation about an axis as a pose."""
     x, y, z = axis
     length = math.sqrt(x * x + y * y + z * z)
     if not length or not angle:

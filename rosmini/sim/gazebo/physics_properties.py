@@ -1,4 +1,4 @@
-"""The physics of a world in Gazebo's services and parameters: step, rate, gravity, and the numbers of ODE's solver."""
+"""The physics of a world in Gazebo's services and parameters: step, rate, gravity, and the settings of ODE's solver."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from rosmini.core.parameters import Parameters, parameter
 from .errors import GazeboError
 
 SHORTEST, LONGEST = 1e-6, 1.0
-"""The bounds of a step of the physics [s]."""
+"""Bounds of the physics step [s]."""
 
 ODE = (
     "auto_disable_bodies", "sor_pgs_precon_iters", "sor_pgs_iters", "sor_pgs_w", "sor_pgs_rms_error_tol",
     "contact_surface_layer", "contact_max_correcting_vel", "cfm", "erp", "max_contacts",
 )  # fmt: skip
-"""The fields of gazebo_msgs/ODEPhysics. They are kept and reported, but rosmini's engine has another solver."""
+"""The fields of gazebo_msgs/ODEPhysics. They are stored and reported, but rosmini's engine has another solver."""
 
 
 def _ode(default: Any, what: str, maximum: float | None = None, minimum: float | None = None) -> Any:
@@ -27,11 +27,11 @@ def _ode(default: Any, what: str, maximum: float | None = None, minimum: float |
 
 @dataclass(frozen=True)
 class PhysicsProperties(Parameters):
-    """How a world is stepped; also the parameters of gazebo_ros/Physics, changed while the server runs.
+    """The physics settings of a world; also the parameters of gazebo_ros/Physics, changed while the server runs.
 
-    `time_step` is what one step of `gz world -s` takes, `max_update_rate` how many are taken in a second of wall time:
-    their product is the speed of the world. A rate of 0 means as fast as possible, which a graph in simulated time is
-    anyhow. Gravity points down, or is zero. Raises `GazeboError` for other numbers.
+    `time_step` is the duration of one step of `gz world -s`, `max_update_rate` the number of steps per second of
+    real time: their product is the world's real-time factor. A rate of 0 means as fast as possible, which a graph in
+    simulated time always is. Gravity points down, or is zero. Raises `GazeboError` for other numbers.
     """
 
     time_step: float = parameter(
@@ -73,12 +73,12 @@ class PhysicsProperties(Parameters):
 
     @property
     def gravity(self) -> tuple[float, float, float]:
-        """Along x, y and z [m/s2]."""
+        """Gravity along x, y and z [m/s2]."""
         return (self.gravity_x, self.gravity_y, self.gravity_z)
 
     @property
     def speed(self) -> float:
-        """How many seconds of the world pass in one second of the clock."""
+        """Real-time factor: simulated seconds per second of real time."""
         return self.time_step * self.max_update_rate or 1.0
 
     def fill(self, response: Any) -> None:
@@ -90,7 +90,7 @@ class PhysicsProperties(Parameters):
 
     @classmethod
     def of_request(cls, request: Any) -> PhysicsProperties:
-        """What a gazebo_msgs/SetPhysicsProperties asks for. Raises `GazeboError`."""
+        """Return the settings in a gazebo_msgs/SetPhysicsProperties. Raises `GazeboError`."""
         gravity = request.gravity
         ode = {name: getattr(request.ode_config, name) for name in ODE}
         return cls(request.time_step, request.max_update_rate, gravity.x, gravity.y, gravity.z, **ode)

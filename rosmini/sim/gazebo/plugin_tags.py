@@ -1,4 +1,4 @@
-"""What is inside a plugin's tag, declared once: tag, type, default and meaning.
+"""Child tags of a plugin, declared once: tag, type, default and meaning.
 
 >>> from rosmini.core.markup import parse
 >>> @dataclass(frozen=True)
@@ -21,11 +21,11 @@ from rosmini.core.errors import nearest
 from rosmini.core.markup import Element
 
 COMMON = ("robotNamespace", "alwaysOn", "rosDebugLevel", "debug", "enableDebug")
-"""Tags that any plugin of gazebo_ros may have."""
+"""Tags that any plugin of gazebo_ros may contain."""
 
 
 def tag(name: str, default: Any = MISSING, meaning: str = "", *, unit: str = "") -> Any:
-    """One tag of a class derived from `Tags`; without a default it has to be there."""
+    """Declare one tag of a class derived from `Tags`; without a default it is required."""
     about = {"tag": name, "meaning": meaning, "unit": unit}
     return field(metadata=about) if default is MISSING else field(default=default, metadata=about)
 
@@ -35,11 +35,11 @@ class Tags:
     """The base of a plugin's tags; the type of a field is bool, int, float or str, or one of these or None."""
 
     ignored: ClassVar[tuple[str, ...]] = ()
-    """Tags that the real plugin knows and that change nothing here."""
+    """Tags of the real plugin that have no effect here."""
 
     @classmethod
     def read(cls, element: Element, complain: Callable[[str], object]) -> Self:
-        """Read an element; `complain` hears of unknown tags. Raises `MarkupError` for wrong values."""
+        """Read an element; `complain` is called for unknown tags. Raises `MarkupError` for wrong values."""
         declared = {each.metadata["tag"]: each for each in fields(cls)}
         types = get_type_hints(cls)
         values: dict[str, Any] = {}
@@ -60,7 +60,7 @@ class Tags:
 
     @classmethod
     def table(cls) -> list[tuple[str, str, str, str, str]]:
-        """Tag, type, default, unit and meaning of each tag, in the order of their declaration."""
+        """Return tag, type, default, unit and meaning of each tag, in the order of declaration."""
         types = get_type_hints(cls)
         return [
             (

@@ -1,7 +1,7 @@
-"""Plugins: code that a world, a model or a sensor brings along, found by the file name in its `<plugin>` tag.
+"""Plugins: code of a world, a model or a sensor, found by the file name in its `<plugin>` tag.
 
-In Gazebo a plugin is a shared library that the server loads; here it is a class that names the library it stands for.
-To write one, derive from `WorldPlugin`, `ModelPlugin` or `SensorPlugin` and override `load`. Files find it once the
+In Gazebo a plugin is a shared library that the server loads; here it is a class that names the library it replaces.
+To write one, derive from `WorldPlugin`, `ModelPlugin` or `SensorPlugin` and override `load`. Files can use it once
 class exists:
 
 >>> class Shout(ModelPlugin, filename="libshout.so"):
@@ -10,7 +10,7 @@ class exists:
 >>> plugin_class("libshout.so") is Shout
 True
 
-http://classic.gazebosim.org/tutorials?cat=write_plugin shows how it is done there.
+See http://classic.gazebosim.org/tutorials?cat=write_plugin for plugins of Gazebo itself.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from .errors import UnknownPlugin
 from .model import GazeboWorld, Model, Sensor
 
 PLUGIN_PATH = "GAZEBO_PLUGIN_PATH"
-"""The environment variable that names folders with plugins."""
+"""The environment variable with the folders of plugins."""
 
 D = TypeVar("D", bound=Device)
 
@@ -39,11 +39,11 @@ _CLASSES: dict[str, type[Plugin]] = {}
 
 
 class Plugin:
-    """The base of all plugins. Derive from one of the three kinds, not from this."""
+    """The base of all plugins. Derive from one of the three kinds, not from this class."""
 
     kind: ClassVar[str] = ""
     filenames: ClassVar[tuple[str, ...]] = ()
-    """The libraries that the class stands for."""
+    """The libraries that the class replaces."""
 
     def __init_subclass__(cls, *, filename: str | Sequence[str] = (), **options: Any) -> None:
         super().__init_subclass__(**options)
@@ -55,7 +55,7 @@ class Plugin:
         self.world = world
         """The running world."""
         self.name = name
-        """The tag's name, after the name of what it belongs to."""
+        """The tag's name, after the name of its owner."""
         self._endings: list[Callable[[], object]] = []
 
     def __repr__(self) -> str:
@@ -67,20 +67,20 @@ class Plugin:
         self.add(Update(self.world.host, name, rate, callback))
 
     def add(self, device: D) -> D:
-        """Add a device to the world's host, until the plugin is closed; return it."""
+        """Add a device to the world's host until the plugin is closed; return it."""
         self.world.host.add(device)
         self.at_close(lambda: self.world.host.remove(device))
         return device
 
     def at_close(self, ending: Callable[[], object]) -> None:
-        """Call `ending()` when the plugin is closed, also because the rest of its `load` failed."""
+        """Call `ending()` when the plugin is closed, also if the rest of `load` fails."""
         self._endings.append(ending)
 
     def reset(self) -> None:
-        """Return to the initial state: the world is reset."""
+        """Return to the initial state, because the world is reset."""
 
     def close(self) -> None:
-        """End, in reverse order: what it belongs to leaves the world. An override calls this too."""
+        """Clean up, in reverse order, because the owner is removed from the world. An override must call this too."""
         while self._endings:
             self._endings.pop()()
 
@@ -101,7 +101,7 @@ class ModelPlugin(Plugin):
 
     @classmethod
     def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
-        """Say how the model is driven, before it is inserted. Only drives need this."""
+        """Describe the model's drive before it is inserted. Only drives need this."""
 
     def load(self, model: Model, sdf: Element) -> None:
         """Start; `sdf` is the plugin's tag."""
@@ -117,27 +117,27 @@ class SensorPlugin(Plugin):
 
 
 class Update(Device):
-    """What `Plugin.every` adds to the host."""
+    """The device that `Plugin.every` adds to the host."""
 
     def __init__(self, host: Host, name: str, rate: float, callback: Callable[[float], object]) -> None:
         super().__init__(host, name, rate)
         self._callback = callback
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Call the plugin; what it raises is reported, and the simulation goes on."""
+        """Call the plugin; an exception is reported, and the simulation continues."""
         self.host.node.guarded(self._callback, stamp[0] + stamp[1] * 1e-9, what=self.name)
 
 
 def _base(filename: str) -> str:
-    """A library's name without its folder: Gazebo accepts it with and without `lib` and `.so`."""
+    """Return a library's base name: Gazebo accepts it with and without folder, `lib` and `.so`."""
     name = filename.strip().rsplit("/", 1)[-1]
     return name.removeprefix("lib").removesuffix(".so").removesuffix(".dylib")
 
 
 def plugin_class(filename: str) -> type[Plugin]:
-    """The class that stands for a library.
+    """Return the class that replaces a library.
 
-    One that is not known yet is looked for as a Python file of its name (`libshout.so`: `shout.py` or `libshout.py`)
+    An unknown one is searched for as a Python file of its name (`libshout.so`: `shout.py` or `libshout.py`)
     in the folders of GAZEBO_PLUGIN_PATH, and run. Raises `UnknownPlugin`, with the nearest name, also if running it
     fails.
     """
@@ -158,7 +158,7 @@ def plugin_class(filename: str) -> type[Plugin]:
 
 
 def _run(path: Path, name: str) -> None:
-    """Run a file with a plugin."""
+    """Run a file that defines a plugin."""
     spec = importlib.util.spec_from_file_location(f"gazebo_plugin_{name}", path)
     if spec is None or spec.loader is None:
         raise UnknownPlugin(f"{path} is no Python file")
@@ -170,5 +170,5 @@ def _run(path: Path, name: str) -> None:
 
 
 def plugin_filenames() -> tuple[str, ...]:
-    """The libraries that have a plugin here, sorted."""
+    """Return the libraries that have a plugin here, sorted."""
     return tuple(sorted({name for cls in _CLASSES.values() for name in cls.filenames}))

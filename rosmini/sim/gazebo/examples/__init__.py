@@ -1,4 +1,4 @@
-"""Two example plugins: a model plugin that pushes its model, and a world plugin that spawns things."""
+"""Two example plugins: a model plugin that pushes its model, and a world plugin that spawns crates."""
 
 from __future__ import annotations
 

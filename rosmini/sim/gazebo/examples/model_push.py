@@ -19,7 +19,7 @@ from rosmini.sim.gazebo.plugins import ModelPlugin
 
 @dataclass(frozen=True, kw_only=True)
 class PushTags(Tags):
-    """What the plugin can be told."""
+    """The tags of the plugin."""
 
     velocity: str = tag(
         "velocity", "0.3 0 0", "along x and y of the model, and its turning", unit="m/s, rad/s"
@@ -29,10 +29,10 @@ class PushTags(Tags):
 
 
 class ModelPush(ModelPlugin, filename="libmodel_push.so"):
-    """Gives its model a velocity, again and again; what is in the way stops it."""
+    """Sets its model's velocity again and again; obstacles stop the model."""
 
     def load(self, model: Model, sdf: Element) -> None:
-        """Start pushing. Raises `MarkupError` for what is no velocity."""
+        """Start pushing. Raises `MarkupError` for an invalid velocity."""
         self.model = model
         tags = PushTags.read(sdf, self.world.node.logwarn)
         self.ahead, self.aside, self.turn = sdf.floats(tags.velocity, 3, "velocity")
@@ -40,7 +40,7 @@ class ModelPush(ModelPlugin, filename="libmodel_push.so"):
         self.every(tags.rate, self.push)
 
     def push(self, now: float) -> None:
-        """Set its velocity."""
+        """Set the velocity."""
         if now <= self.end:
             heading = self.model.flat[2]
             c, s = math.cos(heading), math.sin(heading)

@@ -22,7 +22,7 @@ from rosmini.sim.sdf import SdfCollision, SdfGeometry, SdfInertial, SdfLink, Sdf
 
 @dataclass(frozen=True, kw_only=True)
 class SpawnerTags(Tags):
-    """What the plugin can be told."""
+    """The tags of the plugin."""
 
     count: int = tag("count", 3, "how many crates")
     period: float = tag("period", 1.0, "how long from one to the next", unit="s")
@@ -36,14 +36,14 @@ class Spawner(WorldPlugin, filename="libspawner.so"):
     """Spawns crates along a line; an occupied place is skipped, with a warning."""
 
     def load(self, world: GazeboWorld, sdf: Element) -> None:
-        """Begin. Raises `MarkupError` for what are no places."""
+        """Start spawning. Raises `MarkupError` for invalid positions."""
         self.tags = tags = SpawnerTags.read(sdf, world.node.logwarn)
         self.first, self.last = sdf.floats(tags.first, 2, "from"), sdf.floats(tags.last, 2, "to")
         self.made = 0
         self.every(1 / tags.period, self.bring)
 
     def bring(self, _: float) -> None:
-        """Spawn the next one."""
+        """Spawn the next crate."""
         count = self.tags.count
         if self.made < count:
             part = self.made / max(1, count - 1)
@@ -58,7 +58,7 @@ class Spawner(WorldPlugin, filename="libspawner.so"):
 
 
 def crate(size: float, mass: float) -> SdfModel:
-    """A cube of wood."""
+    """Return the model of a wooden cube."""
     shape = SdfGeometry("box", size=(size, size, size))
     pose = (0.0, 0.0, size / 2, 0.0, 0.0, 0.0)
     inertia = mass * size * size / 6

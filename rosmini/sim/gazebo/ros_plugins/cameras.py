@@ -21,13 +21,13 @@ from .drives import rate_of
 from .ros_names import RosNames
 
 CAMERA_RATE = 30.0
-"""Of a camera without a rate in its sensor or plugin [Hz]; Gazebo takes images as fast as it can draw."""
+"""Rate of a camera without one in its sensor or plugin [Hz]; Gazebo takes images as fast as it can render."""
 
 LENS = (
     "distortionK1", "distortionK2", "distortionK3", "distortionT1", "distortionT2", "CxPrime", "Cx", "Cy",
     "focalLength", "autoDistortion", "borderCrop", "triggerTopicName", "viewportName",
 )  # fmt: skip
-"""Tags about lenses that distort: those of rosmini do not."""
+"""Tags about lens distortion, which rosmini does not simulate."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,10 +45,10 @@ class CameraTags(Tags):
 
 
 class CameraPlugin(SensorPlugin, filename=("libgazebo_ros_camera.so", "libgazebo_ros_camera_utils.so")):
-    """Publishes a camera sensor's images and numbers."""
+    """Publishes a camera sensor's images and calibration."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Advertise its topics. Raises `MarkupError` for what is no camera."""
+        """Advertise its topics. Raises `MarkupError` if the sensor is not a camera."""
         tags = CameraTags.read(sdf, self.world.node.logwarn)
         names = RosNames(sensor.model, sdf)
         self.open(
@@ -62,7 +62,7 @@ class CameraPlugin(SensorPlugin, filename=("libgazebo_ros_camera.so", "libgazebo
     def open(
         self, sensor: Sensor, tags: CameraTags, names: RosNames, *, far: float | None = None, **topics: Any
     ) -> None:
-        """Add the device, with these topics."""
+        """Add the device with these topics."""
         rates = [rate for rate in (tags.rate, sensor.sdf.update_rate) if rate > 0]
         self.device = self.add(
             CameraDevice(
@@ -96,7 +96,7 @@ class DepthCameraPlugin(
     """Publishes a depth camera's images, depths and points."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Advertise its topics. Raises `MarkupError` for what is no camera."""
+        """Advertise its topics. Raises `MarkupError` if the sensor is not a camera."""
         tags = DepthCameraTags.read(sdf, self.world.node.logwarn)
         names = RosNames(sensor.model, sdf)
         self.open(
@@ -117,7 +117,7 @@ def _topic(names: RosNames, camera: str, topic: str) -> str:
 
 
 def camera_of(sensor: Sensor, rate: float, far: float | None = None) -> CameraModel:
-    """The camera that a sensor's `<camera>` describes. Raises `MarkupError` and `GazeboError`."""
+    """Return the camera that a sensor's `<camera>` describes. Raises `MarkupError` and `GazeboError`."""
     camera = sensor.element.find("camera")
     if camera is None:
         raise sensor.element.error(
@@ -163,10 +163,10 @@ class BumperTags(Tags):
 
 
 class BumperPlugin(SensorPlugin, filename="libgazebo_ros_bumper.so"):
-    """Publishes what a contact sensor's model touches as `gazebo_msgs/ContactsState`."""
+    """Publishes the contacts of a contact sensor's model as `gazebo_msgs/ContactsState`."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Advertise its topic. Raises `MarkupError` for what is no contact sensor."""
+        """Advertise its topic. Raises `MarkupError` if the sensor is not a contact sensor."""
         tags = BumperTags.read(sdf, self.world.node.logwarn)
         if sensor.type != "contact":
             raise sensor.element.error(

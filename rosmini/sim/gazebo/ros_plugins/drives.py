@@ -24,7 +24,7 @@ from .ros_names import RosNames
 
 @dataclass(frozen=True, kw_only=True)
 class DriveTags(Tags):
-    """The tags that all drives have."""
+    """The tags of all drives."""
 
     command_topic: str = tag("commandTopic", "cmd_vel", "the topic of commands")
     odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
@@ -39,7 +39,7 @@ class Drive(ModelPlugin):
     needs_robot = True
 
     def options(self, names: RosNames, tags: DriveTags) -> dict[str, Any]:
-        """Return the options of its device, with all topics."""
+        """Return the options of its device, including all topics."""
         return {
             "cmd_vel": names.topic(tags.command_topic),
             "odom": names.topic(tags.odometry_topic),
@@ -146,10 +146,10 @@ class SkidSteerTags(DriveTags):
 
 
 class SkidSteerDrive(Drive, filename="libgazebo_ros_skid_steer_drive.so"):
-    """Four driven wheels, as of a Husky: the two on a side turn alike.
+    """Four driven wheels, as on a Husky: the two on a side turn alike.
 
-    It moves as if it stood on two wheels `wheelSeparation` apart in the middle of the four: how much real wheels skid
-    in a turn is not simulated. Its odometry is the truth.
+    It moves like a robot on two wheels `wheelSeparation` apart in the middle of the four: the skidding of real wheels
+    in a turn is not simulated. Its odometry is the true pose.
     """
 
     @classmethod
@@ -201,11 +201,11 @@ class WheelTransforms(Device):
         self._publisher = host.node.publisher("/tf", type(self._message), queue_size=100)
 
     def wanted(self) -> bool:
-        """Return whether anybody listens."""
+        """Return True if the topic has a subscriber."""
         return self._publisher.num_connections() > 0
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Tell where the wheels are."""
+        """Publish the poses of the wheels."""
         for link, told in zip(self._links, self._message.transforms, strict=True):
             told.header.stamp.secs, told.header.stamp.nsecs = stamp
             way, turn = told.transform.translation, told.transform.rotation
@@ -214,7 +214,7 @@ class WheelTransforms(Device):
         self._publisher.publish(self._message)
 
     def close(self) -> None:
-        """End the topic."""
+        """Close the topic."""
         self._publisher.unregister()
 
 
@@ -227,11 +227,11 @@ class PlanarMoveTags(DriveTags):
 
 
 class PlanarMove(Drive, filename="libgazebo_ros_planar_move.so"):
-    """A model that goes anywhere on the ground as it is told. Its odometry is the truth."""
+    """A model that moves in any direction on the ground as commanded. Its odometry is the true pose."""
 
     @classmethod
     def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
-        """Let the model go anywhere."""
+        """Set a holonomic drive."""
         body.drive = "holonomic"
         body.rate = rate_of(PlanarMoveTags.read(sdf, complain).rate)
 
@@ -245,5 +245,5 @@ class PlanarMove(Drive, filename="libgazebo_ros_planar_move.so"):
 
 
 def rate_of(rate: float, step: float = 0.001) -> float:
-    """A rate [Hz] as plugins give it: 0 means once in each step of the physics."""
+    """Return the rate [Hz] for a plugin's value: 0 means once in each physics step."""
     return rate if rate > 0 else 1 / step

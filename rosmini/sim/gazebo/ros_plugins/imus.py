@@ -1,21 +1,21 @@
 """IMUs: libgazebo_ros_imu.so, a plugin of a model, and libgazebo_ros_imu_sensor.so, a plugin of a sensor.
 
-The two differ in Gazebo, and so they do here (gazebo_ros_imu.cpp and gazebo_ros_imu_sensor.cpp of gazebo_plugins 2.9):
+The two differ here as they do in Gazebo (gazebo_ros_imu.cpp and gazebo_ros_imu_sensor.cpp of gazebo_plugins 2.9):
 
 - The model's plugin differentiates the velocity of its link: the acceleration at the link's origin, *without
-  gravity*: it shows 0 at rest, against REP 145. A link on a fixed joint has become part of another one, and it is
-  that one's origin. `<xyzOffset>` is read and never used, and an `<imu>` with noise, as in TurtleBot3's own files, is
+  gravity*: 0 at rest, contrary to REP 145. A link on a fixed joint has become part of another one, so that one's
+  origin is used. `<xyzOffset>` is read and never used, and an `<imu>` with noise, as in TurtleBot3's files, is
   not read at all.
-- The sensor's plugin publishes what the sensor shows: at its own place, in its own axes, *with gravity*, and with the
-  noise of its `<imu>`. It adds `<gaussianNoise>` to the four numbers of the orientation too, which is no rotation
-  then.
+- The sensor's plugin publishes the sensor's values: at its own position, in its own axes, *with gravity*, and with the
+  noise of its `<imu>`. It also adds `<gaussianNoise>` to the four numbers of the orientation, which is then no
+  longer a rotation.
 
-Both give the heading in the world, count `<gaussianNoise>` for rates and accelerations alike, state its square as all
-covariances (0 without noise), and put `<rpyOffset>` before the orientation.
+Both report the heading in the world, apply `<gaussianNoise>` to rates and accelerations alike, state its square in all
+covariances (0 without noise), and apply `<rpyOffset>` before the orientation.
 
-One difference: the model's plugin turns accelerations from the world's axes by the heading instead of back by it, which
-shows them in the wrong direction unless the robot looks along x; here they are in the link's own axes, turned by
-`<rpyOffset>`. Another: accelerations are those of the moment, not differences from one message to the next.
+One difference from Gazebo: its model plugin turns accelerations from the world's axes by the heading instead of back
+by it, which gives a wrong direction unless the robot faces along x; here they are in the link's own axes, turned by
+`<rpyOffset>`. Another: accelerations are instantaneous, not differences between messages.
 """
 
 from __future__ import annotations
@@ -77,18 +77,18 @@ class ImuSensorTags(Tags):
 
 
 class GazeboImu(ImuDevice):
-    """A unit as Gazebo's plugins simulate it.
+    """An inertial measurement unit as Gazebo's plugins simulate it.
 
     Args:
-        model: which model carries it.
-        place: where it sits, seen from the robot of the engine.
-        unit: its noise; its mount is that of `place`.
+        model: the model that carries it.
+        place: its pose relative to the engine's robot.
+        unit: its noise; its mount is taken from `place`.
         offset: a rotation that comes before the orientation.
-        axes: how the axes of what it measures are turned against those of its place.
-        deviation: that of `<gaussianNoise>`, whose square the covariances are.
-        noisy_orientation: add such noise to the four numbers of the orientation too.
-        feels_gravity: whether accelerations hold it.
-        from_start: count the orientation from where it started, and not in the world.
+        axes: rotation of the axes of measurement relative to those of its place.
+        deviation: the value of `<gaussianNoise>`, whose square is the covariance.
+        noisy_orientation: also add noise to the four numbers of the orientation.
+        feels_gravity: True if accelerations include gravity.
+        from_start: report the orientation relative to the start, not in the world.
         options: those of `ImuDevice`.
 
     """
@@ -108,9 +108,7 @@ class GazeboImu(ImuDevice):
         **options: Any,
     ) -> None:
         world = model.world
-        unit = replace(
-            unit, mount=place[:3], gravity=0.0
-        )  # gravity is added as the world has it at the moment
+        unit = replace(unit, mount=place[:3], gravity=0.0)  # the world's current gravity is added in `sample`
         self._variance = (deviation * world.noise) ** 2
         super().__init__(world.host, model.name, unit, noise=world.noise, **options)
         self._world = world
@@ -146,23 +144,23 @@ class GazeboImu(ImuDevice):
         return (*orientation, *gyro, *accel)
 
     def state(self) -> Any:
-        """Return the state of the noise, too."""
+        """Return the state, including that of the noise."""
         return super().state(), copy.deepcopy(self._rng)
 
     def restore(self, state: Any) -> None:
-        """Restore the noise to come."""
+        """Restore what `state` returned."""
         own, rng = state
         super().restore(own)
         self._rng = copy.deepcopy(rng)
 
 
 def turned(rpy: Sequence[float]) -> Rigid:
-    """A rotation by roll, pitch and yaw [rad]."""
+    """Return a rotation by roll, pitch and yaw [rad]."""
     return rigid.from_rpy((0.0, 0.0, 0.0), *rpy)
 
 
 class ImuModelPlugin(ModelPlugin, filename="libgazebo_ros_imu.so"):
-    """Publishes how a link moves as `sensor_msgs/Imu`, without gravity."""
+    """Publishes the motion of a link as `sensor_msgs/Imu`, without gravity."""
 
     needs_robot = True
 
@@ -236,5 +234,5 @@ class ImuSensorPlugin(SensorPlugin, filename="libgazebo_ros_imu_sensor.so"):
 
 
 def _noise(imu: Element, way: str) -> tuple[float, float]:
-    """The standard deviation, and the mean of the bias, that an `<imu>` describes for one of its numbers."""
+    """Return the standard deviation and the mean bias in an `<imu>` for one of its quantities."""
     return number(imu, f"{way}/noise/stddev", 0.0), number(imu, f"{way}/noise/bias_mean", 0.0)

@@ -33,7 +33,7 @@ class JointStatePublisher(ModelPlugin, filename="libgazebo_ros_joint_state_publi
     """Publishes `sensor_msgs/JointState` on `joint_states`, by default in a namespace of the model's name."""
 
     def load(self, model: Model, sdf: Element) -> None:
-        """Advertise its topic. Raises `UnknownEntity` for a joint that is not there."""
+        """Advertise its topic. Raises `UnknownEntity` for a joint that does not exist."""
         tags = JointStateTags.read(sdf, self.world.node.logwarn)
         names = RosNames(model, sdf, default=model.name)
         joints = [name.strip() for name in tags.joints.split(",") if name.strip()]
@@ -82,7 +82,7 @@ class GroundTruthTags(Tags):
 
 
 class GroundTruthPlugin(ModelPlugin, filename="libgazebo_ros_p3d.so"):
-    """Publishes where a link really is as `nav_msgs/Odometry`, its velocities in the frame of the world."""
+    """Publishes the true pose of a link as `nav_msgs/Odometry`, with velocities in the world's frame."""
 
     def load(self, model: Model, sdf: Element) -> None:
         """Advertise its topic. Raises `MarkupError` and `UnknownEntity`."""

@@ -20,10 +20,10 @@ from .drives import rate_of
 from .ros_names import RosNames
 
 LEVEL = 1e-3
-"""A laser that is tilted by no more than this is level [rad]."""
+"""A laser tilted by no more than this counts as level [rad]."""
 
 STEEP = 0.1
-"""A laser that is tilted by no more than this is simulated as a level one [rad]."""
+"""A laser tilted by no more than this is simulated as a level one [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +43,7 @@ class LaserPlugin(
     """Publishes a ray sensor's scans as `sensor_msgs/LaserScan`."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Advertise its topic. Raises `MarkupError` for what is no ray sensor."""
+        """Advertise its topic. Raises `MarkupError` if the sensor is not a ray sensor."""
         tags = LaserTags.read(sdf, self.world.node.logwarn)
         lidar = lidar_of(sensor)
         tilt = tilt_of(sensor)
@@ -72,8 +72,8 @@ def tilt_of(sensor: Sensor) -> float:
 def lidar_of(sensor: Sensor) -> LidarModel:
     """Return the laser that a sensor's `<ray>` describes, with its noise.
 
-    One that is upside down looks the other way round. Raises `MarkupError`, and `GazeboError` for one that is too far
-    from level for a flat world.
+    An upside-down laser scans in the opposite direction. Raises `MarkupError`, and `GazeboError` for one that is tilted
+    too much for a flat world.
     """
     ray = sensor.element.find("ray") or sensor.element.find("lidar")
     if ray is None:
@@ -97,7 +97,7 @@ def lidar_of(sensor: Sensor) -> LidarModel:
             f"a laser of {vertical} layers is not simulated; <vertical> has one sample here"
         )
     first, last = number(horizontal, "min_angle", 0.0), number(horizontal, "max_angle", 0.0)
-    if samples == 1:  # whatever its fan is, one ray looks ahead, as in Gazebo
+    if samples == 1:  # a single ray looks ahead whatever the angles are, as in Gazebo
         first = last = 0.0
     noise = ray.find("noise")
     if hangs:
