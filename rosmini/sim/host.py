@@ -1,9 +1,9 @@
-"""The time of one engine in a graph, and the devices on it: drives, sensors, anything that happens at a rate.
+"""The time of one engine in a graph, and its devices: drives, sensors, anything that happens at a fixed rate.
 
 `rosmini_sim/simulator`, `stage_ros/stageros` and `gazebo_ros/gzserver` are each a `Host` with an `Engine` and
 devices. Devices of the same rate are due at the same instants, counted from the host's time zero, whenever they were
-added: so one event of the graph's queue serves a hundred robots. The engine advances from one such instant to the
-next, and to commands.
+added: so one event of the graph's queue serves a hundred robots. The engine advances to each of these instants, and
+to the time of each command.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ if TYPE_CHECKING:
 SECOND = 1_000_000_000
 
 LAG_S = 0.25
-"""A host that lags farther behind the wall clock skips the time instead of catching up [s]."""
+"""Lag behind the clock beyond which a host skips time instead of catching up [s]."""
 
 IDLE_S = 0.1
-"""How often a host checks again while nobody listens [s]."""
+"""Interval at which a host checks again while no node listens [s]."""
 
 D = TypeVar("D", bound="Device")
 
@@ -39,13 +39,13 @@ __all__ = ["IDLE_S", "LAG_S", "SECOND", "Device", "Host", "HostState", "Stamp"]
 
 
 class Device:
-    """Something that happens `rate` times a second of simulated time. Derive from it, and call `host.add` with it.
+    """An action that happens `rate` times a second of simulated time. Derive from it, and add it with `host.add`.
 
-    Devices due at the same instant are served by `order`, and in insertion order if that is equal.
+    Devices due at the same instant are served by `order`, and in insertion order if it is equal.
     """
 
     always = True
-    """False if it may be skipped while nobody needs it: then `wanted` is asked first."""
+    """False if it may be skipped while no node needs it: then `wanted` is asked first."""
     order: ClassVar[float] = 100.0
     """TurtleBot3's: time 0, drive 10, transforms 20, joints 30, truth 40, laser 50, IMU 60, battery 70, bumper 75,
     board 80, cameras 90."""
@@ -56,33 +56,33 @@ class Device:
             raise RosminiError(msg)
         self.host = host
         self.name = name
-        """Under which it is saved and draws its noise: usually robot/what, `burger/imu`."""
+        """Name for saved states and random generators, usually robot/sensor: `burger/imu`."""
         self.rate = float(rate)
 
     def wanted(self) -> bool:
-        """Return whether anybody needs it; only asked if not `always`."""
+        """Return True if any node needs it; only called if not `always`."""
         return True
 
     def due(self, stamp: Stamp, number: int, /) -> None:
-        """Do what is due, for the `number`th time, counted from 1; skipped instants are counted too."""
+        """Do the device's work for the `number`th time, counted from 1; skipped instants are counted too."""
 
     def reset(self) -> None:
-        """Return to the initial state, because the world does; a sensor need not do anything."""
+        """Return to the initial state, because the world does; most sensors need not do anything."""
 
     kept: ClassVar[tuple[str, ...]] = ()
-    """The attributes that change while it works: what is saved."""
+    """The attributes that change at run time and are saved."""
 
     def state(self) -> Any:
-        """Return everything that changes while it works, as a copy that can be pickled."""
+        """Return everything that changes at run time, as a copy that can be pickled."""
         return copy.deepcopy({name: getattr(self, name) for name in self.kept})
 
     def restore(self, state: Any) -> None:
-        """Become as it was when `state` was taken."""
+        """Restore what `state` returned."""
         for name, value in copy.deepcopy(state).items():
             setattr(self, name, value)
 
     def close(self) -> None:
-        """Leave the graph: end topics and services. Called by `Host.remove`, once."""
+        """Close topics and services. Called by `Host.remove`, once."""
 
 
 @dataclass(frozen=True)
@@ -96,19 +96,19 @@ class HostState:
     instants: dict[float, tuple[int, int]]
     """For each rate: its start, and the number of its next instant."""
     devices: dict[str, tuple[int, Any]]
-    """For each name: how many instants of its rate came before its first, and its own state."""
+    """For each name: the number of instants of its rate before its first one, and its own state."""
 
 
 class Host:
-    """The time of one simulated world in a graph, and what happens in it.
+    """The time of one simulated world in a graph, and its devices.
 
     Args:
-        node: the started node that publishes; its clock is the one by which the world's time goes on.
+        node: the started node that publishes; its clock drives the world's time.
         engine: the world.
         from_zero: stamps start at 0, as in Gazebo and Stage, which publish them on `/clock`; the host then follows the
-            graph's own time, even with /use_sim_time. Otherwise stamps are the times of the node's clock.
-        speed: how many seconds of the world pass in one second of the clock.
-        paused: whether time stands still initially.
+            graph's own time, even with /use_sim_time. Otherwise stamps are times of the node's clock.
+        speed: seconds of the world's time per second of the clock.
+        paused: True if time is paused initially.
 
     """
 
@@ -144,22 +144,22 @@ class Host:
 
     @property
     def now(self) -> float:
-        """The world's time [s] since the host was made or `reset_time` was called; it stands still while paused."""
+        """The world's time [s] since the host was created or `reset_time` was called; it stops while paused."""
         return (self._at() - self._zero_ns) * 1e-9
 
     @property
     def stamp(self) -> Time:
-        """The stamp of a message of now."""
+        """The stamp of a message published now."""
         return Time(*self._stamp(self._at()))
 
     @property
     def paused(self) -> bool:
-        """Whether time stands still."""
+        """True if time is paused."""
         return self._paused
 
     @property
     def speed(self) -> float:
-        """How many seconds of the world pass in one second of the clock."""
+        """Seconds of the world's time per second of the clock."""
         return self._speed
 
     @speed.setter
@@ -171,15 +171,15 @@ class Host:
 
     @property
     def engine_now(self) -> float:
-        """The engine's time now [s]; the engine itself may be a little behind: see `catch_up`."""
+        """The engine's time now [s]; the engine itself may be slightly behind: see `catch_up`."""
         return self._at() * 1e-9
 
     def catch_up(self) -> None:
-        """Advance the engine to now. Call it before changing something in the engine."""
+        """Advance the engine to the current time. Call it before changing anything in the engine."""
         self.engine.advance(self._at() * 1e-9)
 
     def pause(self) -> None:
-        """Stop time. Harmless when repeated."""
+        """Stop time; harmless when repeated."""
         if not self._paused:
             if self._cancel is not None and self._due_ns <= self._at():  # its event has not been reached yet
                 self._forget()
@@ -190,7 +190,7 @@ class Host:
             self.tell_time()
 
     def unpause(self) -> None:
-        """Let time go on. Harmless when repeated."""
+        """Resume time; harmless when repeated."""
         if self._paused:
             self._paused = False
             self._clock_ns = self.clock.now_ns()
@@ -198,7 +198,7 @@ class Host:
             self.tell_time()
 
     def step(self, seconds: float) -> None:
-        """Let `seconds` of the world's time pass at once. Raises `RosminiError` unless it is paused."""
+        """Advance the world's time by `seconds` at once. Raises `RosminiError` unless it is paused."""
         if not self._paused:
             msg = (
                 f"the world {self.engine.world.name!r} can only be stepped while it is paused: pause it first"
@@ -240,7 +240,7 @@ class Host:
         self.tell_time()
 
     def end(self) -> None:
-        """Stop for good: nothing is due after this. The devices stay open. Harmless when repeated."""
+        """Stop permanently: no device is served after this. The devices stay open. Harmless when repeated."""
         self._ended = True
         self._forget()
 
@@ -252,7 +252,7 @@ class Host:
         return self._time_ns + (passed if self._speed == 1 else round(passed * self._speed))
 
     def _rebase(self) -> None:
-        """Make now the instant from which the world's time is counted."""
+        """Count the world's time from the current instant on."""
         self._time_ns = self._at()
         self._clock_ns = self.clock.now_ns()
         self.catch_up()
@@ -292,7 +292,7 @@ class Host:
         return device
 
     def remove(self, device: Device) -> None:
-        """Close and remove a device. Harmless when repeated."""
+        """Close and remove a device; harmless when repeated."""
         if self._devices.get(device.name) is not device:
             return
         del self._devices[device.name]
@@ -321,7 +321,7 @@ class Host:
         return self._devices[name]
 
     def count(self, device: Device) -> int:
-        """Return the number of a device's instants up to the engine's now: what the last `due` was given."""
+        """Return the number of a device's instants up to the engine's time, as last passed to `due`."""
         group = self._groups[device.rate]
         # the engine may be a nanosecond short of an instant, and would miss it
         return group.after(round(self.engine.now * SECOND) + 1) - 1 - group.before[device.name]
@@ -331,14 +331,14 @@ class Host:
         return self.node.graph.rng(f"{self.node.name}/{name}")
 
     def reset(self) -> None:
-        """Put all robots and movable obstacles back to where they started, and reset the devices."""
+        """Return all robots and movable obstacles to their initial poses, and reset the devices."""
         self.catch_up()
         self.engine.reset()
         for device in self.devices:
             device.reset()
 
     def _arrange(self) -> None:
-        """Sort the groups again, after a device was added or removed."""
+        """Sort the groups after a device was added or removed."""
         groups = sorted(self._groups.values(), key=lambda group: group.devices[0].order)
         self._order = tuple(groups)
         self._plan()
@@ -349,8 +349,8 @@ class Host:
             self._cancel = None
 
     def _plan(self, since_ns: int | None = None) -> None:
-        """Schedule the first device due after now, or after `since_ns`, wanted or not."""
-        if self._serving:  # `_tick` does it when all have been served
+        """Schedule the first device due after now, or after `since_ns`, whether or not it is wanted."""
+        if self._serving:  # `_tick` does it after all devices have been served
             return
         self._forget()
         if self._order and not self._paused and not self._ended:
@@ -364,7 +364,7 @@ class Host:
         self._cancel = self.clock.call_at(self._on_clock(due_ns), self._wake)
 
     def _wake(self) -> None:
-        """Serve what is due. This event has no lane: nothing in it blocks."""
+        """Serve the devices that are due. This event has no lane, because nothing in it blocks."""
         due = self._due_ns
         self._cancel = None
         try:
@@ -386,7 +386,7 @@ class Host:
             self._call(following)
 
     def _serve(self, due: int) -> int:
-        """Serve everything due now; return when the next thing is due."""
+        """Serve everything due now; return the time at which something is due next."""
         self.engine.advance(due * 1e-9)
         stamp = self._stamp(due)
         following = due + int(IDLE_S * SECOND)
@@ -407,7 +407,7 @@ class Host:
     # -- saving --------------------------------------------------------------------------------------------------
 
     def save(self) -> HostState:
-        """Return the state of the engine and the devices, and when they are due. Nothing changes by it."""
+        """Return the state of the engine and the devices, and when they are due; nothing changes."""
         return HostState(
             time_ns=self._at(),
             zero_ns=self._zero_ns,
@@ -421,7 +421,7 @@ class Host:
         )
 
     def restore(self, state: HostState) -> None:
-        """Continue from a saved state. Raises `RosminiError` if it is not one, or is of other devices."""
+        """Continue from a saved state. Raises `RosminiError` if it is not one, or belongs to other devices."""
         if not isinstance(state, HostState):
             what = type(state).__name__
             raise RosminiError(

@@ -1,6 +1,6 @@
-"""The running world: models that come, go and are moved, and plugins.
+"""The running world: models that are inserted, removed and moved, and plugins.
 
-Services, Gazebo's own topics, plugins, `gz` and notebooks all act on this object, which acts on the engine and its
+Services, Gazebo's topics, plugins, `gz` and notebooks all act on this object, which acts on the engine and its
 host.
 """
 
@@ -43,7 +43,7 @@ from .wrenches import Wrench, Wrenches
 
 @dataclass(frozen=True)
 class ModelState:
-    """A model, and what the engine does not know of it."""
+    """The part of a model's state that the engine does not have."""
 
     sdf: SdfModel
     start: Pose6
@@ -51,15 +51,15 @@ class ModelState:
     frames: dict[str, tuple[str, Pose6]]
     obstacles: tuple[str, ...]
     fixed: Pose6 | None
-    """Where it is if nothing can push it."""
+    """Its pose if nothing can push it."""
 
     @classmethod
     def of(cls, model: Model) -> ModelState:
-        """The state of a model now."""
+        """Return the current state of a model."""
         return cls(model.sdf, model.start, model.namespace, dict(model.frames), model.obstacles, model.fixed)
 
     def came_as(self, model: Model) -> bool:
-        """Return whether a model was spawned in the same way as this one."""
+        """Return True if a model was spawned in the same way as this one."""
         return all(
             alike(getattr(self, name), getattr(model, name))
             for name in ("namespace", "start", "frames", "sdf")
@@ -68,7 +68,7 @@ class ModelState:
 
 @dataclass(frozen=True)
 class WorldState:
-    """What a Gazebo world adds to the state of its host."""
+    """The part of a Gazebo world's state that its host does not have."""
 
     models: dict[str, ModelState]
     physics: PhysicsProperties
@@ -79,10 +79,10 @@ class RunningWorld(GazeboWorld):
     """A world with models in it, in a node.
 
     Args:
-        node: the started node; its topics are those of the models.
-        source: an SDF world, or one of rosmini's.
-        paused: whether time stands still initially.
-        noise: scales the noise of all sensors; 0: none.
+        node: the started node; the models' topics belong to it.
+        source: an SDF world, or one of rosmini's worlds.
+        paused: True if time is paused initially.
+        noise: scales the noise of all sensors; 0: no noise.
 
     """
 
@@ -93,13 +93,13 @@ class RunningWorld(GazeboWorld):
         self.noise = noise
         self.models = {}
         self.plugins: list[Plugin] = []
-        """Those of the world itself."""
+        """Plugins of the world itself."""
         self.model_plugins: dict[str, list[Plugin]] = {}
-        """By the name of the model that they, or its sensors, belong to."""
+        """Plugins of models and their sensors, by the model's name."""
         self.on_change: list[Callable[[str, Model], object]] = []
         """Called with "insert", "delete" or "move", and the model."""
         self.wrenches = Wrenches(self)
-        """The forces that act on things."""
+        """The forces that act on models."""
         if isinstance(source, SdfWorld):
             self.name = source.name
             still = [model for model in source.models if is_still(model)]
@@ -154,7 +154,7 @@ class RunningWorld(GazeboWorld):
         )
 
     def _note_obstacle(self, obstacle: Obstacle) -> None:
-        """Make an obstacle of rosmini's own world a model of one link."""
+        """Make a model with one link of an obstacle in one of rosmini's worlds."""
         x, y, yaw = obstacle.pose
         pose = (x, y, 0.0, 0.0, 0.0, yaw)
         sdf = SdfModel(obstacle.name, static=obstacle.fixed, links=(SdfLink("link"),))
@@ -165,14 +165,14 @@ class RunningWorld(GazeboWorld):
     # -- time ----------------------------------------------------------------------------------------------------
 
     def step(self, count: int = 1) -> None:
-        """Take `count` steps of the physics, and pause. Raises `GazeboError` for less than one."""
+        """Take `count` physics steps and pause. Raises `GazeboError` for less than one."""
         if count < 1:
             raise GazeboError(f"a world is stepped once or more often, not {count} times")
         self.host.pause()
         self.host.step(count * self.physics.time_step)
 
     def reset_models(self) -> None:
-        """Put every model back to where it was spawned; time goes on."""
+        """Return every model to its spawn pose; time continues."""
         self.host.reset()
         for model in self.models.values():
             if model.fixed is not None and model.fixed != model.start:
@@ -182,7 +182,7 @@ class RunningWorld(GazeboWorld):
         self.host.tell_time()
 
     def set_physics(self, physics: PhysicsProperties) -> None:
-        """Change how the world is stepped."""
+        """Change the physics settings."""
         self.host.catch_up()
         self.physics = physics
         self.host.speed = physics.speed
@@ -191,19 +191,19 @@ class RunningWorld(GazeboWorld):
     # -- saving --------------------------------------------------------------------------------------------------
 
     def state(self) -> WorldState:
-        """What the world has beside the engine and its devices."""
+        """Return the world's state without the engine and its devices."""
         models = {name: ModelState.of(model) for name, model in self.models.items()}
         return WorldState(models, self.physics, self.wrenches.state())
 
     def remove_new(self, state: WorldState) -> None:
-        """Delete the models that were not there, or were others; the physics becomes that of the state."""
+        """Delete the models that the state does not contain or that differ there; restore its physics settings."""
         for name, model in list(self.models.items()):
             if name not in state.models or not state.models[name].came_as(model):
                 self.delete(name)
         self.set_physics(state.physics)
 
     def bring_back(self, state: WorldState) -> None:
-        """Give the models that a restored engine has again their plugins, and their forces."""
+        """Restore the plugins and forces of the models in a restored engine."""
         for name, old in state.models.items():
             if name not in self.models:
                 self._bring(
@@ -246,7 +246,7 @@ class RunningWorld(GazeboWorld):
         check: bool,
         there: tuple[str, ...] | None = None,
     ) -> Model:
-        """Insert a model; `there` names its obstacles if the engine has it already."""
+        """Insert a model; `there` names its obstacles if the engine already has it."""
         self._check_new(name, pose)
         if check and not sdf.static:
             above = lowest(sdf, pose)
@@ -270,7 +270,7 @@ class RunningWorld(GazeboWorld):
         self.models[name] = model
         try:
             self._load(model, found, sensors)
-        except Exception as error:  # whatever a plugin of somebody's raises
+        except Exception as error:  # a plugin can raise anything
             self._take(model)
             why = (
                 error
@@ -343,7 +343,7 @@ class RunningWorld(GazeboWorld):
         self._tell("delete", model)
 
     def _take(self, model: Model) -> None:
-        """Remove a model; what its plugins raise then is reported, and it goes all the same."""
+        """Remove a model; exceptions of its plugins are reported and do not prevent it."""
         self.host.catch_up()
         with ExitStack() as ends:
             ends.callback(self._forget, model)
@@ -431,7 +431,7 @@ class RunningWorld(GazeboWorld):
         return found
 
     def load_plugin(self, tag: SdfPlugin | str) -> WorldPlugin | None:
-        """Load a plugin of the world, by its tag or file name; return None, with a warning, if there is none."""
+        """Load a plugin of the world by its tag or file name; return None, with a warning, if it is unknown."""
         if isinstance(tag, str):
             tag = SdfPlugin(tag, tag, Element("plugin", {"filename": tag}))
         for cls, each in self._plugin_classes([tag], f"the world {self.name!r}", WorldPlugin):
@@ -446,7 +446,7 @@ class RunningWorld(GazeboWorld):
         return [*self.plugins, *(plugin for plugins in self.model_plugins.values() for plugin in plugins)]
 
     def close(self) -> None:
-        """End all plugins, and stop time."""
+        """Close all plugins, and stop time."""
         with ExitStack() as ends:
             ends.callback(self.host.end)
             for plugin in self._all_plugins():
@@ -454,7 +454,7 @@ class RunningWorld(GazeboWorld):
 
 
 def alike(a: Any, b: Any) -> bool:
-    """Return whether two descriptions are the same; markup elements are equal only to themselves."""
+    """Return True if two descriptions are equal; markup elements are equal only to themselves."""
     if type(a) is not type(b):
         return False
     if is_dataclass(a):

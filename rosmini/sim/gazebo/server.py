@@ -1,12 +1,12 @@
-"""The nodes `gazebo_ros/gzserver` and `gazebo_ros/gazebo`: Gazebo's server with its ROS side, and with a client.
+"""The nodes `gazebo_ros/gzserver` and `gazebo_ros/gazebo`: Gazebo's server with its ROS interface, and with a client.
 
     rosmini run gazebo_ros/gzserver worlds/empty.world -u + ...
 
-As in ROS the node is called /gazebo. It publishes /clock (and sets /use_sim_time, so that nodes that start later
-follow it), ~model_states and ~link_states; subscribes to ~set_model_state and ~set_link_state; offers the services of
-`rosmini.sim.gazebo.services`; and its physics can be changed while it runs (dynamic_reconfigure). /clock and the
-states are published 100 times a second of the world's time, or as often as the parameter ~pub_clock_frequency says;
-Gazebo without that parameter publishes them in each step of its physics, which `_pub_clock_frequency:=1000` gives.
+As in ROS the node is called /gazebo. It publishes /clock (and sets /use_sim_time, so that nodes that start later use
+it), ~model_states and ~link_states; subscribes to ~set_model_state and ~set_link_state; offers the services of
+`rosmini.sim.gazebo.services`; and its physics settings can be changed at run time (dynamic_reconfigure). /clock and the
+states are published 100 times per second of the world's time, or at the rate in the parameter ~pub_clock_frequency;
+Gazebo without that parameter publishes them in each physics step, as `_pub_clock_frequency:=1000` does here.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ from .topics import GazeboMaster
 from .world_sources import EMPTY, load_world
 
 CLOCK_RATE = 100.0
-"""How often /clock is published unless ~pub_clock_frequency says otherwise [Hz]."""
+"""Default rate of /clock and the states [Hz]; see ~pub_clock_frequency."""
 
 BUILT_IN = ("libgazebo_ros_api_plugin.so", "libgazebo_ros_paths_plugin.so")
-"""The plugins that gazebo_ros's gzserver always loads: they are what this node is."""
+"""The plugins that gazebo_ros's gzserver always loads; this node contains their function."""
 
 ENGINES = ("ode", "bullet", "dart", "simbody")
 
@@ -73,14 +73,14 @@ class GazeboServer(Pictured, Simulation):
 
     Args:
         node: the started node.
-        args: those of gzserver: a world file, -u, --verbose, -e ENGINE, -s PLUGIN...
+        args: arguments of gzserver: a world file, -u, --verbose, -e ENGINE, -s PLUGIN...
         world: the world itself, which takes precedence over the argument.
-        noise: scales the noise of all sensors; 0: none.
+        noise: scales the noise of all sensors; 0: no noise.
 
     Raises:
-        ScriptError: the arguments make no sense.
+        ScriptError: the arguments are invalid.
         GazeboError: there is no such world, or another server runs at the same address.
-        SdfError: the world's file is broken.
+        SdfError: the world file is invalid.
 
     """
 
@@ -130,9 +130,9 @@ class GazeboServer(Pictured, Simulation):
     def spawn(
         self, model: str | SdfModel, name: str = "", pose: Pose = (0.0, 0.0, 0.0), *, namespace: str = ""
     ) -> Model:
-        """Insert a model: the text of a URDF or an SDF, or an `SdfModel`; `pose` is x [m], y [m], heading [rad].
+        """Insert a model from the text of a URDF or an SDF, or an `SdfModel`; `pose` is x [m], y [m], heading [rad].
 
-        Raises `SpawnError`, and what the readers raise.
+        Raises `SpawnError`, and the readers' errors.
         """
         where = (pose[0], pose[1], 0.0, 0.0, 0.0, pose[2])
 
@@ -164,7 +164,7 @@ class GazeboServer(Pictured, Simulation):
         self.world.delete(name)
 
     def axle(self, name: str) -> Pose:
-        """Where the engine has the middle of a model's wheels, in the model's frame. Raises `UnknownEntity`."""
+        """Return the middle of the wheels' axle in the model's frame, as used by the engine. Raises `UnknownEntity`."""
         body = self.world.model(name).body
         return (0.0, 0.0, 0.0) if body is None else body.axle
 
@@ -189,11 +189,11 @@ class GazeboServer(Pictured, Simulation):
         self.reconfigure.update_configuration(asdict(self.world.physics))
 
     def client(self) -> GazeboClient:
-        """A client that shows this server, as a node `gazebo_gui` of the same graph."""
+        """Return a client that shows this server, as a node `gazebo_gui` of the same graph."""
         return GazeboClient(self.node.graph.node("gazebo_gui", anonymous=True))
 
     def set_physics(self, physics: PhysicsProperties) -> None:
-        """Change how the world is stepped; the parameters follow."""
+        """Change the physics settings and the parameters with them."""
         self.world.set_physics(physics)
         self.reconfigure.update_configuration(asdict(physics))
 
@@ -206,7 +206,7 @@ class GazeboServer(Pictured, Simulation):
         return config
 
     def snapshot(self) -> Snapshot:
-        """The world as it is now."""
+        """Return the world as it is now."""
         return self._do(lambda: Snapshot.of(self.world))
 
     def _finish(self) -> None:
@@ -227,7 +227,7 @@ class Gazebo(GazeboServer):
         node.on_shutdown(lambda: self.gui.node.shutdown("the server ended"))
 
     def snapshot(self) -> Snapshot:
-        """What the client shows."""
+        """Return the client's view of the world."""
         return self.gui.snapshot()
 
 

@@ -1,7 +1,7 @@
 """The services of /gazebo, with the replies of gazebo_ros_api_plugin (http://wiki.ros.org/gazebo_msgs).
 
-A refusal is no error of the call: `success` is false, and `status_message` says why, in the words of the real plugin
-and, if there is more to say, in ours after them.
+A refusal is not an error of the call: `success` is false, and `status_message` gives the reason in the real plugin's
+words, followed by ours if there is more to say.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ JOINTS = {"revolute": 0, "continuous": 1, "prismatic": 2, "fixed": 3, "ball": 4,
 
 
 class Refusal(GazeboError):
-    """What a service was asked for is refused; the text is the status message."""
+    """A request is refused; the text is the status message."""
 
 
 @contextmanager
 def otherwise(refusal: str) -> Iterator[None]:
-    """Refuse with these words, and the error's own after them, if something goes wrong."""
+    """Turn an error into a refusal with this text, followed by the error's own."""
     try:
         yield
     except Refusal:
@@ -47,7 +47,7 @@ def otherwise(refusal: str) -> Iterator[None]:
 
 
 def answering(handler: Callable[[Services, Any], Reply]) -> Callable[[Services, Any], Reply]:
-    """Make a refusal the answer of a service."""
+    """Return a refusal as the answer of a service."""
 
     @functools.wraps(handler)
     def answer(self: Services, request: Any) -> Reply:
@@ -60,7 +60,7 @@ def answering(handler: Callable[[Services, Any], Reply]) -> Callable[[Services, 
 
 
 def done(message: str, **fields: Any) -> Reply:
-    """Return the answer of a service that did what it was asked for."""
+    """Return the answer of a successful service."""
     return {"success": True, "status_message": message, **fields}
 
 
@@ -111,12 +111,12 @@ class Services:
 
     @answering
     def spawn_urdf(self, request: Any) -> Reply:
-        """Insert the robot that a URDF describes."""
+        """Insert the robot described by a URDF."""
         return self._spawn(request, ("robot",), "SpawnModel: Failure - model format is not URDF.")
 
     @answering
     def spawn_sdf(self, request: Any) -> Reply:
-        """Insert the model that an SDF (or a URDF, as in Gazebo) describes."""
+        """Insert the model described by an SDF (or a URDF, as in Gazebo)."""
         return self._spawn(
             request,
             ("sdf", "gazebo", "robot"),
@@ -145,11 +145,11 @@ class Services:
             self.world.delete(request.model_name)
         return done("DeleteModel: successfully deleted model")
 
-    # -- where they are ------------------------------------------------------------------------------------------
+    # -- poses and velocities ------------------------------------------------------------------------------------
 
     @answering
     def get_model_state(self, request: Any) -> Reply:
-        """Pose and velocity of a model, seen from another or from the world."""
+        """Return pose and velocity of a model, relative to another one or the world."""
         name, other = request.model_name, request.relative_entity_name
         with otherwise("GetModelState: model does not exist:"):
             model = self.world.model(name)
@@ -166,7 +166,7 @@ class Services:
 
     @answering
     def set_model_state(self, request: Any) -> Reply:
-        """Put a model elsewhere."""
+        """Move a model to another pose."""
         state = request.model_state
         with otherwise("SetModelState: model does not exist:"):
             model = self.world.model(state.model_name)
@@ -180,7 +180,7 @@ class Services:
 
     @answering
     def get_link_state(self, request: Any) -> Reply:
-        """Pose and velocity of a link."""
+        """Return pose and velocity of a link."""
         with otherwise(f"GetLinkState: link not found, {SCOPE.format('link')}"):
             model, link = self._link(request.link_name)
         with otherwise(f"GetLinkState: reference reference_frame not found, {SCOPE.format('link')}"):
@@ -198,7 +198,7 @@ class Services:
 
     @answering
     def set_link_state(self, request: Any) -> Reply:
-        """Put a model so that a link of it is there."""
+        """Move a model so that one of its links has the given pose."""
         state = request.link_state
         with otherwise("SetLinkState: link does not exist:"):
             model, link = self._link(state.link_name)
@@ -210,9 +210,9 @@ class Services:
         return done("SetLinkState: success")
 
     def _link(self, name: str) -> tuple[Model, str]:
-        """The link that model::link names. Raises `UnknownEntity`."""
+        """Return the model and the link named by model::link. Raises `UnknownEntity`."""
         model_name, colons, link = name.partition("::")
-        if not colons:  # Gazebo also finds a link by its own name alone, if it finds it in some model
+        if not colons:  # Gazebo also finds a link by its bare name, if a model has it
             for model in self.world.models.values():
                 if name in model.links or name in model.frames:
                     return model, name
@@ -221,11 +221,11 @@ class Services:
         model.link_frame(link)
         return model, link
 
-    # -- what they are -------------------------------------------------------------------------------------------
+    # -- properties ----------------------------------------------------------------------------------------------
 
     @answering
     def get_model_properties(self, request: Any) -> Reply:
-        """The links, shapes and joints of a model."""
+        """Return the links, shapes and joints of a model."""
         with otherwise("GetModelProperties: model does not exist:"):
             model = self.world.model(request.model_name)
         links = list(model.links)
@@ -240,7 +240,7 @@ class Services:
         )
 
     def get_world_properties(self, _: Any) -> Reply:
-        """The time, and the names of all models."""
+        """Return the time and the names of all models."""
         return done(
             "GetWorldProperties: got properties",
             sim_time=self.world.now,
@@ -250,7 +250,7 @@ class Services:
 
     @answering
     def get_link_properties(self, request: Any) -> Reply:
-        """The mass and the inertia of a link."""
+        """Return the mass and the inertia of a link."""
         with otherwise(f"GetLinkProperties: link not found, {SCOPE.format('link')}"):
             model, name = self._link(request.link_name)
             if name not in model.links:
@@ -267,7 +267,7 @@ class Services:
 
     @answering
     def get_joint_properties(self, request: Any) -> Reply:
-        """The position of a joint, and how fast it changes."""
+        """Return the position and rate of a joint."""
         for model in self.world.models.values():
             for joint in model.sdf.joints:
                 if joint.name == request.joint_name:
@@ -278,7 +278,7 @@ class Services:
 
     @answering
     def set_model_configuration(self, request: Any) -> Reply:
-        """Joints that drive nothing stay where they are here, so only 0 can be asked for."""
+        """Check the positions: only driven wheels move here, so no position other than the current one is accepted."""
         with otherwise("SetModelConfiguration: model does not exist:"):
             model = self.world.model(request.model_name)
             if len(request.joint_names) != len(request.joint_positions):
@@ -294,7 +294,7 @@ class Services:
     # -- physics -------------------------------------------------------------------------------------------------
 
     def get_physics(self, _: Any) -> Any:
-        """How the world is stepped."""
+        """Return the physics settings."""
         response = service_class("gazebo_msgs/GetPhysicsProperties")._response_class()
         self.world.physics.fill(response)
         response.pause, response.success = self.world.paused, True
@@ -303,14 +303,14 @@ class Services:
 
     @answering
     def set_physics(self, request: Any) -> Reply:
-        """Change how the world is stepped."""
+        """Change the physics settings."""
         with otherwise("physics engine not updated:"):
             self._set_physics(PhysicsProperties.of_request(request))
         return done("physics engine updated")
 
     @answering
     def apply_body_wrench(self, request: Any) -> Reply:
-        """Push a thing for a while."""
+        """Apply a force to a model for a while."""
         with otherwise("ApplyBodyWrench: body does not exist:"):
             model, link = self._link(request.body_name)
         with otherwise("ApplyBodyWrench: reference_frame not found:"):
@@ -320,13 +320,13 @@ class Services:
         return done("")
 
     def clear_body_wrenches(self, request: Any) -> Reply:
-        """Stop pushing a thing."""
+        """Stop all forces on a body."""
         self.world.wrenches.clear(request.body_name)
         return {}
 
 
 def pose_of(message: Any) -> Pose6:
-    """The six numbers of a geometry_msgs/Pose; a quaternion of zeros means no turn, as in Gazebo."""
+    """Return the six numbers of a geometry_msgs/Pose; a quaternion of zeros means no rotation, as in Gazebo."""
     at, to = message.position, message.orientation
     if not any((to.x, to.y, to.z, to.w)):
         return (at.x, at.y, at.z, 0.0, 0.0, 0.0)
@@ -334,7 +334,7 @@ def pose_of(message: Any) -> Pose6:
 
 
 def pose_message(pose: Pose6) -> Any:
-    """A geometry_msgs/Pose."""
+    """Return a geometry_msgs/Pose."""
     message = message_class("geometry_msgs/Pose")()
     at, to = message.position, message.orientation
     at.x, at.y, at.z, roll, pitch, yaw = pose
@@ -343,14 +343,14 @@ def pose_message(pose: Pose6) -> Any:
 
 
 def twist_message(velocity: Velocity) -> Any:
-    """A geometry_msgs/Twist."""
+    """Return a geometry_msgs/Twist."""
     message = message_class("geometry_msgs/Twist")()
     message.linear.x, message.linear.y, message.angular.z = velocity
     return message
 
 
 def relative(state: tuple[Pose6, Velocity], frame: tuple[Pose6, Velocity]) -> tuple[Pose6, Velocity]:
-    """A pose and a velocity of the world, seen from a frame that moves."""
+    """Express a pose and a velocity in the world relative to a moving frame."""
     (pose, (vx, vy, w)), (at, (fx, fy, fw)) = state, frame
     turn = matrix(at)[:2, :2].T
     rx, ry = matrix_product(turn, (vx - fx, vy - fy))

@@ -1,4 +1,4 @@
-"""A Gazebo world at one moment, as pictures show it: what a server or a client returns from `snapshot()`."""
+"""A Gazebo world at one moment, for pictures: the result of `snapshot()` of a server or a client."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Robot:
     name: str
     model: RobotModel
     pose: Place
-    """Of the middle of its axle: x [m], y [m], heading [rad]."""
+    """Pose of the middle of its axle: x [m], y [m], heading [rad]."""
 
 
 @dataclass(frozen=True)
@@ -45,16 +45,16 @@ class ShownLink:
 
 @dataclass(frozen=True)
 class ShownModel:
-    """A model and its links, and what it is in a flat world."""
+    """A model with its links, and its shape in a flat world."""
 
     name: str
     static: bool
     pose: Pose6
     links: tuple[ShownLink, ...]
     solids: tuple[Obstacle, ...]
-    """In the frame of the model."""
+    """Its obstacles, in the frame of the model."""
     robot: RobotModel | None
-    """Of a model with a drive: its outline, its wheels and its laser."""
+    """For a model with a drive: its outline, wheels and laser."""
     axle: Place
     """The middle of the robot's axle in the frame of the model."""
 
@@ -76,13 +76,13 @@ class ShownModel:
         return (self.pose[0], self.pose[1], normalize_angle(self.pose[5]))
 
     def placed_solids(self) -> Iterator[Obstacle]:
-        """Its solids in the frame of the world."""
+        """Yield its obstacles in the frame of the world."""
         for each in self.solids:
             yield replace(each, pose=compose(self.place, each.pose), mass=None, motion=None)
 
 
 def _solids(model: Model) -> tuple[Obstacle, ...]:
-    """A model in a flat world, in its own frame."""
+    """Return a model's obstacles in a flat world, in its own frame."""
     if model.body is not None:
         return tuple(
             Obstacle(
@@ -104,7 +104,7 @@ def _solids(model: Model) -> tuple[Obstacle, ...]:
 
 
 def _robot(model: Model) -> tuple[RobotModel | None, Place]:
-    """The picture of a model with a drive from above, and the middle of its axle."""
+    """Return a model with a drive as seen from above, and the middle of its axle."""
     if model.body is None or model.body.drive is None:
         return None, (0.0, 0.0, 0.0)
     robot = model.body.robot_model()
@@ -112,44 +112,44 @@ def _robot(model: Model) -> tuple[RobotModel | None, Place]:
         if sensor.element.find("ray") is not None or sensor.element.find("lidar") is not None:
             try:
                 return replace(robot, lidar=lidar_of(sensor)), model.body.axle
-            except RosminiError:  # a laser that is not simulated, of which the server has warned
+            except RosminiError:  # the server has warned that this laser is not simulated
                 continue
     return robot, model.body.axle
 
 
 class Pictured(ABC):
-    """The base of everything that is shown as a snapshot: a server, a client, and a snapshot itself."""
+    """The base of objects that are shown as a snapshot: a server, a client, and a snapshot itself."""
 
     @abstractmethod
     def snapshot(self) -> Snapshot:
-        """The world as it is now, or as it was when this was made."""
+        """Return the world as it is now, or as it was when this object was created."""
 
     def show(self, **options: Any) -> Any:
-        """A picture of the world from above.
+        """Return a picture of the world from above.
 
-        Options, with what they are unless given:
-            robot=None: the pose of the robot of `scan`, `trail` and `odom`; None: that of `name`
-            model=None: what robot it is; None: as Gazebo has it
-            scan=None: what its laser measured: a `sensor_msgs/LaserScan`, or ranges [m]
-            scan_from=None: where it was then; None: where it is
-            trail=None: where it was, (n, 2) or (n, 3)
-            odom=None: where its odometry believes that it was, likewise
+        Options and their defaults:
+            robot=None: the pose of the robot of `scan`, `trail` and `odom`; None: the pose of `name`
+            model=None: the robot model; None: as Gazebo has it
+            scan=None: its laser scan: a `sensor_msgs/LaserScan`, or ranges [m]
+            scan_from=None: its pose at the scan; None: its current pose
+            trail=None: its path, (n, 2) or (n, 3)
+            odom=None: its path by odometry, (n, 2) or (n, 3)
             others=(): more robots, each an `Other`
-            name='': of the model that is drawn as the first robot; '': the first that drives
+            name='': the model that is drawn as the first robot; '': the first one with a drive
             title=None: a caption under the picture, and the first words of its text form
             size=(660.0, 540.0): the largest width and height [CSS px]
         """
         return show("gazebo", self.snapshot(), **options)
 
     def show3d(self, **options: Any) -> Any:
-        """The world in three dimensions.
+        """Return a picture of the world in three dimensions.
 
-        Options, with what they are unless given:
-            focus='world': what the camera looks at: 'world', or the name of a model
-            collisions=False: show what is solid in place of what one sees
-            distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: from where it looks [deg], 0: from the side of x, 90: of y; None: what shows it well
-            elevation=None: how high from [deg]; None: what shows it well
+        Options and their defaults:
+            focus='world': the target of the camera: 'world', or the name of a model
+            collisions=False: show collision shapes instead of visuals
+            distance=None: of the camera from its target [m]; None: chosen automatically
+            azimuth=None: direction of the camera [deg], 0: from the side of x, 90: of y; None: chosen automatically
+            elevation=None: elevation of the camera [deg]; None: chosen automatically
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
         """
@@ -158,19 +158,19 @@ class Pictured(ABC):
 
 @dataclass(frozen=True)
 class Snapshot(Pictured):
-    """The models of a world, where they are, and the time."""
+    """The models of a world, their poses, and the time."""
 
     name: str
     models: tuple[ShownModel, ...]
     flat: World
-    """Walls that are no models, of a world that was made from a map."""
+    """The walls that are not models, in a world made from a map."""
     time: float
-    """[s]"""
+    """Time of the world [s]."""
     paused: bool
 
     @classmethod
     def of(cls, world: RunningWorld, poses: Poses | None = None) -> Snapshot:
-        """Return the world at the given poses, by default as it is now."""
+        """Return the world at the given poses, or as it is now."""
         if poses is None:
             world.host.catch_up()
             poses = Poses.of(world)
@@ -178,7 +178,7 @@ class Snapshot(Pictured):
         return cls(world.name, models, replace(world.flat, obstacles=()), poses.time, world.paused)
 
     def snapshot(self) -> Snapshot:
-        """The snapshot itself."""
+        """Return the snapshot itself."""
         return self
 
     @property
@@ -188,7 +188,7 @@ class Snapshot(Pictured):
 
     @property
     def robots(self) -> tuple[Robot, ...]:
-        """The models that have a drive."""
+        """The models with a drive."""
         return tuple(
             Robot(model.name, model.robot, compose(model.place, model.axle))
             for model in self.models
@@ -206,7 +206,7 @@ class Snapshot(Pictured):
         return tuple(model for model in self.models if model.static and model.robot is None)
 
     def world(self, *, robots: bool = True) -> World:
-        """Everything solid, as a flat world; with or without the models that have a drive."""
+        """Return everything solid as a flat world, with or without the models that have a drive."""
         names: dict[str, int] = {}
         found = []
         for model in self.models:

@@ -1,4 +1,4 @@
-"""A model of a text: URDF as well as SDF."""
+"""Reading a model from a text: URDF or SDF."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .model import GazeboWorld, Model
 
 
 def model_of_text(text: str, path: str = "model_xml") -> Converted:
-    """The model that a URDF or an SDF describes. Raises `UrdfError`, `SdfError` or `MarkupError`."""
+    """Return the model described by a URDF or an SDF. Raises `UrdfError`, `SdfError` or `MarkupError`."""
     root = parse(text, path)
     if root.tag == "robot":
         return from_urdf(urdf.load(text, path=path))
@@ -26,7 +26,7 @@ def _of_sdf(xml: str) -> Converted:
 
 
 def spawn_text(world: GazeboWorld, text: str, name: str, pose: Pose6 | None, *, namespace: str = "") -> Model:
-    """Insert the model that a text describes. Raises `SpawnError` and what the readers raise."""
+    """Insert the model described by a text. Raises `SpawnError` and the readers' errors."""
     converted = model_of_text(text)
     if converted.warnings:
         world.node.logwarn("\n".join([f"the model {name!r} is not whole:", *converted.warnings]))

@@ -1,4 +1,4 @@
-"""Where all is, as ROS topics: ~model_states and ~link_states out, ~set_model_state and ~set_link_state in."""
+"""States as ROS topics: ~model_states and ~link_states are published, ~set_model_state and ~set_link_state received."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Entry = tuple[str, Pose6, Velocity]
 
 
 class _States(Device):
-    """One of the two topics; told only while somebody hears it, as in gazebo_ros."""
+    """One of the two topics; published only while it has a subscriber, as in gazebo_ros."""
 
     always = False
 
@@ -54,7 +54,7 @@ class _LinkStates(_States):
 
 
 class StateTopics:
-    """The two topics of states of a world, `rate` times a second, and the two that set them."""
+    """The two topics of states, published `rate` times a second, and the two that set states."""
 
     def __init__(self, world: GazeboWorld, services: Services, rate: float) -> None:
         host, node = world.host, world.node
@@ -68,7 +68,7 @@ class StateTopics:
 
 
 def _taking(node: Node, kind: str, handler: Callable[[Any], dict[str, Any]]) -> Callable[[Any], None]:
-    """What takes a message as the service takes a request; what is refused is told, for a topic has no answer."""
+    """Return a callback that handles a message like the service's request and logs a refusal."""
     field = {"ModelState": "model_state", "LinkState": "link_state"}[kind]
 
     def take(message: Any) -> None:

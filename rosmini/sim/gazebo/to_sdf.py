@@ -1,4 +1,4 @@
-"""An SDF text of a model: what `gz sdf -p` prints of a URDF."""
+"""Writing a model as SDF text, for `gz sdf -p`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ VERSION = "1.7"
 
 
 def to_sdf(model: SdfModel) -> str:
-    """The SDF text of a model."""
+    """Return the SDF text of a model."""
     root = Element("sdf", {"version": VERSION}, children=[_model(model)])
     return root.source()
 

@@ -1,9 +1,9 @@
-"""Gazebo's own Master and its topics, beside those of ROS (http://classic.gazebosim.org/tutorials?tut=components).
+"""Gazebo's Master and its topics, separate from those of ROS (http://classic.gazebosim.org/tutorials?tut=components).
 
-In Gazebo, server and client are two programs. They find each other through a Master of Gazebo's own, which gzserver
+In Gazebo, server and client are two programs. They find each other through Gazebo's Master, which gzserver
 starts at GAZEBO_MASTER_URI, and exchange Protocol Buffers over sockets. Here server and client share a process: the
 client reads the running world, and no message is encoded or sent. `GazeboMaster` lists what each program would publish
-and subscribe to, which is all that `gz topic` shows, and notifies clients at the rates of Gazebo's topics.
+and subscribe to, which is everything that `gz topic` shows, and notifies clients at the rates of Gazebo's topics.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ HOST = "GAZEBO_IP"
 """The environment variable with the address at which Gazebo's programs can be reached."""
 
 LOOPBACK, FIRST_PORT = "127.0.0.1", 49152
-"""The programs get ports from the first dynamic one on. They share a process, so nothing listens there."""
+"""The programs get ports from the first dynamic one on. They share a process, so nothing listens on the ports."""
 
 STATISTICS_RATE = 5.0
 """Rate of ~/world_stats [Hz]."""
@@ -56,18 +56,18 @@ _RUNNING: weakref.WeakKeyDictionary[GraphCore, dict[str, GazeboMaster]] = weakre
 
 
 def address() -> str:
-    """The address of Gazebo's Master."""
+    """Return the address of Gazebo's Master."""
     return os.environ.get(VARIABLE) or DEFAULT
 
 
 def find_master(graph: GraphCore) -> GazeboMaster | None:
-    """The Master at the address, if a server of the graph runs there."""
+    """Return the Master at the address, if a server of the graph runs there."""
     return _RUNNING.get(graph, {}).get(address())
 
 
 @dataclass(frozen=True)
 class Poses:
-    """Where everything was at one time of the world [s]."""
+    """The poses of all models at one time of the world [s]."""
 
     time: float
     places: Mapping[str, Pose6]
@@ -75,7 +75,7 @@ class Poses:
 
     @classmethod
     def of(cls, world: RunningWorld) -> Poses:
-        """Return where everything in a world is now."""
+        """Return the current poses of a world."""
         places: dict[str, Pose6] = {}
         for name, model in world.models.items():
             places[name] = model.pose
@@ -84,7 +84,7 @@ class Poses:
 
 
 def wheels(model: Model) -> tuple[str, ...]:
-    """The links of a model that rotate."""
+    """Return the links of a model that rotate."""
     sides = model.body.sides if model.body is not None else {}
     return tuple(joint.child for joint in model.sdf.joints if joint.name in sides)
 
@@ -95,7 +95,7 @@ class WorldStatistics:
 
     sim_time: float
     real_time: float
-    """Since the server started [s]."""
+    """Time since the server started [s]."""
     paused: bool
     iterations: int
     model_count: int
@@ -119,10 +119,10 @@ class TopicInfo:
     topic: str
     type: str
     publishers: tuple[str, ...]
-    """Names of the programs."""
+    """The names of the programs."""
     subscribers: tuple[str, ...]
     publisher_addresses: tuple[str, ...]
-    """Host and port of the same programs: all that Gazebo's own Master knows of them."""
+    """Host and port of the same programs, which is all that Gazebo's Master knows of them."""
     subscriber_addresses: tuple[str, ...]
 
 
@@ -137,7 +137,7 @@ class Periodic(Device):
         self._make = make
 
     def wanted(self) -> bool:
-        """Whether a program listens."""
+        """Return True if a program listens."""
         return bool(self.listeners)
 
     def due(self, _: Stamp, __: int, /) -> None:
@@ -157,7 +157,7 @@ class GazeboMaster:
 
     Args:
         world: the running world of the server.
-        publish_clock: publishes the time on /clock at once, after a step or a reset.
+        publish_clock: publishes the time on /clock immediately, after a step or a reset.
 
     Raises:
         GazeboError: another server of the graph runs at the same address.
@@ -187,7 +187,7 @@ class GazeboMaster:
         host.on_time.append(self._timed)
 
     def close(self) -> None:
-        """End: the address is free again."""
+        """Release the address."""
         _RUNNING.get(self.world.node.graph, {}).pop(self.uri, None)
 
     def join(self, program: str) -> None:
@@ -195,21 +195,21 @@ class GazeboMaster:
         self._programs[program] = f"{os.environ.get(HOST) or LOOPBACK}:{next(self._ports)}"
 
     def leave(self, program: str) -> None:
-        """Remove a program. Harmless when repeated."""
+        """Remove a program; harmless when repeated."""
         self._programs.pop(program, None)
 
     def resolve(self, topic: str) -> str:
-        """The whole name of a topic: `~` stands for /gazebo/ and the name of the world."""
+        """Return the full name of a topic: `~` means /gazebo/ and the name of the world."""
         return self._prefix + topic[2:] if topic.startswith("~/") else topic
 
     def topics(self) -> dict[str, str]:
-        """The topics, sorted, each with its type: `gz topic -l`."""
+        """Return the topics, sorted, each with its type: `gz topic -l`."""
         return {
             self._prefix + name: f"gazebo.msgs.{kind}" * bool(kind) for name, (kind, _, _) in TOPICS.items()
         }
 
     def info(self, topic: str) -> TopicInfo:
-        """The publishers and subscribers of a topic: `gz topic -i`. Raises `GazeboError` for an unknown topic."""
+        """Return the publishers and subscribers of a topic: `gz topic -i`. Raises `GazeboError` if it is unknown."""
         topics = self.topics()
         if topic not in topics:
             hint = nearest(topic, topics) or f"there are: {', '.join(topics)}"
@@ -220,7 +220,7 @@ class GazeboMaster:
         return TopicInfo(topic, topics[topic], ends[0], ends[1], addresses[0], addresses[1])
 
     def _of(self, kinds: str) -> tuple[str, ...]:
-        """The programs of some kinds: the server, the clients, or both."""
+        """Return the programs of some kinds: the server, the clients, or both."""
         return tuple(name for name in self._programs if ("server" if name == SERVER else "client") in kinds)
 
     def _statistics(self) -> WorldStatistics:

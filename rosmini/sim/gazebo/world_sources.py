@@ -1,4 +1,4 @@
-"""Where worlds come from: SDF files, looked for as gzserver does, and rosmini's own worlds."""
+"""Loading worlds: SDF files, searched for as gzserver does, and rosmini's own worlds."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from .errors import GazeboError
 
 RESOURCE_PATH = "GAZEBO_RESOURCE_PATH"
 EMPTY = "worlds/empty.world"
-"""What gzserver loads by default."""
+"""The default world of gzserver."""
 
 
 def own_folder() -> Path:
-    """The folder of the package gazebo_ros of rosmini's own; worlds are in `worlds/` there."""
+    """Return the folder of rosmini's package gazebo_ros, which contains `worlds/`."""
     return assets_dir() / "ros" / "gazebo_ros"
 
 
 def load_world(name: str | os.PathLike[str]) -> World | SdfWorld:
-    """The world of a file, as gzserver finds it, or of one of rosmini's names ("house", or the YAML file of a ROS map).
+    """Load a world from a file that gzserver would find, or by one of rosmini's names ("house", or a map's YAML file).
 
-    A relative path is looked for in the working directory, in the folders of GAZEBO_RESOURCE_PATH, and in rosmini's own
-    package gazebo_ros. Raises `GazeboError` if there is none, and what the readers raise for a broken file.
+    A relative path is searched for in the working directory, in the folders of GAZEBO_RESOURCE_PATH, and in rosmini's
+    package gazebo_ros. Raises `GazeboError` if there is no such world, and the readers' errors for an invalid file.
     """
     text = os.fspath(name)
     if text in worlds.names():

@@ -1,7 +1,7 @@
-"""Forces on things: what the service apply_body_wrench does.
+"""Forces on models, for the service apply_body_wrench.
 
-While a force F [N] and a torque T [N m] act on a thing of mass m and inertia I, each step dt adds F dt / m to its
-velocity and T dt / I to its angular velocity. Friction acts as on any sliding thing.
+While a force F [N] and a torque T [N m] act on a model of mass m and inertia I, each step dt adds F dt / m to its
+velocity and T dt / I to its angular velocity. Friction acts as on any sliding obstacle.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from .model import GazeboWorld, Model
 from .plugins import Update
 
 RATE = 200.0
-"""How often forces act [Hz]: once in each step of the engine."""
+"""Rate at which forces are applied [Hz]: once in each step of the engine."""
 
 
 @dataclass(frozen=True)
 class Wrench:
-    """A force and a torque on a thing, in the frame of the world."""
+    """A force and a torque on a model, in the frame of the world."""
 
     model: str
     body: str
@@ -38,13 +38,13 @@ class Wrenches:
     def __init__(self, world: GazeboWorld) -> None:
         self._world = world
         self._acting: list[tuple[Wrench, Model, tuple[float, float]]] = []
-        """With what each acts on, and its mass and inertia."""
+        """Each wrench with the model that it acts on, and the model's mass and inertia."""
         self._update: Update | None = None
 
     def apply(self, model: Model, link: str, frame: Pose6, request: Any) -> None:
-        """Apply what a gazebo_msgs/ApplyBodyWrench asks for.
+        """Apply the wrench in a gazebo_msgs/ApplyBodyWrench.
 
-        Raises `GazeboError` for what wheels or the ground hold, and for no finite force.
+        Raises `GazeboError` for a model held by its wheels or the ground, and for a force that is not finite.
         """
         if model.fixed is not None or model.static:
             raise GazeboError(f"the model {model.name!r} is static: no force moves it")
@@ -68,7 +68,7 @@ class Wrenches:
         self._schedule()
 
     def _schedule(self) -> None:
-        """Have `_push` called while something acts."""
+        """Schedule `_push` while a wrench acts."""
         host = self._world.host
         if self._acting and self._update is None:
             self._update = host.add(Update(host, "forces on bodies", RATE, self._push))
@@ -77,7 +77,7 @@ class Wrenches:
             self._update = None
 
     def clear(self, body: str) -> None:
-        """Stop everything that acts on a body."""
+        """Stop all wrenches on a body."""
         self._acting = [each for each in self._acting if body not in (each[0].body, each[0].model)]
 
     def _push(self, now: float) -> None:
@@ -96,11 +96,11 @@ class Wrenches:
         return self._world.models.get(model.name) is model
 
     def state(self) -> tuple[Wrench, ...]:
-        """Return all that act."""
+        """Return all wrenches that act."""
         return tuple(wrench for wrench, model, _ in self._acting if self._is_there(model))
 
     def restore(self, state: tuple[Wrench, ...]) -> None:
-        """Make those act that acted then."""
+        """Restore what `state` returned."""
         models = [self._world.model(each.model) for each in state]
         self._acting = [(each, model, model.weight) for each, model in zip(state, models, strict=True)]
         self._schedule()

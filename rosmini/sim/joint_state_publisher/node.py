@@ -20,24 +20,24 @@ GONE = {
 
 
 class JointStatePublisher:
-    """Publishes `joint_states` (sensor_msgs/JointState) for the robot in `robot_description`, which has no motors.
+    """Publishes `joint_states` (sensor_msgs/JointState) for a robot in `robot_description` without motors.
 
-    Joints are at 0, or in the middle of their limits where 0 is beyond them. Parameters, private or else in the node's
+    Joints are at 0, or in the middle of their limits if these exclude 0. Parameters, private or else in the node's
     namespace: `rate` (10 Hz), `zeros` (positions by joint), `dependent_joints` (`parent`, `factor`, `offset` by joint),
-    `use_mimic_tags`, `source_list` (topics whose positions are taken over), `delta` (how far free joints move each
-    time), `publish_default_positions`, `publish_default_velocities`, `publish_default_efforts`.
+    `use_mimic_tags`, `source_list` (topics whose positions are adopted), `delta` (change of free joints in each
+    period), `publish_default_positions`, `publish_default_velocities`, `publish_default_efforts`.
 
     Raises:
         ParameterNotSet: there is no `robot_description`.
         ParameterError: a parameter has the wrong type.
-        UrdfError: the description is broken.
+        UrdfError: the description is invalid.
 
     """
 
     def __init__(self, node: Node) -> None:
         self.node = node
         for name, where in GONE.items():
-            if self._parameter(name, None):  # Noetic's takes no notice of it, and launch files still set it
+            if self._parameter(name, None):  # Noetic's node ignores it, and launch files still set it
                 node.logwarn(f"{node.name} has no parameter {name}: {where}")
         self.robot = read_description(node)
         self.positions = Positions(
@@ -62,13 +62,13 @@ class JointStatePublisher:
         return f"<JointStatePublisher {self.node.name} of {self.robot.name}>"
 
     def set(self, **joints: float) -> None:
-        """Put joints at positions [rad or m], as the sliders of joint_state_publisher_gui do. Raises `UnknownJoint`."""
+        """Set joint positions [rad or m], as the sliders of joint_state_publisher_gui do. Raises `UnknownJoint`."""
         for name, position in joints.items():
             self.robot.joint(name)
             self.positions.take(name, float(position), None, None)
 
     def _parameter(self, name: str, default: Any, expect: type | None = None) -> Any:
-        """A private parameter, else one of the node's namespace, else `default`."""
+        """Return a private parameter, or else one in the node's namespace, or else `default`."""
         for key in (f"~{name}", name):
             if self.node.has_param(key):
                 return self.node.get_param(key, expect=expect)

@@ -1,4 +1,4 @@
-"""Joints that nobody moves, or that move by themselves from limit to limit. No node in it."""
+"""Positions of joints that do not move, or move from limit to limit. Contains no node."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rosmini.sim.urdf import Joint, Robot
 
 @dataclass
 class Free:
-    """A joint that has its own position [rad or m]."""
+    """A joint with an independent position [rad or m]."""
 
     lower: float
     upper: float
@@ -24,7 +24,7 @@ class Free:
     forward: bool = True
 
     def move(self, step: float) -> None:
-        """Go on by `step`; turn round at a limit, or begin again where a continuous joint has gone round."""
+        """Advance by `step`; reverse at a limit, or wrap around if the joint is continuous."""
         if self.position is None:
             return
         self.position += step if self.forward else -step
@@ -45,9 +45,9 @@ class Dependent:
 
 
 class Positions:
-    """Where the joints of a robot are; those that depend on others follow them, also in a chain.
+    """The positions of a robot's joints; dependent joints follow others, also in a chain.
 
-    Raises `ParameterError` if a joint depends on what is no joint, or on itself through others.
+    Raises `ParameterError` if a joint depends on one that does not exist or does not move, or on itself through others.
     """
 
     def __init__(
@@ -75,7 +75,7 @@ class Positions:
         self._follows = {name: self._root(name) for name in self.names if name in self.dependent}
 
     def _root(self, name: str) -> Dependent:
-        """What a joint follows in the end."""
+        """Return the free joint at the end of a joint's chain of dependencies, with factor and offset."""
         chain = [name]
         found = self.dependent[name]
         while found.parent in self.dependent:
@@ -93,7 +93,7 @@ class Positions:
         return found
 
     def take(self, name: str, position: float | None, velocity: float | None, effort: float | None) -> None:
-        """Take what somebody else says of a joint; None: nothing. Joints that are not free are passed over."""
+        """Adopt the state of a joint from another source; None leaves a value. Joints that are not free are ignored."""
         joint = self.free.get(name)
         if joint is None:
             return
@@ -102,12 +102,12 @@ class Positions:
         joint.effort = joint.effort if effort is None else effort
 
     def move(self, step: float) -> None:
-        """Let all free joints go on by `step` [rad or m]."""
+        """Advance all free joints by `step` [rad or m]."""
         for joint in self.free.values():
             joint.move(step)
 
     def table(self) -> list[tuple[str, float | None, float | None, float | None]]:
-        """Name, position, velocity and effort of every joint that moves, in the order of the description."""
+        """Return name, position, velocity and effort of every moving joint, in the order of the description."""
         rows: list[tuple[str, float | None, float | None, float | None]] = []
         for name in self.names:
             if name in self.free:

@@ -1,7 +1,7 @@
 """Robots on the floor, which Logo drives by velocities, with feedback from odometry.
 
-Each command moves a goal, exactly, and the robot drives until odometry reports that it has reached the goal, so errors
-of one movement are corrected in the next. [0 0] and heading 0 are the initial pose. A hundred steps are a metre.
+Each command moves a goal, exactly, and the robot drives until odometry reports that it has reached the goal, so an
+error in one movement is corrected in the next. [0 0] and heading 0 are the initial pose. A hundred steps are a metre.
 
 A movement has three parts: turn on the spot towards the goal (away from it, to go back), drive there while steering,
 turn to the heading. A robot has no pen: its lines are the path that it drove, by its odometry.
@@ -47,7 +47,7 @@ PATIENCE = 5.0
 
 
 def robots_of(node: Node) -> list[str]:
-    """The namespaces that have a published topic `odom` and a subscribed topic `cmd_vel`; "" is the global one."""
+    """Return the namespaces with a published topic `odom` and a subscribed topic `cmd_vel`; "" is the global one."""
     published, subscribed, _ = node.master.ask("getSystemState")
     with_odometry = {name.removesuffix("/odom") for name, _ in published if name.endswith("/odom")}
     with_velocity = {name.removesuffix("/cmd_vel") for name, _ in subscribed if name.endswith("/cmd_vel")}
@@ -77,12 +77,12 @@ class FloorTurtle(Turtle):
 
     @property
     def pose(self) -> Pose:
-        """The pose by odometry."""
+        """The pose according to odometry."""
         ahead, left, yaw = self._relative()
         return Pose(-METRE * left, METRE * ahead, math.degrees(-yaw) % 360.0)
 
     def right(self, degrees: float) -> None:
-        """Turn clockwise, by whole turns too."""
+        """Turn clockwise, including whole turns."""
         halves = math.trunc(degrees / 180.0)  # the rest, less than half a turn, is the turn to the goal
         for _ in range(abs(halves)):
             yaw = self._relative()[2] - math.copysign(math.pi * 0.98, degrees)
@@ -169,7 +169,7 @@ class FloorTurtle(Turtle):
         self._odom = position.x, position.y, yaw_from_quaternion(q.x, q.y, q.z, q.w)
 
     def _relative(self) -> tuple[float, float, float]:
-        """The pose [m, m, rad], ahead and to the left of the initial one."""
+        """Return the pose [m, m, rad], ahead and to the left of the initial one."""
         x, y, yaw = self._odom
         x0, y0, yaw0 = self._origin
         c, s = math.cos(yaw0), math.sin(yaw0)
@@ -191,10 +191,10 @@ class FloorFlock(Flock):
         self.active = list(self.turtles.values())
 
     def make(self, name: str) -> FloorTurtle:
-        """Raises ``LogoError``: Logo cannot make robots."""
+        """Raise ``LogoError``, because Logo cannot create robots."""
         raise LogoError(f"Logo cannot make the robot {name}: start a robot in the graph")
 
 
 def _between(value: float, least: float, most: float) -> float:
-    """A speed with the sign of ``value`` and a magnitude between these."""
+    """Return a speed with the sign of ``value`` and a magnitude between these limits."""
     return math.copysign(min(max(abs(value), least), most), value)

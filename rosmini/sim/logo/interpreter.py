@@ -1,7 +1,7 @@
-"""The interpreter of Logo: it walks the expressions of a program, which generators evaluate.
+"""The interpreter of Logo: it walks the expressions of a program, using generators.
 
-A generator yields whatever it needs evaluated first, so the calls of a program are in a list and not on Python's stack:
-recursion may be deep, and it has a limit that does not depend on Python's.
+A generator yields whatever it needs evaluated first, so a program's calls are in a list and not on Python's stack:
+recursion may be deep, and its limit does not depend on Python's.
 
 Names are bound dynamically, as in all Logos: a procedure sees the inputs of its callers.
 """
@@ -53,7 +53,7 @@ class Logo:
         flock: the turtles; by default one that draws on paper.
         say: called with each line that is printed.
         seed: the seed of `random`.
-        limits: when a program is stopped.
+        limits: the limits at which a program is stopped.
 
     >>> logo = Logo()
     >>> logo.run("repeat 4 [forward 50 right 90]  print pos")
@@ -104,7 +104,7 @@ class Logo:
         return Drawing.of(self.flock)
 
     def refresh(self) -> None:
-        """Update the turtles; one on paper gives way to turtles or robots that have since been started."""
+        """Update the turtles; one on paper is replaced by turtles or robots that have been started since."""
         if self.node is not None and isinstance(self.flock, Paper):
             found = _flock_on(self.node, [])
             if not isinstance(found, Paper):
@@ -112,7 +112,7 @@ class Logo:
         self.flock.refresh()
 
     def run(self, program: str, first_line: int = 1) -> None:
-        """Run a program, whose first line has this number in messages.
+        """Run a program; `first_line` is the number of its first line in messages.
 
         Raises ``LogoError``, and ``LogoStopped`` at a limit. Nothing runs if an instruction outside procedures is
         invalid.
@@ -159,7 +159,7 @@ class Logo:
                 stack.pop().close()
 
     def _parsed(self, line: LogoList) -> list[Expression]:
-        """The expressions of a list, which are kept until procedures change."""
+        """Return the expressions of a list, which are cached until procedures change."""
         if line.parsed is None or line.parsed[0] is not self.procedures:
             self.state.step(line.weight // 4)
             line.parsed = (self.procedures, parse(line, PRIMITIVES, self.procedures))
@@ -226,7 +226,7 @@ class Logo:
     # -- procedures --------------------------------------------------------------------------------------------------
 
     def _run(self, procedure: Procedure, values: list[Value]) -> Steps:
-        """Run a procedure; one that it calls in its last instruction takes its place, so that may go on for ever."""
+        """Run a procedure; a call in its last instruction replaces it, so such recursion may go on forever."""
         self._saved.append({})
         is_replaced = False
         try:
@@ -291,7 +291,7 @@ class Logo:
         return None
 
     def turn(self) -> int:
-        """The current turn of the innermost `repeat`, or -1."""
+        """Return the current turn of the innermost `repeat`, or -1."""
         return self._turns[-1] if self._turns else -1
 
     def while_(self, condition: Value, block: Value) -> Steps:
@@ -326,7 +326,7 @@ class Logo:
 
 
 class _Output(Exception):
-    """A procedure ends, with a value or None."""
+    """Ends a procedure, with a value or None."""
 
     def __init__(self, value: Value | None) -> None:
         super().__init__()

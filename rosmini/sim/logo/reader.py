@@ -1,4 +1,4 @@
-"""From the text of a program to lines of words and lists, and from these to expressions, as Logo does it in two steps.
+"""Reading a program: text becomes lines of words and lists, and these become expressions, in two steps as in Logo.
 
 A list is data until it is run, so the text between brackets is split at spaces only: ``[:a+1]`` has one member. When a
 line or a list is run, its words are split further, at operators and parentheses, and parsed. The rules are those
@@ -90,7 +90,7 @@ class _Open(NamedTuple):
 
 
 def _lines(text: str, number: int) -> Iterator[LogoList]:
-    """The lines of a text that are not empty. A list may extend over several lines."""
+    """Yield the lines of a text that are not empty. A list may extend over several lines."""
     levels = [_Open(number, [], [])]
     for found in _SPLIT.finditer(text):
         if found["skip"] is not None:
@@ -202,7 +202,7 @@ _SIGN = 4
 def parse(
     line: LogoList, primitives: Mapping[str, Primitive], procedures: Mapping[str, Procedure]
 ) -> list[Expression]:
-    """The instructions of a line or of a list that is run. Raises ``LogoError``."""
+    """Return the instructions of a line or of a list that is run. Raises ``LogoError``."""
     parser = _Parser(line, primitives, procedures)
     found = []
     while parser.next is not None:
@@ -260,7 +260,7 @@ class _Parser:
         return self.tokens[self.index] if self.index < len(self.tokens) else None
 
     def expression(self, strength: int, consumer: str) -> Expression:
-        """Parse operands and operators that bind at least this strongly, for a word that needs the value."""
+        """Parse operands and operators that bind at least this strongly, for the word that takes the value."""
         self.depth += 1
         if self.depth > DEEPEST:
             line = self.tokens[self.index - 1].line

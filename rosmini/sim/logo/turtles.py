@@ -1,6 +1,6 @@
 """Turtles with pens, on paper: the middle is [0 0], heading 0 is up, and right is clockwise.
 
-Lengths are in turtle steps, headings in degrees. A `Flock` makes turtles and knows which of them listen. This one draws
+Lengths are in turtle steps, headings in degrees. A `Flock` makes turtles and knows which are active. This one draws
 on paper in memory; `rosmini.sim.logo.turtlesim` and `rosmini.sim.logo.floor` drive turtles and robots of a graph.
 """
 
@@ -58,13 +58,13 @@ class Stroke(NamedTuple):
 
 
 class Turtle:
-    """A turtle on paper; subclasses drive others. Raises ``LogoError`` for a pose that it cannot reach."""
+    """A turtle on paper; subclasses drive other turtles. Raises ``LogoError`` for a pose that it cannot reach."""
 
     def __init__(self, name: str, strokes: list[Stroke]) -> None:
         self.name = name
         self.strokes = strokes
         self.goal = HOME
-        """The pose that its commands add up to."""
+        """The sum of its commands."""
         self.pen = Pen()
 
     @property
@@ -76,7 +76,7 @@ class Turtle:
         """Move the turtle of the graph, if there is one, to a pose. Raises ``LogoError``."""
 
     def send_pen(self) -> None:
-        """Give the turtle of the graph, if there is one, the pen. Raises ``LogoError``."""
+        """Send the pen to the turtle of the graph, if there is one. Raises ``LogoError``."""
 
     def set_pen(self, pen: Pen) -> None:
         """Change the pen."""
@@ -85,7 +85,7 @@ class Turtle:
             self.send_pen()
 
     def move(self, pose: Pose) -> None:
-        """Go to a pose, drawing a line if the pen is down."""
+        """Move to a pose, drawing a line if the pen is down."""
         if max(abs(pose.x), abs(pose.y)) > FARTHEST:
             raise LogoError(f"turtle out of bounds: {self.name} would be {FARTHEST:g} steps away")
         before = self.goal
@@ -95,7 +95,7 @@ class Turtle:
             self.strokes.append(Stroke(self.name, before, pose, self.pen))
 
     def forward(self, distance: float) -> None:
-        """Go straight ahead, or back if the distance is negative."""
+        """Move straight ahead, or back if the distance is negative."""
         x, y, heading = self.goal
         self.move(Pose(x + distance * sine(heading), y + distance * cosine(heading), heading))
 
@@ -108,13 +108,13 @@ class Turtle:
         self.move(Pose(self.goal.x, self.goal.y, heading % 360.0))
 
     def home(self) -> None:
-        """Return to the pose at which the turtle began."""
+        """Return to the initial pose."""
         self.move(Pose(HOME.x, HOME.y, self.goal.heading))
         self.face(HOME.heading)
 
 
 class Flock:
-    """All turtles, and the active ones: commands go to each of these, questions to the first."""
+    """All turtles, and the active ones: commands go to each of the active ones, questions to the first."""
 
     metre = 45.0
     """Steps in a metre of turtlesim's window."""
@@ -136,7 +136,7 @@ class Flock:
         """Update poses and turtles that have changed since the last program."""
 
     def find(self, name: str) -> Turtle:
-        """The turtle with this name. Raises ``LogoError``."""
+        """Return the turtle with this name. Raises ``LogoError``."""
         found = self.turtles.get(name)
         if found is None:
             guess = suggestion(name, self.turtles) or f'; newturtle "{name} makes one'
@@ -144,7 +144,7 @@ class Flock:
         return found
 
     def add(self, name: str) -> Turtle:
-        """Make a turtle. Raises ``LogoError`` if the name is taken."""
+        """Add a new turtle. Raises ``LogoError`` if the name is taken."""
         if name in self.turtles:
             raise LogoError(f"there is a turtle {name} already")
         self.turtles[name] = self.make(name)
@@ -205,12 +205,12 @@ def _length(stroke: Stroke) -> float:
 
 
 def sine(degrees: float) -> float:
-    """The sine, exact at multiples of 90 degrees."""
+    """Return the sine, exact at multiples of 90 degrees."""
     return cosine(degrees - 90.0)
 
 
 def cosine(degrees: float) -> float:
-    """The cosine, exact at multiples of 90 degrees."""
+    """Return the cosine, exact at multiples of 90 degrees."""
     folded = degrees % 360.0
     return _QUARTERS.get(folded, math.cos(math.radians(folded)))
 

@@ -1,4 +1,4 @@
-"""Turtles of turtlesim, which Logo drives by the services that every turtlesim has.
+"""Turtles of turtlesim, driven through the services of every turtlesim.
 
 Services are exact and velocities are not: turtlesim applies a Twist for a whole number of updates of 16 ms, so lines
 and turns would be slightly too long, and a Koch curve would not close. `teleport_absolute` draws a straight line to
@@ -29,7 +29,7 @@ SIDE = 2 * MIDDLE
 """Width and height of the window [m]: 11.0889."""
 
 NEAR = 1e-4
-"""Tolerance when comparing poses, which messages contain with 32 bits [m, rad]."""
+"""Tolerance when comparing poses, which have 32 bits in messages [m, rad]."""
 
 PATIENCE = 5.0
 """Timeout for a turtle's pose [s]."""
@@ -38,13 +38,13 @@ TELEPORT = "/teleport_absolute"
 
 
 def turtles_of(node: Node) -> list[str]:
-    """The names of all turtles in the graph of a node, without the leading slash."""
+    """Return the names of all turtles in the graph of a node, without the leading slash."""
     _, _, services = node.master.ask("getSystemState")
     return sorted(name[1 : -len(TELEPORT)] for name, _ in services if name.endswith(TELEPORT))
 
 
 class WindowTurtle(Turtle):
-    """A turtle of turtlesim. Raises ``LogoError`` if it would leave the window, or if turtlesim has ended."""
+    """A turtle of turtlesim. Raises ``LogoError`` if it would leave the window, or if turtlesim has exited."""
 
     def __init__(self, node: Node, name: str, strokes: list[Stroke]) -> None:
         super().__init__(name, strokes)
@@ -90,7 +90,7 @@ class WindowTurtle(Turtle):
         self._call(self._teleport, x=x, y=y, theta=theta)
 
     def send_pen(self) -> None:
-        """Give turtlesim's turtle the pen."""
+        """Send the pen to turtlesim's turtle."""
         red, green, blue = self.pen.colour
         self._call(self._set_pen, r=red, g=green, b=blue, width=self.pen.size, off=int(not self.pen.down))
 
@@ -102,7 +102,7 @@ class WindowTurtle(Turtle):
 
     @staticmethod
     def _window(pose: Pose) -> tuple[float, float, float]:
-        """A pose in the window [m, m, rad]: x to the right, y up, angles counter-clockwise from x."""
+        """Return a pose in the window [m, m, rad]: x to the right, y up, angles counter-clockwise from x."""
         theta = math.radians((90.0 - pose.heading + 180.0) % 360.0 - 180.0)
         return MIDDLE + pose.x / METRE, MIDDLE + pose.y / METRE, theta
 
@@ -122,7 +122,7 @@ class WindowFlock(Flock):
             self.turtles[name] = known.get(name) or WindowTurtle(self.node, name, self.strokes)
 
     def refresh(self) -> None:
-        """Update the turtles that others have moved, spawned or killed."""
+        """Update the turtles that other nodes have moved, spawned or killed."""
         names = turtles_of(self.node)
         for name, turtle in self.turtles.items():
             if name in names and isinstance(turtle, WindowTurtle):
@@ -133,7 +133,7 @@ class WindowFlock(Flock):
         ]
 
     def _first(self) -> list[str]:
-        """The turtle that turtlesim begins with, or another one if it was killed."""
+        """Return the initial turtle of turtlesim, or another one if it was killed."""
         return ["turtle1"] if "turtle1" in self.turtles else list(self.turtles)[:1]
 
     def make(self, name: str) -> WindowTurtle:

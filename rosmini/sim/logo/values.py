@@ -52,7 +52,7 @@ class BadInput(LogoError):
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
-    """``"; did you mean ...?"``, or an empty text."""
+    """Return ``"; did you mean ...?"``, or an empty text."""
     guess = nearest(name, list(islice(known, 1000)))
     return f"; {guess}" if guess else ""
 
@@ -92,12 +92,12 @@ Value: TypeAlias = str | int | float | LogoList
 
 
 def weight(value: Value) -> int:
-    """The number of members and characters in a value."""
+    """Return the number of members and characters in a value."""
     return value.weight if isinstance(value, LogoList) else len(value) + 1 if isinstance(value, str) else 1
 
 
 def number_in(value: Value) -> int | float | None:
-    """The number that a word represents, or None."""
+    """Return the number that a word represents, or None."""
     if isinstance(value, int | float):
         return value
     if isinstance(value, LogoList) or len(value) > 400 or not NUMBER.fullmatch(value):
@@ -110,7 +110,7 @@ def number_in(value: Value) -> int | float | None:
 
 
 def number(value: Value, wanted: str = "a number") -> int | float:
-    """The number that a word represents. Raises ``BadInput``."""
+    """Return the number that a word represents. Raises ``BadInput``."""
     found = number_in(value)
     if found is None:
         raise BadInput(value, wanted)
@@ -118,7 +118,7 @@ def number(value: Value, wanted: str = "a number") -> int | float:
 
 
 def whole(value: Value, least: int, most: int = EXACT, wanted: str = "a whole number") -> int:
-    """The integer that a word represents. Raises ``BadInput`` if it is out of range."""
+    """Return the integer that a word represents. Raises ``BadInput`` if it is out of range."""
     found = number(value, wanted)
     if found != int(found) or not least <= found <= most:
         raise BadInput(value, wanted)
@@ -126,7 +126,7 @@ def whole(value: Value, least: int, most: int = EXACT, wanted: str = "a whole nu
 
 
 def tidy(value: float) -> int | float:
-    """A result of arithmetic. Raises ``LogoError`` if it is not finite."""
+    """Check a result of arithmetic. Raises ``LogoError`` if it is not finite."""
     if isinstance(value, int):
         if abs(value) <= EXACT:
             return value
@@ -137,21 +137,21 @@ def tidy(value: float) -> int | float:
 
 
 def word(value: Value, wanted: str = "a word") -> str:
-    """The text of a word. Raises ``BadInput`` for a list."""
+    """Return the text of a word. Raises ``BadInput`` for a list."""
     if isinstance(value, LogoList):
         raise BadInput(value, wanted)
     return write(value)
 
 
 def as_list(value: Value, wanted: str = "a list") -> LogoList:
-    """The value as a list. Raises ``BadInput`` for a word."""
+    """Return the value as a list. Raises ``BadInput`` for a word."""
     if not isinstance(value, LogoList):
         raise BadInput(value, wanted)
     return value
 
 
 def truth(value: Value) -> bool:
-    """The truth value that a word represents. Raises ``BadInput``."""
+    """Return the truth value that a word represents. Raises ``BadInput``."""
     folded = value.lower() if isinstance(value, str) else value
     if folded not in ("true", "false"):
         raise BadInput(value, "true or false")
@@ -159,7 +159,7 @@ def truth(value: Value) -> bool:
 
 
 def is_equal(first: Value, second: Value) -> bool:
-    """True if two values are equal: numbers by value, other words ignoring case, lists member by member."""
+    """Return True if two values are equal: numbers by value, other words ignoring case, lists member by member."""
     if isinstance(first, LogoList) or isinstance(second, LogoList):
         if not (isinstance(first, LogoList) and isinstance(second, LogoList)) or len(first) != len(second):
             return False
@@ -171,7 +171,7 @@ def is_equal(first: Value, second: Value) -> bool:
 
 
 def write(value: Value) -> str:
-    """A value as `print` writes it: a list without its outer brackets, a number with at most 15 digits."""
+    """Return a value as `print` writes it: a list without its outer brackets, a number with at most 15 digits."""
     if isinstance(value, str):
         return value
     if isinstance(value, LogoList):
@@ -182,7 +182,7 @@ def write(value: Value) -> str:
 
 
 def show(value: Value) -> str:
-    """A value as `show` writes it: a list with its brackets.
+    """Return a value as `show` writes it: a list with its brackets.
 
     >>> show(LogoList(["a", LogoList([1, 0.5])]))
     '[a [1 0.5]]'
@@ -191,6 +191,6 @@ def show(value: Value) -> str:
 
 
 def described(value: Value) -> str:
-    """A value for an error message, shortened."""
+    """Return a value for an error message, shortened."""
     text = show(value) or "the empty word"
     return text if len(text) <= 60 else text[:57] + "..."

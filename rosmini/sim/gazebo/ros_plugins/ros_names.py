@@ -10,10 +10,10 @@ from rosmini.sim.gazebo.model import Model
 
 
 class RosNames:
-    """How a plugin of a model names topics and frames.
+    """Names of the topics and frames of a model's plugin.
 
-    Topics are in the namespace that the model was spawned with, else in the plugin's `<robotNamespace>`. Frames begin
-    with the parameter `tf_prefix`, searched from that namespace upwards, else with the namespace itself
+    Topics are in the namespace that the model was spawned with, or else in the plugin's `<robotNamespace>`. Frames
+    begin with the parameter `tf_prefix`, searched from that namespace upwards, or else with the namespace itself
     (http://wiki.ros.org/geometry/CoordinateFrameConventions).
     """
 
@@ -22,16 +22,16 @@ class RosNames:
         self.prefix = tf_prefix(model.world.node, self.namespace)
 
     def topic(self, name: str) -> str:
-        """The whole name of a topic or a service; one that begins with a slash stays as it is. Raises `IllegalName`."""
+        """Return the full name of a topic or service; a leading slash means it is one. Raises `IllegalName`."""
         return check_name(within(f"/{self.namespace}", name.strip()), "topic")
 
     def frame(self, name: str) -> str:
-        """The whole name of a frame; one that begins with a slash has no prefix."""
+        """Return the full name of a frame; one that begins with a slash gets no prefix."""
         return prefixed(self.prefix, name.strip())
 
 
 def tf_prefix(node: Node, namespace: str) -> str:
-    """The prefix of frames for what is in a namespace."""
+    """Return the prefix of frames in a namespace."""
     found = node.graph.ask_as(f"/{namespace}").find("searchParam", "tf_prefix")
     value = None if found is None else node.get_param(found, None)
     if isinstance(value, str) and value.strip("/"):
