@@ -1,7 +1,7 @@
-"""Things of a world as `visualization_msgs/Marker`s, and back: what RViz can draw of them, a recorder can read.
+"""Conversion of a world's obstacles to `visualization_msgs/Marker`s, which RViz can draw, and back.
 
 Each simple part is a marker: a cube, a cylinder, a sphere, or, for a polygon, the closed line around its top, in its
-own frame. The namespace is the thing's name, the ids count its parts.
+own frame. The namespace is the obstacle's name, the ids count its parts.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ CUBE, SPHERE, CYLINDER, LINE_STRIP = 1, 2, 3, 4
 ADD, DELETE = 0, 2
 
 LINE_WIDTH = 0.02
-"""[m]"""
+"""Line width [m]."""
 
 
 class MarkersError(RosminiError, ValueError):
-    """A marker is none that a thing of a world has."""
+    """A marker cannot be converted to an obstacle."""
 
 
 class Markers:
-    """Makes messages of things, and remembers which it told of, so that those that are gone are deleted."""
+    """Makes messages of obstacles, and remembers the published ones in order to delete those that are gone."""
 
     def __init__(self, frame: str = "map") -> None:
         self.frame = frame
@@ -40,7 +40,7 @@ class Markers:
         self._told: dict[str, int] = {}
 
     def message(self, obstacles: Iterable[Obstacle], stamp: tuple[int, int]) -> Any:
-        """A `visualization_msgs/MarkerArray` of them at a time."""
+        """Return a `visualization_msgs/MarkerArray` of the obstacles, with this stamp."""
         array, told = self._array(), {}
         for obstacle in obstacles:
             parts = list(simple_parts(obstacle.shape, obstacle.pose))
@@ -91,12 +91,12 @@ class Markers:
 
 
 def obstacles_of(message: Any) -> dict[str, Obstacle]:
-    """The things that a `visualization_msgs/MarkerArray` tells of, by name.
+    """Return the obstacles in a `visualization_msgs/MarkerArray`, by name.
 
-    One of several parts stands at the pose of its first.
+    An obstacle of several parts gets the pose of its first part.
 
     Raises:
-        MarkersError: a marker is none of the kinds above, or has an impossible size.
+        MarkersError: a marker is of none of the above kinds, or has an impossible size.
 
     """
     parts: dict[str, list[tuple[Simple, Pose, float, float, str]]] = {}
@@ -117,7 +117,7 @@ def obstacles_of(message: Any) -> dict[str, Obstacle]:
 
 
 def first_poses(message: Any) -> dict[str, Pose]:
-    """Where the first part of each thing is, by the thing's name."""
+    """Return the pose of each obstacle's first part, by name."""
     found: dict[str, Pose] = {}
     for marker in message.markers:
         if marker.action == ADD and marker.ns not in found:

@@ -1,4 +1,4 @@
-"""What the messages of several devices have in common: frames, covariances, poses and transforms."""
+"""Common parts of the messages of several devices: frames, covariances, poses and transforms."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from rosmini.msgs.template import template
 Floats = NDArray[np.float64]
 
 ODOM, BASE, MAP, BASE_LINK = "odom", "base_footprint", "map", "base_link"
-"""The frames of REP 105, and the one that TurtleBot3's firmware writes into its joint states."""
+"""The frames of REP 105, and the one in the joint states of TurtleBot3's firmware."""
 
 UNMEASURED = 1e12
 POSE_COVARIANCE = (1e-5, 1e-5, UNMEASURED, UNMEASURED, UNMEASURED, 1e-3)
-"""Of x, y, z and the rotations about them, as Gazebo's differential drive states them.
+"""Variances of x, y, z and the rotations about them, as stated by Gazebo's differential drive.
 
 The firmware leaves them at 0.
 """
 
 
 def diagonal(values: Sequence[float]) -> Floats:
-    """Return a matrix with these values on its diagonal, row by row, as messages hold covariances."""
+    """Return a matrix with these values on its diagonal, row by row, as messages contain covariances."""
     return np.diag(values).ravel()
 
 
@@ -40,11 +40,11 @@ ODOMETRY_FIELDS = (
     "twist.twist.linear.y",
     "twist.twist.angular.z",
 )
-"""The fields of `nav_msgs/Odometry` that `odometry_values` returns the values of."""
+"""The fields of `nav_msgs/Odometry` whose values `odometry_values` returns."""
 
 
 def describe_odometry(message: Any, frame: str, child: str, covariance: Sequence[float]) -> None:
-    """Fill in what stays in the messages of one odometry."""
+    """Fill in the fields that are the same in all messages of an odometry."""
     message.header.frame_id, message.child_frame_id = frame, child
     message.pose.covariance = message.twist.covariance = diagonal(covariance)
 
@@ -60,7 +60,7 @@ MakeTransform = Callable[[int, int, Pose], Any]
 
 
 def moving_transform(frame: str, child: str) -> MakeTransform:
-    """Return what makes the transforms from a frame to one that moves on the ground."""
+    """Return a function that makes the transforms from a frame to one that moves on the ground."""
     translation, rotation = "transform.translation", "transform.rotation"
     message = message_class("geometry_msgs/TransformStamped")(child_frame_id=child)
     message.header.frame_id = frame
@@ -87,7 +87,7 @@ def fixed_transform(
     place: Sequence[float],
     rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
 ) -> Callable[[int, int], Any]:
-    """Return what makes the transforms, of any time, to a frame at a place [m], turned by a quaternion."""
+    """Return a function that makes the transforms, of any time, to a frame at a position [m] and a quaternion."""
     message: Any = message_class("geometry_msgs/TransformStamped")(child_frame_id=child)
     message.header.frame_id = frame
     to, turn = message.transform.translation, message.transform.rotation

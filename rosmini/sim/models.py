@@ -1,11 +1,11 @@
-"""Robots by their numbers. Lengths in metres, masses in kilograms, angles in radians, frames after REP 103 and REP 105.
+"""Robot models. Lengths in metres, masses in kilograms, angles in radians, frames according to REP 103 and REP 105.
 
-The numbers of a robot are the published ones, and each says where it was published:
+The numbers are published ones, each with its source:
 
 - *e-manual*: https://emanual.robotis.com/docs/en/platform/turtlebot3/features/ (the table of hardware specifications);
 - *description*: the package `turtlebot3_description` of https://github.com/ROBOTIS-GIT/turtlebot3, its URDF;
-- *gazebo*: the same package's files `turtlebot3_*.gazebo.xacro`, which is what Gazebo simulates;
-- *firmware*: `turtlebot3_core` of https://github.com/ROBOTIS-GIT/OpenCR, what the robot's own controller runs;
+- *gazebo*: the same package's files `turtlebot3_*.gazebo.xacro`, which Gazebo simulates;
+- *firmware*: `turtlebot3_core` of https://github.com/ROBOTIS-GIT/OpenCR, which runs on the robot's controller;
 - *MPU-9250*: the gyroscope on its board, by the maker's product specification (PS-MPU-9250A-01, table 1); later boards
   have an ICM-20648;
 - *navigation*: the package `turtlebot3_navigation`, the costmaps' parameters;
@@ -49,50 +49,50 @@ GRAVITY = 9.80665
 """Standard gravity [m/s2]."""
 
 VARIABLE = "TURTLEBOT3_MODEL"
-"""The environment variable by which ROBOTIS's launch files choose a model."""
+"""The environment variable that selects a model in ROBOTIS's launch files."""
 
 
 class UnknownModel(RosminiError, ValueError):
-    """There is no robot model of this name."""
+    """No robot model has this name."""
 
 
 class ModelError(RosminiError, ValueError):
-    """A robot cannot be as its model says; the message names the model and the number at fault."""
+    """A robot model is invalid; the message contains the model's name and the invalid number."""
 
 
 Drive = Literal["differential", "holonomic"]
-"""Two driven wheels; or wheels that take it anywhere, as Gazebo's planar move and Stage's "omni" do."""
+"""Two driven wheels, or wheels for motion in any direction, as in Gazebo's planar move and Stage's "omni"."""
 
 MOST_BEAMS = 100_000
-"""Of a laser: a file that asks for more is wrong, and would take all the memory there is."""
+"""Maximum number of beams of a laser; a file with more is wrong, and would exhaust the memory."""
 
 MOST_PIXELS = 1 << 24
-"""Of a camera's image: 4096 by 4096."""
+"""Maximum number of pixels of a camera's image: 4096 by 4096."""
 
 
 @dataclass(frozen=True)
 class LidarModel:
-    """A laser: a spinning one, for which one revolution is one scan, or one that looks over a part of the circle."""
+    """A laser: either a spinning one, with one scan per revolution, or one with a limited field of view."""
 
     name: str
     mount: Point
-    """Where it sits, seen from base_footprint."""
+    """Its position relative to base_footprint."""
     beams: int
     rate: float
-    """Scans a second."""
+    """Scans per second."""
     range_min: float
     range_max: float
     noise: float
     """Standard deviation of a range [m]."""
     frame: str = "base_scan"
     angle_min: float = 0.0
-    """Of the first beam, counter-clockwise from where the laser looks [rad]."""
+    """Angle of the first beam, counter-clockwise from the laser's forward direction [rad]."""
     angle_max: float | None = None
-    """Of the last beam [rad]; None: the beams go once round, and the last is one beam before the first."""
+    """Angle of the last beam [rad]; None: full circle, with the last beam one increment before the first."""
     yaw: float = 0.0
-    """Where the laser looks, seen from base_footprint [rad]."""
+    """Direction of the laser relative to base_footprint [rad]."""
     upside_down: bool = False
-    """It hangs upside down, so its messages give all angles with the opposite sign: its own z axis points down."""
+    """True if it hangs upside down: its z axis points down, so all angles in its messages have the opposite sign."""
 
     def __post_init__(self) -> None:
         numbers = (*self.mount, self.angle_min, self.yaw, 0.0 if self.angle_max is None else self.angle_max)
@@ -108,7 +108,7 @@ class LidarModel:
 
     @property
     def increment(self) -> float:
-        """The angle from one beam to the next [rad]."""
+        """The angle between neighbouring beams [rad]."""
         if self.angle_max is None:
             return 2 * math.pi / self.beams
         return (self.angle_max - self.angle_min) / (self.beams - 1) if self.beams > 1 else 0.0
@@ -121,12 +121,12 @@ class LidarModel:
 
     @property
     def beam_time(self) -> float:
-        """From one beam to the next, of a laser that spins once for a scan [s]."""
+        """Time between neighbouring beams of a laser that makes one revolution per scan [s]."""
         return abs(self.increment) / (2 * math.pi) / self.rate
 
     @property
     def last_angle(self) -> float:
-        """Of the last beam [rad]."""
+        """Angle of the last beam [rad]."""
         return (
             self.angle_min + (self.beams - 1) * self.increment if self.angle_max is None else self.angle_max
         )
@@ -134,31 +134,31 @@ class LidarModel:
 
 @dataclass(frozen=True)
 class CameraModel:
-    """A camera without distortion: an image, and, if `depth`, how far what each pixel shows is."""
+    """A camera without distortion: an image, and, if `depth`, the depth of each pixel."""
 
     name: str
     mount: Point
-    """Where it sits, seen from base_footprint."""
+    """Its position relative to base_footprint."""
     width: int
-    """Of the image [pixels]."""
+    """Width of the image [pixels]."""
     height: int
     horizontal_fov: float
-    """The angle from the left to the right border of the image [rad]."""
+    """The angle between the left and the right border of the image [rad]."""
     near: float = 0.03
-    """What is nearer to the plane of the camera [m] is not seen."""
+    """Minimum visible distance from the plane of the camera [m]."""
     far: float = 100.0
     rate: float = 30.0
-    """Images a second."""
+    """Images per second."""
     frame: str = "camera_rgb_optical_frame"
     noise: float = 0.0
-    """Standard deviation of a pixel's brightness, of 1 from black to white, as Gazebo has it."""
+    """Standard deviation of a pixel's brightness, on a scale from 0 (black) to 1 (white), as in Gazebo."""
     depth: bool = False
     pitch: float = 0.0
-    """How far it looks down [rad]."""
+    """Its downward inclination [rad]."""
     yaw: float = 0.0
-    """Where it looks, seen from base_footprint [rad]."""
+    """Its direction relative to base_footprint [rad]."""
     depth_far: float | None = None
-    """The farthest it measures depth [m]; None: `far`."""
+    """Maximum measured depth [m]; None: `far`."""
 
     def __post_init__(self) -> None:
         if (
@@ -177,7 +177,7 @@ class CameraModel:
 
     @property
     def focal_length(self) -> float:
-        """In pixels: what stands in a `sensor_msgs/CameraInfo` as fx and fy."""
+        """Focal length in pixels: fx and fy of a `sensor_msgs/CameraInfo`."""
         return self.width / (2 * math.tan(self.horizontal_fov / 2))
 
 
@@ -193,71 +193,71 @@ class ImuModel:
     """Standard deviation of a linear acceleration [m/s2]."""
     frame: str = "imu_link"
     gyro_bias: float = 0.0
-    """Standard deviation, from one unit to another, of the angular velocity it shows at rest [rad/s]."""
+    """Standard deviation, from one unit to another, of the angular velocity at rest [rad/s]."""
     gyro_step: float = 0.0
-    """The resolution of its converter [rad/s]: a gyroscope whose zero is a whole step is off by up to one at rest."""
+    """The resolution of its converter [rad/s]: a gyroscope with a zero of whole steps is off by up to one at rest."""
     gyro_scale: float = 0.0
-    """Standard deviation of the scale error among units."""
+    """Standard deviation of the scale error from one unit to another."""
     accel_bias: float = 0.0
-    """The same of a linear acceleration [m/s2]."""
+    """Standard deviation, from one unit to another, of the error of a linear acceleration [m/s2]."""
     gravity: float = GRAVITY
-    """What it shows upwards at rest [m/s2] (REP 145); 0: it does not feel gravity."""
+    """Its upward acceleration at rest [m/s2] (REP 145); 0: it does not measure gravity."""
 
 
 @dataclass(frozen=True)
 class WheelErrors:
-    """How far real wheels differ from the numbers that the odometry counts with: standard deviations, as fractions."""
+    """Deviations of real wheels from the nominal values in the odometry: standard deviations, as fractions."""
 
     radius: float = 0.0015
-    """Of each wheel's radius: tyres are not turned to a micrometre."""
+    """Error of each wheel's radius: tyres are not made to a micrometre."""
     separation: float = 0.01
-    """Of the distance of the wheels: a tyre touches the ground along its width, not in a line."""
+    """Error of the wheel separation: a tyre touches the ground along its width, not in a line."""
     slip: float = 0.002
-    """Of how far a wheel rolls in one turn, from second to second: the ground is not even."""
+    """Error of the distance per turn, varying from second to second: the ground is not even."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RobotModel:
-    """A robot, by its drive; or, without a drive, a thing that robots push, and on which sensors may sit.
+    """A robot with a drive; or, without one, an object that robots push and that may carry sensors.
 
-    Raises `ModelError`, which names the number at fault.
+    Raises `ModelError`, which contains the name of the invalid number.
     """
 
     name: str
     mass: float
-    """[kg]; of a thing that nobody can push math.inf."""
+    """Mass [kg]; math.inf for an object that cannot be pushed."""
     inertia: float
-    """About the vertical axis through base_footprint [kg m2]."""
+    """Moment of inertia about the vertical axis through base_footprint [kg m2]."""
     footprint: tuple[tuple[float, float], ...]
-    """Corners of what touches walls, counter-clockwise, seen from base_footprint; a convex polygon."""
+    """Corners of the outline that touches walls, counter-clockwise, relative to base_footprint; a convex polygon."""
     height: float
     drive: Drive | None = "differential"
     wheel_radius: float = 0.033
     wheel_separation: float = 0.16
     max_linear: float = math.inf
-    """[m/s]"""
+    """Maximum speed ahead [m/s]."""
     max_angular: float = math.inf
-    """[rad/s]"""
+    """Maximum rate of turn [rad/s]."""
     max_lateral: float | None = None
-    """How fast a holonomic robot goes to the left or right [m/s]; None: `max_linear`."""
+    """Maximum sideways speed of a holonomic robot [m/s]; None: `max_linear`."""
     wheel_acceleration: float = math.inf
-    """How fast a wheel's rim changes its speed [m/s2]."""
+    """Acceleration of a wheel's rim [m/s2]."""
     linear_acceleration: float = math.inf
-    """How fast the speed ahead changes at most [m/s2], and that to the left of a holonomic robot."""
+    """Maximum acceleration ahead [m/s2], and sideways for a holonomic robot."""
     angular_acceleration: float = math.inf
-    """How fast the turn changes at most [rad/s2]."""
+    """Maximum angular acceleration [rad/s2]."""
     ticks_per_turn: int = 4096
-    """What an encoder counts in one turn of the wheel."""
+    """Encoder counts in one turn of the wheel."""
     lidar: LidarModel | None = None
     imu: ImuModel | None = None
     cameras: tuple[CameraModel, ...] = ()
     rate: float = 30.0
-    """Messages a second on odom, tf and joint_states."""
+    """Messages per second on odom, tf and joint_states."""
     errors: WheelErrors = WheelErrors()
     body_radius: float = 0.105
-    """Without `parts`: of the disc, around the laser's axis, as which other robots' lasers see it."""
+    """Without `parts`: radius of the disc, around the laser's axis, that other robots' lasers see."""
     parts: tuple[Part, ...] = ()
-    """What other robots' lasers and cameras see, each at its pose seen from base_footprint."""
+    """Parts that other robots' lasers and cameras see, each at its pose relative to base_footprint."""
     title: str = ""
 
     def __post_init__(self) -> None:
@@ -303,19 +303,19 @@ class RobotModel:
 
     @cached_property
     def extent(self) -> float:
-        """The distance from base_footprint to the farthest that others can see of it."""
+        """The distance from base_footprint to its farthest visible point."""
         return max(math.hypot(*part.pose[:2]) + reach_of(part.shape) for part in self.solid)
 
     @cached_property
     def girth(self) -> tuple[float, float, float]:
-        """A small circle around the footprint: x and y of its middle, seen from base_footprint, and its radius [m]."""
+        """A small circle around the footprint: x and y of its centre relative to base_footprint, and radius [m]."""
         xs, ys = zip(*self.footprint, strict=True)
         x, y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
         return (x, y, max(math.hypot(px - x, py - y) for px, py in self.footprint))
 
     @cached_property
     def own_limits(self) -> bool:
-        """Tell whether the robot's speeds have limits besides those of its rims."""
+        """True if the robot's speeds have limits besides those of its rims."""
         return not (math.isinf(self.linear_acceleration) and math.isinf(self.angular_acceleration))
 
     @property
@@ -338,7 +338,7 @@ class RobotModel:
 
     @cached_property
     def solid(self) -> tuple[Part, ...]:
-        """What others see of it: its `parts`, or else a disc as high as it is."""
+        """Its parts as others see them: its `parts`, or else a disc of its height."""
         if self.parts:
             return self.parts
         x, y = self.lidar.mount[:2] if self.lidar is not None else (0.0, 0.0)
@@ -346,7 +346,7 @@ class RobotModel:
 
 
 def hull(points: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
-    """The corners of the smallest convex polygon around points, counter-clockwise: what a footprint has to be.
+    """Return the convex hull of points, counter-clockwise, as required of a footprint.
 
     Andrew's monotone chain (Information Processing Letters 9, 1979).
 
@@ -369,7 +369,7 @@ def hull(points: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ..
 
 
 BODY, TYRE, CASE = "#4b4f58", "#2b2d33", "#8a9099"
-"""Colours of ours for TurtleBot3's parts: its plates, its tyres and laser, its camera."""
+"""Our colours for TurtleBot3's parts: its plates, its tyres and laser, its camera."""
 
 BURGER = RobotModel(
     name="burger",
@@ -402,7 +402,7 @@ BURGER = RobotModel(
         ),  # MPU-9250: 0.01 deg/s a root of a hertz, up to half the rate
         accel_noise=1.7e-2,  # gazebo
         gyro_step=math.radians(2000.0 / 2**15),  # firmware: 16 bits for 2000 deg/s to either side
-        gyro_scale=0.01,  # MPU-9250: 3 % at the most, which we take for three standard deviations
+        gyro_scale=0.01,  # MPU-9250: at most 3 %, taken as three standard deviations
         accel_bias=0.1,  # gazebo
     ),
     rate=30.0,  # firmware, gazebo
@@ -479,9 +479,9 @@ MODELS = {each.name: each for each in (BURGER, WAFFLE, WAFFLE_PI)}
 
 
 def model(name: str | None = None) -> RobotModel:
-    """The robot model called `name`.
+    """Return the robot model called `name`.
 
-    If there is no name, the one that the environment variable TURTLEBOT3_MODEL names, else the Burger.
+    Without a name, return the model in the environment variable TURTLEBOT3_MODEL, or else the Burger.
 
     Raises `UnknownModel`.
     """

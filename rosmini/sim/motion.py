@@ -1,11 +1,11 @@
-"""How things of a world move by themselves: walkers on a path, and doors.
+"""Obstacles that move by themselves: walkers on a path, and doors.
 
-Pure: where it would be at a time, as a function of that time. The engine lets such a thing go its way by a clock of its
-own. Whatever stands in its way (a robot, something that was pushed there) stops that
-clock: the thing waits and never pushes through, and afterwards goes on where it was. A walker who has waited for long
-gives way, as people do: it goes its round the other way, until it has to wait for long again. A door that meets
-something while it closes opens again, as EN 16005 and ANSI/BHMA A156.19 ask of doors with a motor. One that meets
-something while it opens stands there, ajar, for as long as it would have stood open, and closes.
+The functions are pure: they return the pose at a time. The engine moves such an obstacle by a separate
+clock. An object in its way (a robot, an obstacle that was pushed there) stops that
+clock: the obstacle waits and never pushes through, and later continues from the same pose. A walker that has waited
+for long gives way, as people do: it walks its round in reverse, until it has to wait for long again. A door that meets
+an object while it closes opens again, as EN 16005 and ANSI/BHMA A156.19 require of powered doors. One that meets an
+object while it opens stays ajar for as long as it would have been open, and closes.
 """
 
 from __future__ import annotations
@@ -22,30 +22,30 @@ from rosmini.core.geometry.poses import Pose, compose
 from .shapes import WorldError, is_finite
 
 Leg = tuple[float, Pose, Pose]
-"""How long it lasts [s], and the poses at its begin and its end, between which it goes evenly."""
+"""Its duration [s], and the poses at its beginning and its end; the motion between them is uniform."""
 
 
 @dataclass(frozen=True)
 class Walk:
-    """Along straight lines from one waypoint to the next, at an even speed.
+    """Motion along straight lines between waypoints, at constant speed.
 
-    At each waypoint it waits, turns, and goes on. The waypoints are places (x, y) [m] in the frame map; the pose of the
-    thing says nothing. It looks to where it goes.
+    At each waypoint it waits, turns, and goes on. The waypoints are positions (x, y) [m] in the frame map; the pose of
+    the obstacle has no effect. It faces its direction of motion.
     """
 
     waypoints: tuple[tuple[float, float], ...]
     speed: float = 0.5
-    """[m/s]"""
+    """Speed [m/s]."""
     wait: float = 0.0
-    """How long it stands at each waypoint [s], before it turns to the next."""
+    """Waiting time at each waypoint [s], before it turns to the next."""
     loop: bool = True
-    """From the last waypoint it goes back to the first, and on; else it stays at the last."""
+    """True: from the last waypoint it returns to the first, and continues; False: it stays at the last."""
     keep: float = 0.3
-    """No nearer than this it comes to what is in its way, ahead or beside it [m]."""
+    """Minimum distance to an object in its way, ahead or beside it [m]."""
     turning: float = math.pi
-    """How fast it turns at a waypoint [rad/s]."""
+    """Rate of turn at a waypoint [rad/s]."""
     patience: float = 5.0
-    """Who goes in a `loop` and has waited so long [s] for something goes back, and its round the other way."""
+    """Waiting time [s] after which a walker in a `loop` turns back and goes round in reverse."""
 
     def __post_init__(self) -> None:
         try:
@@ -64,23 +64,23 @@ class Walk:
 
     @property
     def max_speed(self) -> float:
-        """Of its origin [m/s]."""
+        """Maximum speed of its origin [m/s]."""
         return self.speed
 
     @property
     def max_turn(self) -> float:
-        """Of its heading [rad/s]."""
+        """Maximum rate of turn [rad/s]."""
         return self.turning
 
     @property
     def period(self) -> float:
-        """How long one round takes, or the way to the last waypoint [s]."""
+        """Duration of one round, or of the path to the last waypoint [s]."""
         return self._ends[-1]
 
-    def pose_at(self, t: float, start: Pose | None = None) -> Pose:  # noqa: ARG002 - as of a door
-        """Where it is at its time t [s], if it had never to wait for anybody; `start` says nothing.
+    def pose_at(self, t: float, start: Pose | None = None) -> Pose:  # noqa: ARG002 - a door needs it
+        """Return the pose at time t of its clock [s]; `start` has no effect.
 
-        Who goes round the other way is at a time before 0 where it is a whole round later.
+        Negative times are those of a walker that goes round in reverse.
 
         >>> Walk(((0, 0), (2, 0)), speed=0.5).pose_at(1.0)
         (0.5, 0.0, 0.0)
@@ -124,27 +124,27 @@ class Walk:
 
 @dataclass(frozen=True)
 class Door:
-    """Open for a while, closed for a while: a leaf that turns about a hinge, or one that slides.
+    """Opens and closes periodically: a leaf that turns about a hinge, or one that slides.
 
-    The pose of the thing is that of the closed door. A door moves as half a wave of cosine, gently at either end.
+    The pose of the obstacle is that of the closed door. A door follows half a cosine wave, with a smooth start and end.
     """
 
     opening: float = math.pi / 2
-    """How far it opens: by this angle [rad, counter-clockwise], or, if it slides, by this way [m]."""
+    """Opening: an angle [rad, counter-clockwise], or, if it slides, a distance [m]."""
     hinge: tuple[float, float] = (0.0, 0.0)
-    """About which place of the thing's own frame it turns [m]."""
+    """Position of the hinge in the obstacle's frame [m]."""
     slide: float | None = None
-    """None: it turns. Else it slides, to this direction in the thing's own frame [rad]."""
+    """Direction of sliding in the obstacle's frame [rad]; None: it turns."""
     moving: float = 2.0
-    """How long it takes to open, and to close [s]."""
+    """Time to open, and to close [s]."""
     open: float = 5.0
-    """How long it stands open [s]."""
+    """Time it stays open [s]."""
     closed: float = 5.0
-    """How long it is closed [s]."""
+    """Time it stays closed [s]."""
     phase: float = 0.0
-    """At which time of its period it begins [s]; 0: it has just closed."""
+    """Initial time within its period [s]; 0: it has just closed."""
     keep: float = 0.1
-    """No nearer than this it comes to what is in its way [m], before it stops, or goes back."""
+    """Minimum distance to an object in its way [m], at which it stops, or moves back."""
 
     def __post_init__(self) -> None:
         _check_numbers("door", positive={"moving": self.moving})
@@ -165,22 +165,22 @@ class Door:
 
     @property
     def period(self) -> float:
-        """From one closing to the next [s]."""
+        """Time from one closing to the next [s]."""
         return self.closed + self.open + 2 * self.moving
 
     @property
     def max_speed(self) -> float:
-        """Of its origin [m/s]."""
+        """Maximum speed of its origin [m/s]."""
         rate = abs(self.opening) * math.pi / 2 / self.moving
         return rate * math.hypot(*self.hinge) if self.slide is None else rate
 
     @property
     def max_turn(self) -> float:
-        """Of its heading [rad/s]."""
+        """Maximum rate of turn [rad/s]."""
         return abs(self.opening) * math.pi / 2 / self.moving if self.slide is None else 0.0
 
     def openness(self, t: float) -> float:
-        """How far it is open at its time t [s]: from 0, closed, to 1."""
+        """Return how far it is open at time t of its clock [s]: from 0, closed, to 1."""
         t = math.fmod(max(0.0, t) + self.phase, self.period) - self.closed
         if t <= 0:
             return 0.0
@@ -190,12 +190,12 @@ class Door:
         return 1.0 if t <= 0 else (1 + math.cos(math.pi * t / self.moving)) / 2
 
     def patience(self, t: float) -> float:
-        """How long it stands at its time t [s] before what it has met [s], until it goes back."""
+        """Return how long it waits at time t of its clock [s] for an object in its way before it moves back [s]."""
         into = math.fmod(max(0.0, t) + self.phase, self.period)
         return self.open if self.closed < into < self.closed + self.moving else 0.0
 
     def turned_back(self, t: float) -> float | None:
-        """The next time [s] at which it is where it is at `t` and moves the other way; None if it stands still then.
+        """Return the next time [s] with the same pose as at `t` and the reverse motion; None if it is at rest then.
 
         >>> Door(closed=1.0, moving=2.0, open=3.0).turned_back(1.5)
         7.5
@@ -207,7 +207,7 @@ class Door:
         return t + math.fmod(2 * (opened + self.open / 2 - into) + self.period, self.period)
 
     def pose_at(self, t: float, start: Pose = (0.0, 0.0, 0.0)) -> Pose:
-        """Where it is at its time t [s], if it had never to wait for anybody; closed it is at `start`.
+        """Return the pose at time t of its clock [s]; `start` is the pose when closed.
 
         >>> Door(opening=0.9, slide=0.0, closed=1.0, moving=2.0).pose_at(3.0)
         (0.9, 0.0, 0.0)

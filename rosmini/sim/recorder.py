@@ -33,45 +33,45 @@ SEEN = (
     "geometry_msgs/PolygonStamped", "geometry_msgs/PointStamped", "visualization_msgs/Marker",
     "visualization_msgs/MarkerArray", "sensor_msgs/Image", "tf2_msgs/TFMessage",
 )  # fmt: skip
-"""What is kept with `layers=True`: what can be seen from above, and where frames are."""
+"""Types recorded with `layers=True`: everything visible from above, and transforms."""
 LOOK_AGAIN = 0.5
-"""The period after which it is asked for topics that are new [s]."""
+"""Interval between checks for new topics [s]."""
 
 
 class Simulated(Protocol):
-    """What a simulator says of itself."""
+    """The properties that a recorder reads from a simulator."""
 
     @property
-    def world(self) -> World: ...  # noqa: D102 (the class says it)
+    def world(self) -> World: ...  # noqa: D102 (see the class)
 
     @property
     def model(self) -> RobotModel: ...  # noqa: D102
 
 
 class Recorder:
-    """Gathers `scan`, `odom`, `base_pose_ground_truth` and `cmd_vel` of a robot, or of several.
+    """Records `scan`, `odom`, `base_pose_ground_truth` and `cmd_vel` of one robot or several.
 
-    It is an ordinary node and knows only what the messages say. Times are those of their headers; a
-    `geometry_msgs/Twist` has none, so a command counts from when it arrives. If the clock goes back (a simulation that
-    was reset, a bag in a loop), a new run begins.
+    It is an ordinary node and uses only messages. Times are those of their headers; a `geometry_msgs/Twist` has no
+    header, so a command's time is that of its arrival. If the clock goes back (a simulation is reset, a bag is played
+    in a loop), a new run begins.
 
     Args:
-        graph: where the robot is; the default graph if not given.
-        simulator: what has `world` and `model`; or give these two; or neither, for the one simulation that runs in
-            the graph. If it has several robots, all that are there now are recorded.
-        world: what the robot drives in.
-        model: which robot it is.
-        namespace: that of the robot's topics, and of this node.
-        name: of this node.
-        things: on which topic it is told where things are that move: `visualization_msgs/MarkerArray`s, as the
-            simulator's `obstacles`, or `gazebo_msgs/ModelStates`, as `/gazebo/model_states`. Without it they are taken
-            to stay where they are.
-        scan: what the robots call the topic of their laser: `scan`, or, in Stage, `base_scan`.
-        layers: keep also what else can be seen from above, on whichever topics it comes, now or later: maps, costmaps,
+        graph: the robot's graph; the default graph if not given.
+        simulator: an object with `world` and `model`; or give these two; or neither, for the only simulation in
+            the graph. If it has several robots, all present ones are recorded.
+        world: the robot's world.
+        model: the robot's model.
+        namespace: the namespace of the robot's topics and of this node.
+        name: the name of this node.
+        things: the topic with the poses of moving obstacles: `visualization_msgs/MarkerArray`s, as on the
+            simulator's `obstacles`, or `gazebo_msgs/ModelStates`, as on `/gazebo/model_states`. Without it they are
+            assumed not to move.
+        scan: the name of the laser topic: `scan`, or, in Stage, `base_scan`.
+        layers: also record everything else that is visible from above, on any topic, now or later: maps, costmaps,
             plans, particles, markers, images, and transforms; a player of the run shows each as a layer.
 
     Raises:
-        RecordingError: neither a simulator nor a world and a model are given, and it is not one simulation that runs.
+        RecordingError: neither a simulator nor a world and a model are given, and not exactly one simulation runs.
 
     """
 
@@ -112,7 +112,7 @@ class Recorder:
         self._layers = _Layers(self, things) if layers else None
         self._runs: dict[str, _Run] = {}
         own = robots.pop(first, None)
-        # who gives a namespace means the first robot's, and this node is in it
+        # a namespace in the arguments is the first robot's, and this node is in it
         space = "" if own is None or namespace not in ("", "/") else own.namespace
         self._first = _Run(self, first, model, space and _resolved(simulator, space))
         self._runs[first] = self._first
@@ -120,12 +120,12 @@ class Recorder:
             self.add(other, robot.model, _resolved(simulator, robot.namespace or "/"))
 
     def add(self, name: str, model: RobotModel, namespace: str | None = None) -> None:
-        """Record another robot too, from now on.
+        """Also record another robot from now on.
 
-        Its topics are in the namespace, which is its name if nothing else is said.
+        The namespace of its topics is its name if not given.
 
         Raises:
-            RecordingError: one of this name is recorded already.
+            RecordingError: a robot of this name is already recorded.
 
         """
         if name in self._runs:
@@ -139,11 +139,11 @@ class Recorder:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The robots that are recorded."""
+        """The names of the recorded robots."""
         return tuple(self._runs)
 
     def clear(self) -> None:
-        """Forget what was recorded; what comes from now on is a new run."""
+        """Discard the recorded data and begin a new run."""
         for run in self._runs.values():
             for track in run.tracks.values():
                 track.clear()
@@ -153,18 +153,18 @@ class Recorder:
             self._layers.kept.clear()
 
     def stop(self) -> None:
-        """End the node; what was recorded stays. Harmless when repeated."""
+        """Shut down the node and keep the recorded data; harmless when repeated."""
         self.node.shutdown("the recording was stopped")
 
     def recording(self) -> Recording:
-        """The run so far. It begins with the first pose of which both the truth and odometry are known.
+        """Return the run so far. It begins with the first pose for which both the truth and odometry are known.
 
-        Odometry is interpolated at the times of the truth; a simulator gives both at the same times. A command that
-        came earlier and is still in force counts from the begin. Of other robots there is what they did from then on;
-        one of which nothing is known is left out.
+        Odometry is interpolated at the times of the truth; a simulator publishes both at the same times. An earlier
+        command that is still in force is included at the beginning. Other robots' data begin at the same time; a robot
+        without data is left out.
 
         Raises:
-            RecordingError: nothing was recorded yet, or the scans are not those of the robot's laser.
+            RecordingError: nothing was recorded yet, or the scans do not match the robot's laser.
 
         """
         begin = self._first.begin()
@@ -198,19 +198,19 @@ class Recorder:
         )
 
     def went_back(self, topic: str, by: float) -> None:
-        """The clock went back [s]: say so, and restart."""
+        """Log that the clock went back [s], and begin a new run."""
         self.node.logwarn(
             f"the time on {self.node.resolve(topic)} went back by {by:.3f} s: a new recording begins"
         )
         self.clear()
 
     def stamp(self, header: Any) -> int:
-        """A header's time [ns]; that of arrival where the sender left it out."""
+        """Return a header's time [ns], or the current time if the sender left it out."""
         return header.stamp.to_nsec() or self.node.clock.now_ns()
 
 
 def _only_simulation(graph: Graph) -> Any:
-    """Return the simulation that runs in a graph. Raises `RecordingError` unless there is exactly one."""
+    """Return the only simulation in a graph. Raises `RecordingError` unless there is exactly one."""
     found = {name: node.program for name, node in graph.nodes.items() if isinstance(node.program, Simulation)}
     if len(found) != 1:
         there = (
@@ -225,12 +225,12 @@ def _only_simulation(graph: Graph) -> Any:
 
 
 def _resolved(simulator: Any, namespace: str) -> str:
-    """The whole name of a namespace that a simulator's node gave."""
+    """Return the full name of a namespace given by a simulator's node."""
     return str(simulator.node.resolve(namespace))
 
 
 class _Run:
-    """What came on the topics of one robot."""
+    """The data from the topics of one robot."""
 
     def __init__(self, recorder: Recorder, name: str, model: RobotModel, namespace: str) -> None:
         self.name, self.model, self._recorder, self._namespace = name, model, recorder, namespace
@@ -245,7 +245,7 @@ class _Run:
         node.subscriber(self.topic(COMMANDS), message_class("geometry_msgs/Twist"), self._command)
 
     def topic(self, name: str) -> str:
-        """One of its topics."""
+        """Return the name of one of its topics."""
         return f"{self._namespace.rstrip('/')}/{name}" if self._namespace else name
 
     def _pose(self, message: Any, topic: str) -> None:
@@ -258,7 +258,7 @@ class _Run:
 
     def _command(self, message: Any) -> None:
         velocities = (message.linear.x, message.angular.z)
-        if all(math.isfinite(v) for v in velocities):  # nobody can drive another one
+        if all(math.isfinite(v) for v in velocities):  # commands that are not finite drive no robot
             self._add(COMMANDS, self._recorder.node.clock.now_ns(), velocities)
 
     def _add(self, topic: str, stamp: int, row: Any) -> None:
@@ -268,7 +268,7 @@ class _Run:
         self.tracks[topic].add(stamp, row)
 
     def _times(self) -> NDArray[np.int64]:
-        """The stamps [ns] of the truth for which odometry is known too."""
+        """Return the stamps [ns] of the truth for which odometry is known too."""
         truth, odom = self.tracks[TRUTH], self.tracks[ODOM]
         stamps = np.array(truth.stamps, dtype=np.int64)
         if not (truth.rows and odom.rows):
@@ -276,12 +276,12 @@ class _Run:
         return stamps[(stamps >= odom.stamps[0]) & (stamps <= odom.stamps[-1])]
 
     def begin(self) -> int | None:
-        """The first stamp [ns] for which the truth and odometry are known."""
+        """Return the first stamp [ns] for which the truth and odometry are known, or None."""
         stamps = self._times()
         return int(stamps[0]) if len(stamps) else None
 
     def recording(self, begin: int) -> Recording:
-        """What it did from `begin` [ns] on; of what came later all."""
+        """Return the data from `begin` [ns] on; all data of a robot that was added later."""
         stamps = self._times()
         times = seconds(stamps[stamps >= begin] if (stamps >= begin).any() else stamps[-1:], begin)
         commands, scans = self.tracks[COMMANDS], self.tracks[SCAN]
@@ -311,7 +311,7 @@ class _Run:
 
 
 class _Layers:
-    """What came on all topics that can be seen from above, as it came."""
+    """Messages from all topics that are visible from above, unchanged."""
 
     def __init__(self, recorder: Recorder, things: str | None) -> None:
         self._node = recorder.node
@@ -322,7 +322,7 @@ class _Layers:
         self._node.timer(LOOK_AGAIN, lambda _event: self._look())
 
     def _look(self) -> None:
-        """Subscribe to topics that are new."""
+        """Subscribe to new topics."""
         for topic, kind in sorted(self._node.master.ask("getTopicTypes")):
             if kind in SEEN and topic not in self._subscribed | self._left_out:
                 self._subscribed.add(topic)
@@ -332,12 +332,12 @@ class _Layers:
         self.kept.append((self._node.clock.now_ns(), topic, message))
 
     def messages(self, begin: int) -> tuple[tuple[float, str, Any], ...]:
-        """What was kept; what came before `begin` [ns], as a latched map, counts from the begin."""
+        """Return the messages; those from before `begin` [ns], such as a latched map, get the time of `begin`."""
         return tuple((max(0.0, (time - begin) / 1e9), topic, message) for time, topic, message in self.kept)
 
 
 class _Things:
-    """What came on the topic that tells where things are."""
+    """The data from the topic with the poses of moving obstacles."""
 
     def __init__(self, recorder: Recorder, topic: str) -> None:
         self._recorder, self._topic = recorder, topic
@@ -350,7 +350,7 @@ class _Things:
         self._known = {o.name: o for o in recorder.world.obstacles}
 
     def clear(self) -> None:
-        """Forget where they were."""
+        """Discard the data."""
         self._tracks.clear()
 
     def _markers(self, message: Any) -> None:
@@ -386,7 +386,7 @@ class _Things:
         track.add(stamp, pose)
 
     def moved(self, begin: int, end: float) -> tuple[Moved, ...]:
-        """Where they were from `begin` [ns] to `end` [s after it]; of what stood still the place alone."""
+        """Return the motion from `begin` [ns] to `end` [s after it]; for an obstacle at rest only its pose."""
         found = []
         for name, track in self._tracks.items():
             times = seconds(track.stamps, begin)
@@ -402,7 +402,7 @@ class _Things:
 
 
 def turning_points(poses: Floats) -> NDArray[np.intp]:
-    """Return which rows of poses (n, 3) matter: the first, the last, and those that differ from a neighbour."""
+    """Return the indices of relevant poses (n, 3): the first, the last, and those that differ from a neighbour."""
     if len(poses) == 1:
         return np.array([0])
     differs = (np.abs(np.diff(poses, axis=0)) > 1e-9).any(axis=1)
@@ -414,23 +414,23 @@ def turning_points(poses: Floats) -> NDArray[np.intp]:
 
 
 class _Track:
-    """What came on one topic."""
+    """The data from one topic."""
 
     def __init__(self) -> None:
         self.stamps: list[int] = []
         self.rows: list[Any] = []
 
     def clear(self) -> None:
-        """Forget it."""
+        """Discard the data."""
         self.stamps.clear()
         self.rows.clear()
 
     def behind(self, stamp: int) -> float:
-        """By how much [s] a stamp [ns] lies before the last one."""
+        """Return how far [s] a stamp [ns] is before the last one; 0 if it is not."""
         return max(0.0, (self.stamps[-1] - stamp) / 1e9) if self.stamps else 0.0
 
     def add(self, stamp: int, row: Any) -> None:
-        """Add what came; of two at one time the last word counts."""
+        """Add data; of two entries at one time the last one is kept."""
         if self.stamps and stamp == self.stamps[-1]:
             self.rows[-1] = row
             return
@@ -438,7 +438,7 @@ class _Track:
         self.rows.append(row)
 
     def at(self, times: Floats, begin: int) -> Floats:
-        """Poses (n, 3) at `times` [s since begin], linear between those that came; headings are not wrapped."""
+        """Return poses (n, 3) at `times` [s since begin] by linear interpolation; headings are not wrapped."""
         poses = np.array(self.rows, dtype=float)
         poses[:, 2] = np.unwrap(poses[:, 2])
         known = seconds(self.stamps, begin)
@@ -446,21 +446,21 @@ class _Track:
 
 
 def seconds(stamps: list[int] | NDArray[np.int64], begin: int) -> Floats:
-    """Stamps [ns] as seconds since `begin` [ns]; the difference is taken before anything is rounded."""
+    """Convert stamps [ns] to seconds since `begin` [ns]; subtracts before rounding."""
     return (np.array(stamps, dtype=np.int64) - begin) / 1e9
 
 
 def aligned(scan: Any, lidar: LidarModel) -> Floats:
     """Return the ranges (beams,) of a `sensor_msgs/LaserScan` in the order of the laser's beams.
 
-    Beam i of a laser that looks all around is at 2 pi i / beams from ahead.
+    Beam i of a laser with a full circle is at 2 pi i / beams from ahead.
 
-    Where nothing was hit there is inf, and where it was too near to be measured -inf (REP 117). What lies outside of
-    the scan's range_min and range_max is no hit, as its message definition says; so are nan, and the 0 that an LDS-01
-    gives for a beam that did not come back.
+    A beam without a hit gives inf, and one that is too near to be measured -inf (REP 117). Values outside the scan's
+    range_min and range_max are not hits, according to the message definition; nor are nan, and the 0 that an LDS-01
+    gives for a beam that did not return.
 
     Raises:
-        RecordingError: it has another number of beams than the laser, or they look elsewhere.
+        RecordingError: the number or the angles of its beams differ from the laser's.
 
     """
     ranges = np.array(scan.ranges, dtype=float)
@@ -487,7 +487,7 @@ def aligned(scan: Any, lidar: LidarModel) -> Floats:
 
 
 def _check_fan(scan: Any, lidar: LidarModel) -> None:
-    """Raise `RecordingError` if the beams of a scan are off those of a laser with a limited field of view.
+    """Raise `RecordingError` if a scan's beams differ from those of a laser with a limited field of view.
 
     A hundredth of the angle between two beams is tolerated.
     """

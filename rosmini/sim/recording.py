@@ -1,4 +1,4 @@
-"""A recorded run: what one robot did, meant and saw, as arrays; and beside it other robots, and things that moved."""
+"""A recorded run: poses, odometry, commands and scans of a robot as arrays; also other robots and moving obstacles."""
 
 from __future__ import annotations
 
@@ -21,31 +21,31 @@ Floats = NDArray[np.float64]
 
 
 class RecordingError(RosminiError, ValueError):
-    """There is no recording, or its arrays do not fit together; the message says which one, or what to run first."""
+    """There is no recording, or its arrays are inconsistent; the message says which one, or what to run first."""
 
 
 class Drift(NamedTuple):
-    """How far odometry is off, as time goes by."""
+    """Error of odometry over time."""
 
     position: Floats
     """(n,) [m]"""
     heading: Floats
-    """(n,) [rad] in (-pi, pi]: positive where odometry believes to have turned further to the left."""
+    """(n,) [rad] in (-pi, pi]: positive if odometry's heading is too far to the left."""
 
 
 @dataclass(frozen=True, eq=False)
 class Moved:
-    """A thing of the world that does not stay where it is, and where it was.
+    """An obstacle that moves, and its poses.
 
     Raises:
-        RecordingError: an array has another shape, or times do not increase.
+        RecordingError: an array has the wrong shape, or times do not increase.
 
     """
 
     obstacle: Obstacle
-    """What it is, where it was at first."""
+    """The obstacle, at its initial pose."""
     times: Floats
-    """(n,) [s], increasing; n is at least 1. In between it moved evenly; before and after, it stood."""
+    """(n,) [s], increasing; n is at least 1. It moves uniformly between them, and is at rest before and after."""
     poses: Floats
     """(n, 3): x [m], y [m], heading [rad]; headings are not wrapped."""
 
@@ -61,16 +61,16 @@ class Moved:
             )
 
     def at(self, time: float) -> Obstacle:
-        """The thing where it was then."""
+        """Return the obstacle at its pose at this time."""
         return replace(self.obstacle, pose=_between(self.times, self.poses, time))
 
     @property
     def distance(self) -> float:
-        """How far it moved [m]."""
+        """Distance it moved [m]."""
         return float(norms(np.diff(self.poses[:, :2], axis=0)).sum())
 
     def window(self, t0: float, t1: float) -> Moved:
-        """Where it was from `t0` to `t1`."""
+        """Return the part from `t0` to `t1`."""
         inner = (self.times > t0) & (self.times < t1)
         ends = [_between(self.times, self.poses, t) for t in (t0, t1)]
         if t1 <= t0:
@@ -84,13 +84,13 @@ class Moved:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """A run of one robot, and, if there were any, of others beside it.
+    """A run of one robot, and of other robots in the same world.
 
-    All times are seconds since the begin of the run, all poses x [m], y [m], heading [rad]. `truth` and `odom` are
-    sampled at `times`; each of them is in its own frame (`map` and `odom`), as the messages were.
+    All times are seconds since the beginning of the run, all poses x [m], y [m], heading [rad]. `truth` and `odom` are
+    sampled at `times`; each is in its own frame (`map` and `odom`), as in the messages.
 
     Raises:
-        RecordingError: an array has another shape, holds something infinite or no number, or times do not increase.
+        RecordingError: an array has the wrong shape or contains inf or nan, or times do not increase.
 
     """
 
@@ -99,28 +99,28 @@ class Recording:
     times: Floats
     """(n,), increasing; n is at least 1."""
     truth: Floats
-    """(n, 3): where the robot was; headings are not wrapped."""
+    """(n, 3): true poses; headings are not wrapped."""
     odom: Floats
-    """(n, 3): where its odometry said that it was; headings are not wrapped."""
+    """(n, 3): poses according to odometry; headings are not wrapped."""
     commands: Floats
     """(m, 3): time, linear [m/s] and angular [rad/s] velocity of each command."""
     scan_times: Floats
-    """(k,)"""
+    """(k,), increasing."""
     scans: Floats
-    """(k, beams): ranges [m], inf where nothing was hit, -inf where it was too near.
+    """(k, beams): ranges [m], inf for no hit, -inf for too near.
 
-    Beam i looks at angle_min + i increment of the laser's model, counter-clockwise: 2 pi i / beams, if all around.
+    Beam i is at angle_min + i increment of the laser's model, counter-clockwise: 2 pi i / beams for a full circle.
     """
     time_increment: float = 0.0
-    """The time between two beams of a scan [s], as in the messages: negative where the last beam was measured first."""
+    """The time between neighbouring beams [s], as in the messages: negative if the last beam was measured first."""
     name: str = ""
-    """The robot's, where there are several."""
+    """The robot's name if there are several robots."""
     others: tuple[Recording, ...] = ()
-    """The runs of the other robots, by the same clock."""
+    """The runs of the other robots, on the same clock."""
     things: tuple[Moved, ...] = ()
-    """What of the world was moved, or moved by itself."""
+    """Obstacles that were moved, or moved by themselves."""
     messages: tuple[tuple[float, str, Any], ...] = ()
-    """What was heard beside that: (time [s], topic, message), in order; maps, plans, particles ... and transforms."""
+    """Other messages: (time [s], topic, message), in order; maps, plans, particles ... and transforms."""
 
     def __post_init__(self) -> None:
         n, k, beams = (
@@ -157,7 +157,7 @@ class Recording:
         return (self, *self.others)
 
     def of(self, name: str) -> Recording:
-        """The same run, seen from the robot called `name`. Raises `RecordingError`."""
+        """Return the same run with the robot called `name` as the first. Raises `RecordingError`."""
         for each in self.robots:
             if each.name == name:
                 rest = tuple(
@@ -170,35 +170,35 @@ class Recording:
         )
 
     def world_at(self, time: float) -> World:
-        """The world with its things where they were then."""
+        """Return the world with its obstacles at their poses at this time."""
         moved = {thing.obstacle.name: thing.at(time) for thing in self.things}
         stayed = [moved.pop(o.name, o) for o in self.world.obstacles]
         return replace(self.world, obstacles=(*stayed, *moved.values()))
 
     @property
     def duration(self) -> float:
-        """How long the run was [s]."""
+        """Duration of the run [s]."""
         return float(self.times[-1] - self.times[0])
 
     @property
     def distance(self) -> float:
-        """How long the robot's way really was [m]."""
+        """True distance travelled by the robot [m]."""
         return float(norms(np.diff(self.truth[:, :2], axis=0)).sum())
 
     def odom_in_map(self) -> Floats:
-        """Odometry (n, 3) in the frame of `truth`, laid so that both start with the same pose."""
+        """Return odometry (n, 3) in the frame of `truth`, aligned so that both start with the same pose."""
         return compose(compose(_pose(self.truth[0]), inverse(_pose(self.odom[0]))), self.odom)
 
     def drift(self) -> Drift:
-        """The error of odometry since the start: its distance from the true position, and its difference in heading."""
+        """Return odometry's error since the start: its distance from the true position, and its error in heading."""
         off = self.odom_in_map() - self.truth
         return Drift(np.hypot(off[:, 0], off[:, 1]), normalize_angle(off[:, 2]))
 
     def velocities(self) -> Floats:
-        """How the robot really drove, (n, 2): linear [m/s] and angular [rad/s] velocity at `times`.
+        """Return the robot's true linear [m/s] and angular [rad/s] velocity at `times`, (n, 2).
 
-        Between two samples it is taken to drive an arc; at a sample, the velocity is the mean of those before and after
-        it.
+        It is assumed to follow an arc between two samples; at a sample, the velocity is the average of those before and
+        after it.
         """
         if len(self.times) < 2:
             return np.zeros((1, 2))
@@ -212,19 +212,19 @@ class Recording:
         return mean
 
     def pose_at(self, time: float) -> tuple[float, float, float]:
-        """Where the robot was at a time of the run; before its begin and after its end, where it was then."""
+        """Return the robot's true pose at a time, limited to the beginning and end of the run."""
         return _between(self.times, self.truth, time)
 
     def scan_poses(self, which: int) -> Floats:
-        """Where the robot was at each beam of a scan (beams, 3)."""
+        """Return the robot's true pose at each beam of a scan (beams, 3)."""
         times = self.scan_times[which] + self.time_increment * np.arange(self.scans.shape[1])
         return np.column_stack([np.interp(times, self.times, column) for column in self.truth.T])
 
     def window(self, t0: float, t1: float) -> Recording:
-        """The part of the run from `t0` to `t1`; times stay what they were, and the command in force at `t0` is there.
+        """Return the part of the run from `t0` to `t1`; times are unchanged, the command in force at `t0` is included.
 
         Raises:
-            RecordingError: no sample lies between the two.
+            RecordingError: there is no sample between the two.
 
         """
         inside = (self.times >= t0) & (self.times <= t1)
@@ -252,19 +252,19 @@ class Recording:
         )
 
     def show(self, **options: Any) -> Any:
-        """A picture of the run from above.
+        """Return a picture of the run from above.
 
-        Options, with what they are unless given:
-            scan=False: draw the last scan, too, from where it was taken
+        Options and their defaults:
+            scan=False: also draw the last scan
             title=None: a caption under the picture, and the first words of its text form
             size=(660.0, 540.0): the largest width and height [CSS px]
         """
         return show("recording", self, **options)
 
     def plots(self, **options: Any) -> Any:
-        """Velocities, and the error of odometry, over time.
+        """Plot velocities and the error of odometry over time.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             odometry=True: plot the error of odometry beside the velocities
             title=None: a caption under the picture, and the first words of its text form
             width=660.0: of the picture [CSS px]
@@ -272,38 +272,38 @@ class Recording:
         return show("recording_plots", self, **options)
 
     def replay(self, **options: Any) -> Any:
-        """A player for the run, with play, pause, scrub and speed, and a switch for each layer.
+        """Return a player for the run, with play, pause, scrub and speed, and a switch for each layer.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             title=None: a caption, and the first words of the text form
             names=None: a list with the run's name
-            topics=None: of what was kept beside the robots, only these topics; None: all
-            frame=None: what that is drawn in; None: map, odom or world, whichever there is first
+            topics=None: of the other messages, only these topics; None: all
+            frame=None: the frame they are drawn in; None: map, odom or world, whichever exists first
             robot=None: not needed here, since the recording knows its robot
         """
         return show("replay", self, **options)
 
     def replay3d(self, **options: Any) -> Any:
-        """The run in three dimensions.
+        """Return a player for the run in three dimensions.
 
-        Options, with what they are unless given:
-            focus='robot': the camera follows the robot; 'world': it stands still
-            distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: where the camera is [deg]: 0 towards x, 90 towards y; None: what shows it well
-            elevation=None: how high from [deg]; None: what shows it well
-            scans=True: show what the laser saw
+        Options and their defaults:
+            focus='robot': the camera follows the robot; 'world': it does not move
+            distance=None: of the camera from its target [m]; None: chosen automatically
+            azimuth=None: direction of the camera [deg]: 0 towards x, 90 towards y; None: chosen automatically
+            elevation=None: elevation of the camera [deg]; None: chosen automatically
+            scans=True: show the laser's scans
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
-            topics=None: of what was kept beside the robots, only these topics; None: all
-            frame=None: what that is drawn in; None: map, odom or world, whichever there is first
+            topics=None: of the other messages, only these topics; None: all
+            frame=None: the frame they are drawn in; None: map, odom or world, whichever exists first
             robot=None: not needed here, since the recording knows its robot
-            names=None: of runs side by side; of no use for one
+            names=None: for runs side by side; no effect for one run
         """
         return show("replay_3d", self, **options)
 
 
 def since(commands: Floats, begin: float) -> Floats:
-    """The commands (m, 3) from `begin` on, and first the one in force then, as if it were given at `begin`."""
+    """Return the commands (m, 3) from `begin` on, preceded by the one in force then, with the time `begin`."""
     before = commands[commands[:, 0] < begin][-1:].copy()
     after = commands[commands[:, 0] >= begin]
     if len(after) and after[0, 0] == begin:
@@ -315,9 +315,9 @@ def since(commands: Floats, begin: float) -> Floats:
 def _in_force(
     messages: tuple[tuple[float, str, Any], ...], t0: float, t1: float
 ) -> tuple[tuple[float, str, Any], ...]:
-    """The messages from `t0` to `t1`, and first what came last on each topic before, as if it came at `t0`.
+    """Return the messages from `t0` to `t1`, preceded by the last earlier one on each topic, with the time `t0`.
 
-    All transforms before `t0` stay, each with its time: some hold for ever.
+    All transforms before `t0` are kept, with their times, because some are valid permanently.
     """
     before: dict[str, tuple[float, str, Any]] = {}
     early = []
@@ -330,7 +330,7 @@ def _in_force(
 
 
 def _between(times: Floats, poses: Floats, time: float) -> tuple[float, float, float]:
-    """A pose of (n, 3), linear between those at `times` (n,)."""
+    """Interpolate poses (n, 3) at `times` (n,) linearly."""
     x, y, heading = (float(np.interp(time, times, column)) for column in poses.T)
     return (x, y, heading)
 

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Limits:
-    """When a program is stopped."""
+    """Limits at which a program is stopped."""
 
     steps: int = 500_000
     """Maximum number of calls; handling a large value counts as several."""
@@ -53,12 +53,12 @@ class Limits:
     """Maximum number of nested evaluations; a procedure that calls itself adds about five."""
 
     lines: int = 2_000
-    """Maximum number of printed lines, which is what a cell shows of a node's output."""
+    """Maximum number of printed lines; a cell shows this many lines of a node's output."""
 
 
 @dataclass
 class State:
-    """Turtles and variables, which outlive a program, and the counts of the current program."""
+    """Turtles and variables, which persist between programs, and the counts of the current program."""
 
     flock: Flock
     say: Callable[[str], object]
@@ -80,7 +80,7 @@ class State:
         return value
 
     def movers(self) -> list[Turtle]:
-        """The active turtles, each of which is about to move. Raises ``LogoStopped``."""
+        """Return the active turtles, each of which is about to move. Raises ``LogoStopped``."""
         self.moves += len(self.flock.active)
         self._limit("movements of turtles", self.moves, self.limits.moves)
         return self.flock.active
@@ -92,7 +92,7 @@ class State:
         self.say(text)
 
     def value_of(self, name: str) -> Value:
-        """The value of a variable. Raises ``LogoError``."""
+        """Return the value of a variable. Raises ``LogoError``."""
         if name not in self.variables:
             guess = suggestion(name, self.variables).replace("did you mean ", "did you mean :")
             raise LogoError(f"{name} has no value{guess}")
@@ -106,7 +106,7 @@ class State:
 
 @dataclass(frozen=True)
 class Primitive:
-    """A word that Logo knows by itself.
+    """A predefined word of Logo.
 
     ``act`` takes the state and the inputs; if it ``controls``, it takes the interpreter and may return a generator.
     """
@@ -126,18 +126,18 @@ class Primitive:
 
 
 def command(usage: str, act: Callable[..., None], text: str, *short: str) -> Primitive:
-    """A primitive without a value."""
+    """Return a primitive without a value."""
     name, *inputs = usage.split()
     return Primitive(name, tuple(inputs), act, text, short)
 
 
 def reporter(usage: str, act: Callable[..., Value], text: str, *short: str) -> Primitive:
-    """A primitive with a value."""
+    """Return a primitive with a value."""
     return replace(command(usage, act, text, *short), gives_value=True)  # type: ignore[arg-type]
 
 
 def control(usage: str, act: Callable[..., Any], text: str, *short: str) -> Primitive:
-    """A primitive that runs lists or ends procedures; its value depends on those."""
+    """Return a primitive that runs lists or ends procedures; its value depends on those."""
     return replace(command(usage, act, text, *short), gives_value=True, controls=True)
 
 
@@ -191,7 +191,7 @@ def _point(value: Value) -> tuple[float, float]:
 
 
 def _colour(value: Value) -> Colour:
-    """The colour that a number, a name or a list represents. Raises ``BadInput``."""
+    """Return the colour that a number, a name or a list represents. Raises ``BadInput``."""
     if isinstance(value, LogoList):
         parts = [number(part, _COLOUR) for part in value]
         if len(parts) != 3 or not all(0 <= part <= 100 for part in parts):
@@ -216,7 +216,7 @@ def _pose(name: str) -> Callable[[State], float]:
 
 
 def _rounded(value: float) -> float:
-    """Remove the rounding error of sines: programs may print the value."""
+    """Remove the rounding error of sines, because programs may print the value."""
     return round(value, 9) + 0.0
 
 
@@ -230,7 +230,7 @@ def _towards(state: State, point: Value) -> float:
 
 
 def turtles_named(state: State, names: Value) -> list[Turtle]:
-    """The turtles that a name or a list of names represents. Raises ``LogoError``."""
+    """Return the turtles that a name or a list of names represents. Raises ``LogoError``."""
     members = names.items if isinstance(names, LogoList) else (names,)
     if not members:
         raise BadInput(names, "a turtle's name, or a list of names")
@@ -299,7 +299,7 @@ def _boolean(value: bool) -> str:
 
 
 def _parts(state: State, value: Value) -> tuple[Value, ...] | str:
-    """The members of a list or the letters of a word. Raises ``BadInput`` if there are none."""
+    """Return the members of a list or the letters of a word. Raises ``BadInput`` if there are none."""
     state.handled(value)
     parts = value.items if isinstance(value, LogoList) else word(value)
     if not parts:

@@ -1,4 +1,4 @@
-"""`robot_state_publisher`: where the links of a robot are, told to tf (http://wiki.ros.org/robot_state_publisher)."""
+"""`robot_state_publisher`: publishes transforms of a robot's links (http://wiki.ros.org/robot_state_publisher)."""
 
 from __future__ import annotations
 

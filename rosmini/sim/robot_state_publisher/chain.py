@@ -1,4 +1,4 @@
-"""A robot's joints as rigid transforms: what `robot_state_publisher` sends. No node in it."""
+"""A robot's joints as rigid transforms, for `robot_state_publisher`. Contains no node."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from rosmini.core.tf.rigid import Rigid, compose, from_rpy, rigid
 from rosmini.sim.urdf import Joint, Robot
 
 Sent = tuple[str, str, Rigid]
-"""Parent, child, and where the child is in it."""
+"""Parent, child, and the child's pose in the parent."""
 
 
 def joint_transform(joint: Joint, position: float = 0.0) -> Rigid:
-    """The child's frame in the parent's with the joint at `position` [rad or m]."""
+    """Return the child's frame in the parent's, with the joint at `position` [rad or m]."""
     origin = _origin(tuple(joint.origin.xyz), tuple(joint.origin.rpy))
     x, y, z = joint.axis
     if joint.type == "prismatic":
@@ -28,15 +28,15 @@ def joint_transform(joint: Joint, position: float = 0.0) -> Rigid:
 
 @lru_cache(maxsize=1024)
 def _origin(xyz: tuple[float, ...], rpy: tuple[float, ...]) -> Rigid:
-    """Where a joint is attached; asked again and again for the same few."""
+    """Return the origin of a joint; cached, because the same few are used repeatedly."""
     return from_rpy(xyz, *rpy)
 
 
 class Chain:
     """The moving and the fixed joints of a robot.
 
-    As in KDL, with which the real node computes, a planar joint is taken as fixed, and nobody but the program that
-    knows where it is can tell of a floating one.
+    As in KDL, which the real node uses, a planar joint is treated as fixed, and only a program that
+    knows the pose of a floating joint can publish it.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -50,10 +50,10 @@ class Chain:
         ]
 
     def transforms(self, positions: Mapping[str, float]) -> list[Sent]:
-        """The transforms of the joints whose positions are known, and of those that mimic one of them.
+        """Return the transforms of the joints with known positions, and of those that mimic one of them.
 
-        A mimic whose own position is given stands there, as in the real node. Names that are no moving joint are passed
-        over.
+        A given position of a mimic joint takes precedence, as in the real node. Names that are not moving joints are
+        ignored.
         """
         known = dict(positions)
         for joint in self._mimics_in_order():
@@ -67,7 +67,7 @@ class Chain:
         ]
 
     def _mimics_in_order(self) -> list[Joint]:
-        """Those that mimic a joint that mimics none first."""
+        """Return the mimic joints in order of dependency."""
         done: list[Joint] = []
         left = list(self.mimics)
         while left:

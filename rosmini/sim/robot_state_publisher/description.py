@@ -1,4 +1,4 @@
-"""The robot that a node finds under `robot_description` on the Parameter Server."""
+"""Reading the robot from `robot_description` on the Parameter Server."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAME = "robot_description"
 
 
 def read_description(node: Node) -> Robot:
-    """The robot of the nearest parameter `robot_description`, looked for in the node's own namespace and then upwards.
+    """Return the robot in the nearest parameter `robot_description`, searched from the node's namespace upwards.
 
     Raises `ParameterNotSet`, and `UrdfError` with the parameter's name and the line.
     """
@@ -25,6 +25,6 @@ def read_description(node: Node) -> Robot:
             f'<param name="{NAME}" command="$(find xacro)/xacro FILE"/> in a launch file, or '
             f'node.set_param("/{NAME}", rosmini.sim.urdf.xacro.expand(FILE))'
         )
-    # As bytes it is never taken for the name of a file.
+    # bytes are never mistaken for a file name
     text = str(node.get_param(found, expect=str)).strip().encode()
     return load(text, meshes=False, path=found)

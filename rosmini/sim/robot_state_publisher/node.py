@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 SECOND_NS = 1_000_000_000
 OLD_NS = 30 * SECOND_NS
-"""How old [ns] joint states may be before there is a warning."""
+"""Maximum age of joint states [ns] without a warning."""
 AHEAD_NS = SECOND_NS // 2
-"""How far ahead [ns] fixed joints on `/tf` are stamped."""
+"""Offset of the stamps of fixed joints on `/tf` into the future [ns]."""
 
 
 @dataclass(frozen=True)
@@ -40,14 +40,14 @@ class RobotStatePublisherParameters(Parameters):
 
 
 class RobotStatePublisher:
-    """Tells tf where the links of the robot in `robot_description` are, as `joint_states` (sensor_msgs/JointState) say.
+    """Publishes transforms of the links of the robot in `robot_description`, from `joint_states`.
 
-    Fixed joints are on `/tf_static`, moving ones on `/tf` with the stamp of the message that told of them; a joint that
-    mimics another follows it. Frames get the `tf_prefix` that is set nearest upwards.
+    Fixed joints are on `/tf_static`, moving ones on `/tf` with the stamp of the joint states; a joint that
+    mimics another follows it. Frames get the nearest `tf_prefix`, searched upwards.
 
     Raises:
         ParameterNotSet: there is no `robot_description`.
-        UrdfError: it is broken.
+        UrdfError: the description is invalid.
 
     """
 
@@ -84,9 +84,9 @@ class RobotStatePublisher:
         return f"<RobotStatePublisher {self.node.name} of {self.robot.name}>"
 
     def show(self, **options: Any) -> Any:
-        """A picture of the robot's links and joints.
+        """Return a picture of the robot's links and joints.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             title=None: a caption under the picture, and the first words of its text form
         """
         return self.robot.show(**options)
@@ -99,7 +99,7 @@ class RobotStatePublisher:
         self._send(self._broadcaster, self.chain.fixed, self.node.clock.now_ns() + AHEAD_NS)
 
     def _heard(self, state: Any) -> None:
-        """Tell of the joints of a message, unless they were told of a moment ago."""
+        """Publish the transforms of a message's joints, unless they were published a moment ago."""
         names, positions = list(state.name), list(state.position)
         if len(names) != len(positions):
             if positions:

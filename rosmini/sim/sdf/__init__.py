@@ -1,4 +1,4 @@
-"""SDF, the format of Gazebo's worlds and models (http://sdformat.org): read as data, and made into flat worlds."""
+"""SDF, the format of Gazebo's worlds and models (http://sdformat.org): reading, and conversion to flat worlds."""
 
 from .convert import converted, to_obstacles, to_walker, to_world
 from .document import (

@@ -1,10 +1,10 @@
-"""Flat worlds from SDF: what is static stands, what is not can be pushed, actors walk, and doors open.
+"""Flat worlds from SDF: static models are fixed, other models can be pushed, actors walk, and doors open.
 
-Collisions count, since bodies touch them and Gazebo's ray sensors see them; visuals give the colours. A static model
-becomes as many obstacles as it has solid parts: `MODEL` if there is one, else `MODEL::COLLISION` (with more than one
-link: `MODEL::LINK::COLLISION`). A model that is not static becomes one obstacle `MODEL` with the mass of its links,
-and the least friction and restitution of its surfaces; its inertia follows from its mass and outline, and its joints
-are held. So every part of a model is called `MODEL`, or begins with `MODEL::`.
+Collisions are used, since bodies touch them and Gazebo's ray sensors see them; visuals provide the colours. A static
+model becomes one obstacle for each solid part: `MODEL` if there is one, else `MODEL::COLLISION` (with more than one
+link: `MODEL::LINK::COLLISION`). A model that is not static becomes one obstacle `MODEL` with the mass of its links
+and the smallest friction and restitution of its surfaces; its inertia follows from its mass and outline, and its joints
+are locked. So the name of every part of a model is `MODEL`, or begins with `MODEL::`.
 """
 
 from __future__ import annotations
@@ -30,31 +30,31 @@ from .poses import compose, placed_links
 from .solids import FLAT, Solid, solids
 
 WALKER = Cylinder(0.2)
-"""What an actor is on the ground [m]: Gazebo gives it no body at all."""
+"""Shape of an actor on the ground [m]; in Gazebo actors have no body."""
 WALKER_HEIGHT = 1.75
 WALKER_COLOUR = "purple"
 
 START = "start"
-"""Robots start at the frames of a world whose names begin with this."""
+"""Prefix of the names of frames at which robots start."""
 
 
 @dataclass(frozen=True)
 class _Piece:
-    """A solid of a collision."""
+    """A solid part of a collision."""
 
     name: str
-    """LINK::COLLISION, with the names of models between."""
+    """LINK::COLLISION, preceded by the names of nested models."""
     solid: Solid
     colour: str
 
 
 def to_world(world: SdfWorld, *, title: str = "") -> World:
-    """The flat world of an SDF world; see `converted` for what was left out. Raises `SdfError`."""
+    """Return the flat world of an SDF world; see `converted` for what was left out. Raises `SdfError`."""
     return converted(world, title=title)[0]
 
 
 def converted(world: SdfWorld, *, title: str = "") -> tuple[World, tuple[Note, ...]]:
-    """The flat world of an SDF world, and notes on what was left out or simplified. Raises `SdfError`."""
+    """Return the flat world of an SDF world, and notes on what was left out or simplified. Raises `SdfError`."""
     notes: list[Note] = []
     obstacles = [each for model in world.models for each in _obstacles(model, model.pose, notes)]
     obstacles += [to_walker(actor) for actor in world.actors]
@@ -74,7 +74,7 @@ def converted(world: SdfWorld, *, title: str = "") -> tuple[World, tuple[Note, .
 
 
 def to_obstacles(model: SdfModel, pose: Pose | Pose6 | None = None) -> tuple[Obstacle, ...]:
-    """The obstacles of a model at `pose` (x, y, heading, or all six numbers), or at its own. Raises `SdfError`."""
+    """Return a model's obstacles at `pose` (x, y, heading, or all six numbers), or at its own. Raises `SdfError`."""
     if pose is None:
         place = model.pose
     elif len(pose) == 3:
@@ -85,7 +85,7 @@ def to_obstacles(model: SdfModel, pose: Pose | Pose6 | None = None) -> tuple[Obs
 
 
 def to_walker(actor: SdfActor) -> Obstacle:
-    """The person of an actor: walks the waypoints at an even speed, and waits where a place is repeated.
+    """Return an actor as a person who walks the waypoints at constant speed, and waits where a position is repeated.
 
     Raises `SdfError`.
     """
@@ -148,7 +148,7 @@ def _obstacles(model: SdfModel, pose: Pose6, notes: list[Note]) -> list[Obstacle
 
 
 def _fixed(model: SdfModel, found: list[_Piece]) -> list[Obstacle]:
-    """An obstacle for each of the pieces."""
+    """Return one obstacle for each piece."""
     short = len({each.name.rpartition("::")[0] for each in found}) == 1
     names = [each.name.rpartition("::")[2] if short else each.name for each in found]
     counts, seen = Counter(names), Counter[str]()
@@ -165,7 +165,7 @@ def _fixed(model: SdfModel, found: list[_Piece]) -> list[Obstacle]:
 
 
 def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]) -> Obstacle:
-    """One obstacle of all the pieces, which are seen from the model."""
+    """Return one obstacle made of all pieces, which are in the frame of the model."""
     solid = [each.solid for each in found]
     shape: Shape = solid[0].shape
     if len(solid) > 1 or solid[0].pose != (0.0, 0.0, 0.0):
@@ -195,7 +195,7 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
 
 
 def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], *, sliced: bool) -> Iterator[_Piece]:
-    """What is solid of a model and the models within it, above the ground, at a pose."""
+    """Yield the solid parts of a model and its nested models, above the ground, at a pose."""
     for name, link, place in placed_links(model, pose):
         for collision in link.collisions:
             try:
@@ -224,7 +224,7 @@ def _joints(model: SdfModel) -> Iterator[SdfJoint]:
 
 
 def _colour(collision: SdfCollision, link: SdfLink) -> str:
-    """That of the visual with the same name, else of one that is just there, else of the first that has one."""
+    """Return the colour of the visual with the same name, or at the same place, or of the first coloured one."""
     coloured = [visual for visual in link.visuals if visual.colour is not None]
     alike = [
         *(each for each in coloured if each.name == collision.name),

@@ -1,9 +1,9 @@
-"""The contents of an SDF file as plain data: worlds, models, links, and what is on them.
+"""The contents of an SDF file as plain data: worlds, models, links, and their parts.
 
 Lengths are in metres, angles in radians, masses in kilograms (http://sdformat.org/spec). Every pose is resolved,
-whatever frame a file gave it in (`relative_to`): a model's is seen from its world (or from the model around it), a
-link's from its model, that of a collision, visual or sensor from its link. `element` holds the raw text of what only
-a plugin or a sensor understands.
+whichever frame the file uses (`relative_to`): a model's is relative to its world (or to the model around it), a
+link's to its model, that of a collision, visual or sensor to its link. `element` contains the raw text of a plugin
+or a sensor.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ GeometryKind = Literal["box", "cylinder", "sphere", "plane", "polyline", "mesh",
 
 @dataclass(frozen=True)
 class Note:
-    """What a reader of a file should know: something was left out, or taken for something simpler."""
+    """A remark for users of a file: something was left out, or replaced with something simpler."""
 
     path: str
     line: int
     text: str
     warning: bool = False
-    """Whether it is a fault of the file, of which Gazebo complains too; else rosmini lacks something."""
+    """True for a fault of the file, of which Gazebo complains too; False if rosmini lacks something."""
     left_out: str = ""
-    """What was left out, in a few words; empty if it was only taken for something else."""
+    """Short description of what was left out; empty if it was replaced."""
 
     def __str__(self) -> str:
         return f"{self.path}:{self.line}: {self.text}"
@@ -40,7 +40,7 @@ class Note:
 
 @dataclass(frozen=True)
 class SdfPlugin:
-    """A plugin tag; what is in it is the plugin's own business."""
+    """A plugin tag; only the plugin interprets its contents."""
 
     name: str
     filename: str
@@ -54,31 +54,31 @@ class SdfPlugin:
 
 @dataclass(frozen=True)
 class SdfGeometry:
-    """A shape around the pose of the collision or visual that it belongs to."""
+    """A shape around the pose of its collision or visual."""
 
     kind: GeometryKind
     size: tuple[float, ...] = ()
     """Of a box: along x, y and z. Of a plane: along x and y."""
     radius: float = 0.0
-    """Of a cylinder or a sphere."""
+    """Radius of a cylinder or a sphere."""
     length: float = 0.0
-    """Of a cylinder along its z, which goes through its middle; of a polyline from its z upwards."""
+    """Length of a cylinder along its z axis, which goes through its centre; height of a polyline from its z upwards."""
     outlines: tuple[tuple[tuple[float, float], ...], ...] = ()
-    """Of a polyline: one or more closed outlines of corners (x, y)."""
+    """For a polyline: one or more closed outlines of corners (x, y)."""
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0)
-    """Of a plane."""
+    """Normal of a plane."""
     mesh: Path | None = None
     """The file of a mesh."""
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    """Of a mesh."""
+    """Scale of a mesh."""
     submesh: str = ""
-    """The one part of a mesh that is meant, if it is not the whole."""
+    """The name of a submesh, if only that part of the mesh is used."""
     line: int = 0
 
 
 @dataclass(frozen=True)
 class SdfCollision:
-    """What is solid: bodies run against it, and a ray sensor sees it."""
+    """A solid part: bodies collide with it, and ray sensors see it."""
 
     name: str
     pose: Pose6
@@ -87,18 +87,18 @@ class SdfCollision:
     """The Coulomb coefficient mu of its surface, if the file gives one."""
     line: int = 0
     restitution: float = 0.0
-    """How much of its speed a body has after a blow, from 0 to 1."""
+    """Coefficient of restitution, from 0 to 1."""
 
 
 @dataclass(frozen=True)
 class SdfVisual:
-    """What is drawn."""
+    """A visible part."""
 
     name: str
     pose: Pose6
     geometry: SdfGeometry
     colour: str | None = None
-    """As #rrggbb, of its diffuse colour or of the Gazebo material it names."""
+    """Its diffuse colour as #rrggbb, or that of the Gazebo material it names."""
     line: int = 0
 
 
@@ -114,14 +114,14 @@ class SdfInertial:
 
 @dataclass(frozen=True)
 class SdfSensor:
-    """A sensor on a link; what its type needs is read from `element`."""
+    """A sensor on a link; its parameters are read from `element`."""
 
     name: str
     type: str
-    """As in the file: ray, gpu_ray, camera, depth, imu, contact..."""
+    """The type in the file: ray, gpu_ray, camera, depth, imu, contact..."""
     pose: Pose6
     update_rate: float
-    """[Hz]; 0: as often as the world is stepped."""
+    """[Hz]; 0: once in each physics step."""
     element: Element
     plugins: tuple[SdfPlugin, ...] = ()
 
@@ -146,7 +146,7 @@ class SdfLink:
 
 @dataclass(frozen=True)
 class SdfJoint:
-    """What holds two links together."""
+    """A joint between two links."""
 
     name: str
     type: str
@@ -154,7 +154,7 @@ class SdfJoint:
     parent: str
     child: str
     pose: Pose6 = ORIGIN
-    """Seen from the child link."""
+    """Relative to the child link."""
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
     element: Element | None = None
     line: int = 0
@@ -162,7 +162,7 @@ class SdfJoint:
 
 @dataclass(frozen=True)
 class SdfModel:
-    """A thing or a robot."""
+    """A model: an object or a robot."""
 
     name: str
     pose: Pose6 = ORIGIN
@@ -171,21 +171,21 @@ class SdfModel:
     joints: tuple[SdfJoint, ...] = ()
     plugins: tuple[SdfPlugin, ...] = ()
     models: tuple[SdfModel, ...] = ()
-    """Models within it; the names of their links begin with theirs and `::` when spoken of from outside."""
+    """Nested models; outside, the names of their links begin with the model's name and `::`."""
     path: str = ""
     line: int = 0
 
 
 @dataclass(frozen=True)
 class SdfActor:
-    """Somebody who walks along a path, whatever is in the way."""
+    """A person who walks along a path, regardless of obstacles."""
 
     name: str
     waypoints: tuple[tuple[float, Pose6], ...] = ()
-    """When [s after it started] it is where, seen from the world; sorted by time."""
+    """Time [s after the start] and pose in the world, sorted by time."""
     loop: bool = True
     delay: float = 0.0
-    """Before it starts, and before each round [s]."""
+    """Delay before the start, and before each round [s]."""
     plugins: tuple[SdfPlugin, ...] = ()
     path: str = ""
     line: int = 0
@@ -193,14 +193,14 @@ class SdfActor:
 
 @dataclass(frozen=True)
 class SdfPhysics:
-    """How a world is stepped."""
+    """The physics settings of a world."""
 
     type: str = "ode"
     max_step_size: float = 0.001
     """[s]"""
     real_time_factor: float = 1.0
     real_time_update_rate: float = 1000.0
-    """[Hz]; 0: as fast as it can."""
+    """[Hz]; 0: as fast as possible."""
     element: Element | None = None
 
 
@@ -216,16 +216,16 @@ class SdfWorld:
     """[m/s2]"""
     plugins: tuple[SdfPlugin, ...] = ()
     frames: tuple[tuple[str, Pose6], ...] = ()
-    """Named places, in the order of the file; robots start at those whose names begin with `start`."""
+    """Named poses, in the order of the file; robots start at those whose names begin with `start`."""
     path: str = ""
     line: int = 0
     warnings: tuple[Note, ...] = ()
-    """What was left out or replaced, because the file is wrong or names what is not there."""
+    """Parts that were left out or replaced, because the file is wrong or names something that does not exist."""
 
 
 @dataclass(frozen=True)
 class Sdf:
-    """A document."""
+    """An SDF document."""
 
     version: str
     worlds: tuple[SdfWorld, ...] = ()

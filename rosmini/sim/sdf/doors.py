@@ -1,4 +1,4 @@
-"""Doors: models with a plugin of ours that opens them. In real Gazebo, which lacks it, they swing freely.
+"""Doors: models with a plugin of rosmini that opens them. In real Gazebo, which lacks it, they swing freely.
 
     <model name="door">
       <link name="leaf">...</link>
@@ -30,7 +30,7 @@ NUMBERS = ("opening", "moving", "open", "closed", "phase")
 
 
 def door_of(model: SdfModel) -> Door | None:
-    """How a model opens and closes if it is a door. Raises `SdfError`."""
+    """Return the motion of a model that is a door, else None. Raises `SdfError`."""
     plugin = next((each for each in model.plugins if each.filename == PLUGIN), None)
     if plugin is None:
         return None

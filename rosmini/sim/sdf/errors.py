@@ -1,4 +1,4 @@
-"""What can be wrong with an SDF file."""
+"""Errors of SDF files."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from rosmini.core.markup import MarkupError
 
 
 class SdfError(MarkupError):
-    """An SDF file cannot be read, or says what makes no world, at ``file``, line ``line``."""
+    """An SDF file cannot be read, or does not describe a valid world, at ``file``, line ``line``."""
 
 
 class MissingError(SdfError):
-    """A model or a mesh that an SDF file names is not there."""
+    """A model or a mesh named in an SDF file does not exist."""

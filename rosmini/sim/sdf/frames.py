@@ -1,4 +1,4 @@
-"""The frames that poses are given in, resolved once, when a file is read.
+"""The frames of poses, resolved once, when a file is read.
 
 http://sdformat.org/tutorials?tut=pose_frame_semantics
 """
@@ -15,7 +15,7 @@ from .document import ORIGIN, Pose6
 from .poses import compose, from_quaternion, inverse
 
 LONGEST_CHAIN = 200
-"""How many frames a chain may have in which the pose of each is relative to the next."""
+"""Maximum length of a chain of frames in which the pose of each is relative to the next."""
 
 
 @dataclass
@@ -24,12 +24,12 @@ class Given:
 
     pose: Pose6 = ORIGIN
     frame: str = ""
-    """The frame it is seen from; empty: the default of its place."""
+    """The frame of the pose; empty: the default of its place."""
     element: Element | None = None
 
 
 def given(parent: Element) -> Given:
-    """The pose of an element: its `<pose>`, or the origin. Raises `SdfError`."""
+    """Return the pose of an element: its `<pose>`, or the origin. Raises `SdfError`."""
     found = parent.find("pose")
     if found is None:
         return Given(element=parent)
@@ -61,11 +61,11 @@ class Scope:
         self._open: list[str] = []
 
     def add(self, name: str, pose: Given) -> None:
-        """A frame that has a pose. The first of a name counts."""
+        """Add a frame with a pose; the first one of a name is used."""
         self._given.setdefault(name, pose)
 
     def put(self, name: str, pose: Pose6) -> None:
-        """A frame of which the place is known."""
+        """Add a frame with a known pose in the root."""
         self._given.setdefault(name, Given(pose))
         self._known.setdefault(name, pose)
 
@@ -73,12 +73,12 @@ class Scope:
         return name in self._given
 
     def place(self, name: str, asked: Element | None = None) -> Pose6:
-        """The pose of a frame, seen from the root. Raises `SdfError` if there is none, or if frames form a circle."""
+        """Return the pose of a frame in the root. Raises `SdfError` if it does not exist, or if frames form a cycle."""
         if name in self._known:
             return self._known[name]
         pose = self._given.get(name)
         if pose is None:
-            assert asked is not None  # noqa: S101 (only files name frames that are not there)
+            assert asked is not None  # noqa: S101 (only files name frames that do not exist)
             hint = nearest(name, self._given) or f"it has {', '.join(sorted(self._given))}"
             raise asked.error(f"there is no frame {name!r} in {self.what}; {hint}")
         if name in self._open:
@@ -98,10 +98,10 @@ class Scope:
         return self._known[name]
 
     def seen(self, pose: Given, default: str = "") -> Pose6:
-        """A given pose, seen from the root; `default` is its frame if it names none. Raises as `place` does."""
+        """Return a given pose in the root; `default` is its frame if it names none. Raises the errors of `place`."""
         frame = pose.frame or default or self.root
         return pose.pose if frame == self.root else compose(self.place(frame, pose.element), pose.pose)
 
     def seen_from(self, here: Pose6, pose: Given) -> Pose6:
-        """A given pose, seen from `here`; it is in that frame if it names none."""
+        """Return a given pose relative to `here`, which is also its frame if it names none."""
         return compose(inverse(here), self.seen(pose)) if pose.frame else pose.pose

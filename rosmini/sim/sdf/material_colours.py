@@ -15,11 +15,11 @@ GAZEBO: Mapping[str, str] = MappingProxyType(
         "Blue": "#0000ff", "SkyBlue": "#2170b3", "Yellow": "#ffff00", "ZincYellow": "#f8f335", "DarkYellow": "#b3b300",
         "Purple": "#ff00ff",
         "Turquoise": "#00ffff", "Orange": "#ff820c", "Indigo": "#540080", "Gold": "#cca51f",
-        # What shines, shines in its colour.
+        # Glowing materials, in their colour.
         "WhiteGlow": "#ffffff", "RedGlow": "#ff0000", "GreenGlow": "#00ff00", "BlueGlow": "#0000ff",
         "YellowGlow": "#ffff00",
         "PurpleGlow": "#ff00ff", "TurquoiseGlow": "#00ffff",
-        # Images: about the colour that they have from afar.
+        # Images: about their average colour.
         "Wood": "#a9784a", "WoodFloor": "#b98a5a", "WoodPallet": "#b9935f", "CeilingTiled": "#d9d7d0",
         "PaintedWall": "#cfc9bd",
         "Bricks": "#9c5a45", "CloudySky": "#9fb4c8", "Grass": "#5f8a3f", "Road": "#5a5a5a", "Residential": "#b0a596",
@@ -34,13 +34,13 @@ HOUSE: Mapping[str, str] = MappingProxyType(
         "#00865f": "green", "#d55e00": "vermilion", "#b85c93": "purple", "#3a9bd9": "sky",
     }
 )  # fmt: skip
-"""The colours of the house style: in a file they mean the colour of that name, which dark pages change."""
+"""The colours of the house style: in a file they mean the named colour, which dark pages change."""
 
 
 def colour_of(material: Element | None) -> str | None:
-    """The colour of a `<material>` as #rrggbb: its diffuse one, or that of its script; None if neither is known.
+    """Return the colour of a `<material>` as #rrggbb: its diffuse colour, or its script's; None if neither is known.
 
-    As in Gazebo, what the file itself says counts more than the script. Raises `SdfError` for what is no colour.
+    As in Gazebo, colours in the file take precedence over the script. Raises `SdfError` for an invalid colour.
     """
     if material is None:
         return None

@@ -1,4 +1,4 @@
-"""Reads what a model is made of: links, shapes, joints, sensors, plugins."""
+"""Reads the parts of a model: links, shapes, joints, sensors, plugins."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ from .material_colours import colour_of
 from .resources import Resources
 
 MOST_INCLUDED = 200_000
-"""How many XML elements the includes of a file may read, those of one file as often as it is included."""
+"""Maximum number of XML elements in the includes of a file; a file counts each time it is included."""
 
 OF_AN_INCLUDE = 20
-"""The cost of an include, in elements, in addition to those of its file."""
+"""Cost of an include, in elements, in addition to those of its file."""
 
 MOST_POINTS = 2_000
-"""How many corners a polyline may have."""
+"""Maximum number of corners of a polyline."""
 
 
 @dataclass
 class Reading:
-    """What goes along while a document is read."""
+    """The state of reading a document."""
 
     resources: Resources
     notes: list[Note] = field(default_factory=list)
@@ -49,13 +49,13 @@ class Reading:
     hint: Hints = field(default_factory=Hints)
 
     def note(self, element: Element, text: str, *, warning: bool = False, left_out: str = "") -> None:
-        """Note what was left out, or read otherwise; the same thing of the same line once."""
+        """Note that something was left out or read differently; the same note about the same line is added once."""
         note = Note(element.path, element.line, text, warning, left_out)
         if note not in self.notes[-50:]:
             self.notes.append(note)
 
     def include(self, element: Element, file: Path) -> Element:
-        """The root of an included file, which is counted first. Raises `SdfError` at `element` for too much."""
+        """Return the root of an included file, and count it. Raises `SdfError` at `element` if there are too many."""
         root, size = self.resources.parsed(file)
         self.included += OF_AN_INCLUDE + size
         if self.included > MOST_INCLUDED:
@@ -63,7 +63,7 @@ class Reading:
         return root
 
     def unknown(self, element: Element, known: tuple[str, ...]) -> None:
-        """Note each child that SDF does not have there. Those with a prefix (`other:tag`) are somebody's own."""
+        """Note each child that SDF does not define there, except those with a prefix (`other:tag`)."""
         for child in element:
             if child.tag not in known and ":" not in child.tag:
                 hint = self.hint(child.tag, known)
@@ -75,24 +75,24 @@ class Reading:
 
 
 def name_of(element: Element) -> str:
-    """The name that an element must have. Raises `SdfError`."""
+    """Return the required name of an element. Raises `SdfError`."""
     return element.attribute("name")
 
 
 def flag(element: Element, way: str, *, default: bool) -> bool:
-    """A child that says true or false. Raises `SdfError`."""
+    """Return the value of a true-or-false child. Raises `SdfError`."""
     found = element.find(way)
     return default if found is None or not found.text else found.flag(found.text)
 
 
 def number(element: Element, way: str, default: float, *, most: float = math.inf) -> float:
-    """A child that is a number. Raises `SdfError`."""
+    """Return the value of a numeric child. Raises `SdfError`."""
     found = element.find(way)
     return default if found is None or not found.text else found.floats(found.text, 1, most=most)[0]
 
 
 def unique(elements: list[Element], what: str) -> list[Element]:
-    """The same elements. Raises `SdfError` if two have one name."""
+    """Return the same elements. Raises `SdfError` if two have the same name."""
     seen: dict[str, Element] = {}
     for each in elements:
         name = name_of(each)
@@ -105,7 +105,7 @@ def unique(elements: list[Element], what: str) -> list[Element]:
 
 
 def plugins(element: Element) -> tuple[SdfPlugin, ...]:
-    """The plugins of an element, in order. Raises `SdfError` if one has no filename."""
+    """Return the plugins of an element, in order. Raises `SdfError` if one has no filename."""
     return tuple(SdfPlugin(tag.get("name"), tag.attribute("filename"), tag) for tag in element.all("plugin"))
 
 
@@ -117,7 +117,7 @@ LINK_TAGS = (
 
 
 def link(element: Element, scope: Scope, reading: Reading) -> SdfLink:
-    """A link. Raises `SdfError`."""
+    """Return a link. Raises `SdfError`."""
     here = scope.place(name_of(element), element)
     reading.unknown(element, LINK_TAGS)
     for light in element.all("light"):
@@ -136,11 +136,11 @@ def link(element: Element, scope: Scope, reading: Reading) -> SdfLink:
 
 
 def joint(element: Element, scope: Scope) -> SdfJoint:
-    """A joint. Raises `SdfError` for one between links that are not there."""
+    """Return a joint. Raises `SdfError` if one of its links does not exist."""
     parent, child = _end(element.need("parent")), _end(element.need("child"))
     for tag, name in (("parent", parent), ("child", child)):
         if name not in scope and name != "world":
-            element.need(tag)  # the error is said where the name stands
+            element.need(tag)  # reports the error at the name's line
             scope.place(name, element.need(tag))
     axis = element.find("axis/xyz")
     xyz = axis.floats(axis.text, 3, most=FARTHEST) if axis is not None else (0.0, 0.0, 1.0)
@@ -205,7 +205,7 @@ def _collision(element: Element, scope: Scope, here: Pose6, reading: Reading) ->
 
 
 def _solid(element: Element, reading: Reading) -> SdfGeometry:
-    """The shape of a collision. A mesh that cannot be read is left out."""
+    """Return the shape of a collision. A mesh that cannot be read is left out."""
     found = geometry(element, reading)
     if found.mesh is None:
         return found
@@ -228,7 +228,7 @@ def _visual(element: Element, scope: Scope, here: Pose6, reading: Reading) -> Sd
 
 
 def sensor(element: Element, scope: Scope, here: Pose6) -> SdfSensor:
-    """A sensor on a link that is `here`. Raises `SdfError`."""
+    """Return a sensor on a link at `here`. Raises `SdfError`."""
     rate = number(element, "update_rate", 0.0)
     if rate < 0:
         raise element.need("update_rate").error(f"a rate is 0 (always) or more, not {rate:g}")
@@ -243,7 +243,7 @@ OTHER = ("heightmap", "image", "capsule", "ellipsoid")
 
 
 def geometry(element: Element, reading: Reading) -> SdfGeometry:
-    """A shape. Raises `SdfError` for one that cannot be; one that rosmini does not know is noted."""
+    """Return a shape. Raises `SdfError` for an impossible one; one that rosmini lacks is noted."""
     shapes = [child for child in element if child.tag in KINDS]
     if not shapes:
         others = [child for child in element if ":" not in child.tag]
@@ -266,11 +266,11 @@ def geometry(element: Element, reading: Reading) -> SdfGeometry:
 
 
 THINNEST = 1e-4
-"""What Gazebo takes a size of 0 for [m]."""
+"""Replacement for a size of 0, as in Gazebo [m]."""
 
 
 def _sizes(element: Element, tag: str, reading: Reading, count: int = 1) -> tuple[float, ...]:
-    """Sizes of a shape. Raises `SdfError` if one is negative; 0 is taken for a very small one, as in Gazebo."""
+    """Return sizes of a shape. Raises `SdfError` for a negative one; 0 becomes a very small size, as in Gazebo."""
     child = element.need(tag)
     values = child.floats(child.text, count, most=FARTHEST)
     if min(values) < 0:

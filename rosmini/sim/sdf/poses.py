@@ -17,7 +17,7 @@ Matrix = NDArray[np.float64]
 
 
 def matrix(pose: Pose6) -> Matrix:
-    """The matrix (4, 4) that takes what is seen from a pose into the frame that the pose is seen from."""
+    """Return the matrix (4, 4) that transforms points from the frame at a pose to the frame of the pose."""
     x, y, z, roll, pitch, yaw = pose
     cr, sr, cp, sp, cy, sy = (f(angle) for angle in (roll, pitch, yaw) for f in (math.cos, math.sin))
     return np.array(
@@ -31,7 +31,7 @@ def matrix(pose: Pose6) -> Matrix:
 
 
 def pose6(transform: Matrix) -> Pose6:
-    """The pose of a matrix (4, 4). Where it looks straight up or down, roll is 0 and yaw takes the whole turn."""
+    """Return the pose of a matrix (4, 4). If x points straight up or down, roll is 0 and yaw is the whole rotation."""
     x, y, z = transform[:3, 3]
     flat = math.hypot(transform[0, 0], transform[1, 0])
     pitch = math.atan2(-transform[2, 0], flat)
@@ -44,7 +44,7 @@ def pose6(transform: Matrix) -> Pose6:
 
 
 def compose(first: Pose6, second: Pose6) -> Pose6:
-    """The pose `second`, given in `first`, in the frame of `first`; exact where one of the two is the origin."""
+    """Return the pose `second`, given in `first`, in the frame of `first`; exact if one of the two is the origin."""
     if first == ORIGIN:
         return second
     if second == ORIGIN:
@@ -57,7 +57,7 @@ def compose(first: Pose6, second: Pose6) -> Pose6:
 
 
 def inverse(pose: Pose6) -> Pose6:
-    """Where the frame that a pose is seen from is, seen from the pose."""
+    """Return the inverse of a pose."""
     if pose == ORIGIN:
         return pose
     turn = matrix(pose)[:3, :3].T
@@ -70,7 +70,7 @@ def inverse(pose: Pose6) -> Pose6:
 def placed_links(
     model: SdfModel, pose: Pose6 = ORIGIN, inside: str = ""
 ) -> Iterator[tuple[str, SdfLink, Pose6]]:
-    """The links of a model, and of the models within it, each with its name, and its pose if the model is at `pose`."""
+    """Yield each link of a model and its nested models: its name, the link, and its pose with the model at `pose`."""
     for link in model.links:
         yield inside + link.name, link, compose(pose, link.pose)
     for each in model.models:
@@ -78,19 +78,19 @@ def placed_links(
 
 
 def upright(pose: Pose6, tolerance: float = 1e-6) -> bool:
-    """Return whether the z axis of a pose points straight up."""
+    """Return True if the z axis of a pose points straight up."""
     return (
         math.cos(pose[3]) * math.cos(pose[4]) >= 1 - tolerance**2 / 2 and abs(math.sin(pose[4])) <= tolerance
     )
 
 
 def quaternion(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
-    """x, y, z and w of a rotation by yaw after pitch after roll about fixed axes."""
+    """Return x, y, z and w of a rotation by yaw after pitch after roll about fixed axes."""
     return from_rpy((0.0, 0.0, 0.0), roll, pitch, yaw)[3:]
 
 
 def from_quaternion(x: float, y: float, z: float, w: float) -> tuple[float, float, float]:
-    """Roll, pitch and yaw of a quaternion, which need not have the length 1 but must have one."""
+    """Return roll, pitch and yaw of a quaternion, which need not be normalised but must not be zero."""
     length = math.sqrt(x * x + y * y + z * z + w * w)
     x, y, z, w = x / length, y / length, z / length, w / length
     turn = np.eye(4)

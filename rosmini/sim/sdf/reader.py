@@ -1,4 +1,4 @@
-"""Reads SDF: worlds, models and actors, with what they include."""
+"""Reads SDF: worlds, models and actors, with their includes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .poses import compose, inverse
 from .resources import Resources, read_file
 
 DEEPEST = 20
-"""The deepest nesting of models."""
+"""Maximum nesting of models."""
 
 MODEL_TAGS = (
     "static", "self_collide", "allow_auto_disable", "include", "model", "enable_wind", "frame", "pose", "link", "joint",
@@ -30,11 +30,11 @@ WORLD_TAGS = (
 
 
 def load(source: str | os.PathLike[str], *, models: Iterable[str | os.PathLike[str]] = ()) -> Sdf:
-    """The worlds, models and actors of an SDF file: a path, a `package://` address, or a text that begins with `<`.
+    """Return worlds, models and actors of an SDF file: a path, a `package://` address, or a text that begins with `<`.
 
-    `models` are folders in which `model://` addresses are looked up first; then come GAZEBO_MODEL_PATH,
-    `~/.gazebo/models`, rosmini's own models and those that ROS packages export. What Gazebo would use and this leaves
-    out is in `notes`. Raises `SdfError`, which names file and line.
+    `models` are folders in which `model://` addresses are looked up first; after them GAZEBO_MODEL_PATH,
+    `~/.gazebo/models`, rosmini's own models and those exported by ROS packages. `notes` lists what Gazebo would use and
+    this reader leaves out. Raises `SdfError`, with file and line.
     """
     reading = Reading(Resources(models))
     if isinstance(source, str) and source.lstrip().startswith("<"):
@@ -109,7 +109,7 @@ def _world(element: Element, reading: Reading) -> SdfWorld:
 
 
 def _sorted(things: list[SdfModel | SdfActor], element: Element) -> list[SdfModel | SdfActor]:
-    """Models and actors in the order in which a file has them. Raises `SdfError` if two have one name."""
+    """Return models and actors in the order of the file. Raises `SdfError` if two have the same name."""
     order = {child.line: i for i, child in reversed(list(enumerate(element)))}
     things.sort(key=lambda thing: order.get(thing.line, len(order)))
     seen: dict[str, SdfModel | SdfActor] = {}
@@ -125,7 +125,7 @@ def _sorted(things: list[SdfModel | SdfActor], element: Element) -> list[SdfMode
 
 
 def _frames(element: Element, scope: Scope, included: list[tuple[str, Element]]) -> None:
-    """Put what has a pose into a scope: models, includes and frames."""
+    """Add models, includes and frames with their poses to a scope."""
     for each in element.all("model"):
         scope.add(name_of(each), given(each))
     for name, each in included:
@@ -160,7 +160,7 @@ def _gravity(element: Element) -> tuple[float, float, float]:
 
 
 def _state(element: Element, things: list[SdfModel | SdfActor]) -> list[SdfModel | SdfActor]:
-    """Put models where the `<state>` of a saved world says that they were."""
+    """Move models to their poses in the `<state>` of a saved world."""
     places = {
         name_of(each): given(each).pose
         for state in element.all("state")
@@ -177,7 +177,7 @@ def _state(element: Element, things: list[SdfModel | SdfActor]) -> list[SdfModel
 
 
 def _model(element: Element, pose: Pose6, reading: Reading, depth: int) -> SdfModel:
-    """A model at a pose that is resolved already."""
+    """Return a model at a pose that is already resolved."""
     if depth > DEEPEST:
         raise element.error(
             f"models stand inside one another deeper than {DEEPEST}: does one include itself?"
@@ -222,7 +222,7 @@ def _model(element: Element, pose: Pose6, reading: Reading, depth: int) -> SdfMo
 
 
 def _inside(model: SdfModel) -> list[tuple[str, Pose6]]:
-    """The links of a model and of those within it, by name, with their places seen from it."""
+    """Return the links of a model and of its nested models, by name, with their poses in it."""
     found = [(each.name, each.pose) for each in model.links]
     for inner in model.models:
         found.append((inner.name, inner.pose))
@@ -231,7 +231,7 @@ def _inside(model: SdfModel) -> list[tuple[str, Pose6]]:
 
 
 def _included(element: Element, reading: Reading, depth: int) -> list[tuple[Element, Element]]:
-    """Each `<include>` with the model or actor it names. What is not there is left out, as in Gazebo."""
+    """Return each `<include>` with the model or actor it names. Missing ones are left out, as in Gazebo."""
     found = []
     for each in element.all("include"):
         try:
@@ -244,7 +244,7 @@ def _included(element: Element, reading: Reading, depth: int) -> list[tuple[Elem
 
 
 def _inner(element: Element, reading: Reading, depth: int) -> Element:
-    """The model or actor in the file that an `<include>` names."""
+    """Return the model or actor in the file that an `<include>` names."""
     uri = element.need("uri")
     if depth > DEEPEST:
         raise uri.error(
@@ -265,7 +265,7 @@ def _include_name(element: Element, inner: Element) -> str:
 
 
 def _include(element: Element, inner: Element, pose: Pose6, reading: Reading, depth: int) -> SdfModel:
-    """A model from another file: the `<include>` may rename it, move it, fix it, and give it plugins."""
+    """Return a model from another file: the `<include>` may rename it, move it, fix it, and add plugins."""
     if inner.tag != "model":
         raise element.error(f"a <{inner.tag}> cannot stand in a model")
     if element.find("pose") is None:

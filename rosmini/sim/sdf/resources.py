@@ -1,7 +1,7 @@
-"""Where models and meshes are: `model://`, `file://` and `package://` addresses, and paths.
+"""Locations of models and meshes: `model://`, `file://` and `package://` addresses, and paths.
 
-Models are looked for as Gazebo does: in the folders of GAZEBO_MODEL_PATH, in `~/.gazebo/models`, and in the folders
-that ROS packages export as `gazebo_model_path`; and among rosmini's own models. Nothing is downloaded.
+Models are searched for as in Gazebo: in the folders of GAZEBO_MODEL_PATH, in `~/.gazebo/models`, and in the folders
+that ROS packages export as `gazebo_model_path`; also among rosmini's own models. Nothing is downloaded.
 (http://classic.gazebosim.org/tutorials?tut=components)
 """
 
@@ -24,12 +24,12 @@ RESOURCE_PATH = "GAZEBO_RESOURCE_PATH"
 
 
 def read_file(path: str | os.PathLike[str]) -> Element:
-    """The root of an XML file, which TinyXML would read. Raises `SdfError`."""
+    """Return the root of an XML file, as lenient as TinyXML. Raises `SdfError`."""
     return parse_file(path, SdfError, late_declaration=True)
 
 
 class Resources:
-    """Finds what addresses in SDF files mean; `folders` are looked through first."""
+    """Resolves addresses in SDF files; `folders` are searched first."""
 
     def __init__(self, folders: Iterable[str | os.PathLike[str]] = ()) -> None:
         self.folders = [Path(folder) for folder in folders]
@@ -39,7 +39,7 @@ class Resources:
 
     @cached_property
     def model_folders(self) -> list[Path]:
-        """Where models are looked for, in this order; what packages export comes last."""
+        """The folders that are searched for models, in order; those exported by packages come last."""
         return [
             *self.folders,
             *_listed(MODEL_PATH),
@@ -48,7 +48,7 @@ class Resources:
         ]
 
     def model_file(self, uri: str, asked: Element) -> Path:
-        """The SDF file of the model at an address. Raises `MissingError` at `asked`, with what was searched."""
+        """Return the SDF file of the model at an address. Raises `MissingError` at `asked`, with searched folders."""
         key = (uri, asked.path)
         if key not in self._files:
             place = self.find(uri, asked)
@@ -56,14 +56,14 @@ class Resources:
         return self._files[key]
 
     def parsed(self, path: Path) -> tuple[Element, int]:
-        """The root of an SDF file, which is read once, and how many elements it has. Raises `SdfError`."""
+        """Return the root of an SDF file, which is read once, and its number of elements. Raises `SdfError`."""
         if path not in self._parsed:
             root = read_file(path)
             self._parsed[path] = root, sum(1 for _ in root.walk())
         return self._parsed[path]
 
     def find(self, uri: str, asked: Element) -> Path:
-        """The file or folder at an address. Raises `MissingError` at `asked` for a missing one, else `SdfError`."""
+        """Return the file or folder at an address. Raises `MissingError` at `asked` if missing, else `SdfError`."""
         if not uri.strip():
             raise asked.error(
                 f"<{asked.tag}> is empty; an address is model://NAME, package://PACKAGE/PATH, file://PATH or a path"
@@ -73,7 +73,7 @@ class Resources:
             return _there(_beside(asked) / uri.strip(), uri, asked)
         if (
             scheme in ("http", "https") and "/models/" in rest
-        ):  # of Gazebo's model server; its ground and sun are here
+        ):  # on Gazebo's model server; its ground and sun are here
             name = rest.partition("/models/")[2].replace("%20", " ").replace(" ", "_").lower()
             here = assets_dir() / "ros" / "turtlebot3_gazebo" / "models" / name
             if name and here.is_dir():
@@ -122,7 +122,7 @@ class Resources:
 
     @cached_property
     def _exported(self) -> list[Path]:
-        """What packages export for Gazebo (`<export><gazebo_ros gazebo_model_path="${prefix}/models"/></export>`)."""
+        """Folders that packages export (`<export><gazebo_ros gazebo_model_path="${prefix}/models"/></export>`)."""
         found = []
         for package in self._packages.names():
             folder = self._packages.path(package)
@@ -130,7 +130,7 @@ class Resources:
                 if b"gazebo_model_path" not in files.read(folder / "package.xml"):
                     continue
                 manifest = parse_file(folder / "package.xml", SdfError)
-            except (OSError, SdfError):  # what is wrong with a package is no business of a world
+            except (OSError, SdfError):  # a faulty package does not concern a world
                 continue
             for tag in manifest.walk():
                 paths = tag.get("gazebo_model_path").split(":")  # a manifest is the same on all systems
@@ -158,7 +158,7 @@ def _there(path: Path, uri: str, asked: Element) -> Path:
 
 
 def _described(folder: Path, asked: Element) -> Path:
-    """The SDF file that the `model.config` of a model's folder names: the one of the newest version."""
+    """Return the SDF file of the newest version named in a model folder's `model.config`."""
     config = folder / "model.config"
     if not config.is_file():
         if (folder / "model.sdf").is_file():
