@@ -269,7 +269,7 @@ class Host:
         ahead = time_ns - self._time_ns
         return self._clock_ns + (ahead if self._speed == 1 else -int(-ahead // self._speed))
 
-    # -- what happens --------------------------------------------------------------------------------------------
+    # -- devices and events --------------------------------------------------------------------------------------
 
     def add(self, device: D) -> D:
         """Add a device; it is first due at the next instant of its rate.

@@ -1,4 +1,4 @@
-"""Shapes of things, seen from above: boxes, cylinders, spheres, polygons, and compounds of them.
+"""Shapes of objects, seen from above: boxes, cylinders, spheres, polygons, and compounds of them.
 
 Lengths in metres, angles in radians.
 """
@@ -22,23 +22,23 @@ Colour = str
 """One of `COLOURS`, or any "#rrggbb"."""
 
 COLOURS = ("wall", "grey", "blue", "orange", "green", "vermilion", "purple", "sky")
-"""The colours by name: those of the house style, which have a light and a dark form."""
+"""The named colours of the house style, which have a light and a dark form."""
 
 
 class WorldError(RosminiError, ValueError):
-    """A world, or a place in it, is not possible; the message names the obstacle, wall or field at fault."""
+    """A world, or a position in it, is invalid; the message names the obstacle, wall or field."""
 
 
 @dataclass(frozen=True)
 class Box:
-    """A rectangle around its pose, `length` along its x and `width` along its y [m]."""
+    """A rectangle around its pose, `length` along x and `width` along y [m]."""
 
     length: float
     width: float
 
     @property
     def outline(self) -> NDArray[np.float64]:
-        """The corners (4, 2), counter-clockwise, in the shape's own frame."""
+        """The corners (4, 2), counter-clockwise, in the shape's frame."""
         x, y = self.length / 2, self.width / 2
         return np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
 
@@ -52,19 +52,19 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Sphere:
-    """A ball on the `bottom`, twice its radius [m] high: a laser sees its circle at the laser's height."""
+    """A ball on the `bottom`, with twice its radius [m] as height: a laser sees its circle at the laser's height."""
 
     radius: float
 
     def cut(self, height: float) -> float:
-        """The radius of the circle at so much [m] above its lowest point; 0 above and below the ball."""
+        """Return the radius of the circle at this height [m] above its lowest point; 0 above and below the ball."""
         up = height - self.radius
         return math.sqrt(max(0.0, self.radius * self.radius - up * up))
 
 
 @dataclass(frozen=True)
 class Polygon:
-    """A simple polygon, its corners counter-clockwise in the shape's own frame [m]."""
+    """A simple polygon, its corners counter-clockwise in the shape's frame [m]."""
 
     corners: tuple[tuple[float, float], ...]
 
@@ -78,13 +78,13 @@ class Polygon:
 
     @property
     def outline(self) -> NDArray[np.float64]:
-        """The corners (n, 2), counter-clockwise, in the shape's own frame."""
+        """The corners (n, 2), counter-clockwise, in the shape's frame."""
         return np.array(self.corners, dtype=float)
 
 
 @dataclass(frozen=True)
 class Compound:
-    """Several shapes, each at a pose in the frame of the whole, that are one thing; they may overlap."""
+    """One object made of several shapes, each at a pose in the frame of the whole; they may overlap."""
 
     parts: tuple[tuple[Box | Cylinder | Sphere | Polygon | Compound, Pose], ...]
 
@@ -100,21 +100,21 @@ class Compound:
 
 @dataclass(frozen=True)
 class Part:
-    """A solid part of something: a shape that stands upright from `bottom` to `top`.
+    """A solid part of an object: an upright shape from `bottom` to `top`.
 
-    Raises `WorldError`, which names the number at fault.
+    Raises `WorldError`, which contains the name of the invalid number.
     """
 
     shape: Shape
     pose: Pose
     """In the frame of the whole, or in the world."""
     bottom: float
-    """How high above the ground it begins [m]."""
+    """Height of its lower end above the ground [m]."""
     top: float
-    """How high above the ground it ends [m]."""
+    """Height of its upper end above the ground [m]."""
     colour: Colour = "grey"
     name: str = ""
-    """Whose part it is: a robot's or an obstacle's name."""
+    """The name of its owner: a robot or an obstacle."""
 
     def __post_init__(self) -> None:
         problem = shape_problem(self.shape) or pose_problem("pose", self.pose) or colour_problem(self.colour)
@@ -126,16 +126,16 @@ class Part:
 
 
 Simple = Box | Cylinder | Sphere | Polygon
-"""The shapes that have no parts."""
+"""The shapes without parts."""
 
 Shape = Simple | Compound
 
 ROUND = (Cylinder, Sphere)
-"""The shapes that are a disc, seen from above."""
+"""The shapes that are discs when seen from above."""
 
 
 def simple_parts(shape: Shape, pose: Pose = (0.0, 0.0, 0.0)) -> Iterator[tuple[Simple, Pose]]:
-    """The simple shapes of a shape at `pose`, each with its pose in the frame that `pose` is given in."""
+    """Yield the simple shapes of a shape at `pose`, each with its pose in the frame of `pose`."""
     if isinstance(shape, Compound):
         for part, place in shape.parts:
             yield from simple_parts(part, compose(pose, place))
@@ -144,7 +144,7 @@ def simple_parts(shape: Shape, pose: Pose = (0.0, 0.0, 0.0)) -> Iterator[tuple[S
 
 
 def outline_at(shape: Box | Polygon, pose: Pose) -> NDArray[np.float64]:
-    """The corners (n, 2), counter-clockwise, of a box or a polygon at `pose`."""
+    """Return the corners (n, 2), counter-clockwise, of a box or a polygon at `pose`."""
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
     turned = matrix_product(shape.outline, [[c, s], [-s, c]])
@@ -153,7 +153,7 @@ def outline_at(shape: Box | Polygon, pose: Pose) -> NDArray[np.float64]:
 
 
 def reach_of(shape: Shape) -> float:
-    """How far [m] the farthest point of a shape is from its origin."""
+    """Return the distance of a shape's farthest point from its origin [m]."""
     reach = 0.0
     for part, pose in simple_parts(shape):
         if isinstance(part, ROUND):
@@ -163,30 +163,30 @@ def reach_of(shape: Shape) -> float:
     return reach
 
 
-# ---- what is possible: each returns what is wrong, in words, or "" ----
+# ---- validation: each function returns a description of the problem, or "" ----
 
 
 def is_finite(value: object) -> bool:
-    """Tell whether it is a number, and finite."""
+    """Return True if the value is a finite number."""
     return isinstance(value, (int, float, np.number)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def positive_problem(field_name: str, value: object) -> str:
-    """Say why a value is no finite number above 0."""
+    """Describe why a value is not a finite number above 0."""
     if not is_finite(value):
         return f"{field_name} is {value!r}; it has to be a finite number"
     return "" if float(value) > 0 else f"{field_name} is {value!r}; it has to be more than 0"  # type: ignore[arg-type]
 
 
 def pose_problem(field_name: str, pose: object) -> str:
-    """Say why a value is no pose."""
+    """Describe why a value is not a pose."""
     if isinstance(pose, (tuple, list, np.ndarray)) and len(pose) == 3 and all(map(is_finite, pose)):
         return ""
     return f"{field_name} is {pose!r}; it has to be finite x, y and heading"
 
 
 def colour_problem(colour: object) -> str:
-    """Say why a value is no colour."""
+    """Describe why a value is not a colour."""
     if colour in COLOURS:
         return ""
     text = str(colour)
@@ -199,12 +199,12 @@ def colour_problem(colour: object) -> str:
 
 
 def shape_problem(shape: object) -> str:
-    """Say why a value is no shape that there can be."""
+    """Describe why a value is not a valid shape."""
     if not isinstance(shape, Shape):
         return f"shape is {shape!r}; it has to be a Box, a Cylinder, a Sphere, a Polygon or a Compound"
     try:
         return _size_problem(shape)
-    except TypeError:  # what has no hash is no number
+    except TypeError:  # an unhashable value is not a number
         return f"shape is {shape!r}; its sizes have to be finite numbers"
 
 

@@ -1,4 +1,4 @@
-"""What the simulator, Stage and Gazebo's server have in common: a world with robots, whose time passes in a graph.
+"""Common base of the simulator, Stage and Gazebo's server: a world with robots, whose time passes in a graph.
 
 Every method may be called from the main program, a callback, a script or another thread.
 """
@@ -28,13 +28,13 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class SimulationState:
-    """What `Simulation.save` returns: all that a simulation goes on from. It can be pickled."""
+    """The result of `Simulation.save`: everything needed to continue a simulation. It can be pickled."""
 
     program: str
     world: str
     host: HostState
     own: Any
-    """What this kind of simulation adds: the robots of a simulator, the models of Gazebo."""
+    """State of the kind of simulation: the robots of a simulator, the models of Gazebo."""
 
 
 class Simulation(ABC):
@@ -47,12 +47,12 @@ class Simulation(ABC):
     """
 
     program: ClassVar[str]
-    """The package and the executable, as rosrun takes them."""
+    """The package and the executable, as in rosrun's arguments."""
 
     def __init__(self, node: Node, host: Host) -> None:
         self.node = node
         self.host = host
-        """The world's time, and all devices in it."""
+        """The world's time, and its devices."""
         self._ended = False
         node.on_shutdown(self._end)
 
@@ -62,12 +62,12 @@ class Simulation(ABC):
         return self.host.engine
 
     def _end(self) -> None:
-        """Stop time for good."""
+        """Stop time permanently."""
         self._ended = True
         self.host.end()
 
     def _do(self, action: Callable[[], T]) -> T:
-        """Do something to the world, in the graph's thread. Raises `RobotGone` when the simulation has ended."""
+        """Perform an action on the world in the graph's thread. Raises `RobotGone` after the simulation has ended."""
 
         def act() -> T:
             self._check_running()
@@ -84,12 +84,12 @@ class Simulation(ABC):
             )
 
     def _subject(self) -> str:
-        """What is said to be gone after the end."""
+        """Return the subject of the error message after the end."""
         return "the robot"
 
     @abstractmethod
     def _entity(self, name: str) -> str:
-        """Return the engine's name of a robot or a thing; "" means the first robot. Raises as `truth` does."""
+        """Return the engine's name of a robot or obstacle; "" means the first robot. Raises the errors of `truth`."""
 
     # -- time ----------------------------------------------------------------------------------------------------
 
@@ -100,12 +100,12 @@ class Simulation(ABC):
 
     @property
     def paused(self) -> bool:
-        """Whether time stands still."""
+        """True if time is paused."""
         return self.host.paused
 
     @property
     def speed(self) -> float:
-        """How many seconds of the world pass in one second of the graph."""
+        """Seconds of the world's time per second of the graph's."""
         return self.host.speed
 
     @speed.setter
@@ -116,15 +116,15 @@ class Simulation(ABC):
         self.host.speed = speed
 
     def pause(self) -> None:
-        """Stop the world's time. Harmless when repeated."""
+        """Pause the world's time; harmless when repeated."""
         self._do(self.host.pause)
 
     def unpause(self) -> None:
-        """Let the world's time go on. Harmless when repeated."""
+        """Resume the world's time; harmless when repeated."""
         self._do(self.host.unpause)
 
     def step(self, seconds: float) -> None:
-        """Let so much of the world's time pass at once, and pause. Raises `RosminiError` for what is no duration."""
+        """Advance the world's time by `seconds` at once, and pause. Raises `RosminiError` for an invalid duration."""
         self._do(lambda: self._step(seconds))
 
     def _step(self, seconds: float) -> None:
@@ -132,7 +132,7 @@ class Simulation(ABC):
         self.host.step(seconds)
 
     def reset(self) -> None:
-        """Put all robots and everything movable back to where it started; time goes on."""
+        """Return all robots and movable obstacles to their initial poses; time continues."""
         self._do(self._reset)
 
     def _reset(self) -> None:
@@ -141,7 +141,7 @@ class Simulation(ABC):
     # -- robots and things ---------------------------------------------------------------------------------------
 
     def truth(self, name: str = "") -> Pose:
-        """Where a robot or a thing really is: x [m], y [m], heading [rad, not wrapped], in the world's frame.
+        """Return the true pose of a robot or obstacle: x [m], y [m], heading [rad, not wrapped], in the world's frame.
 
         Without a name: the first robot. Raises `RobotGone`, or `UnknownEntity` in Gazebo.
         """
@@ -155,9 +155,9 @@ class Simulation(ABC):
         return engine.pose(entity)
 
     def drag(self, name: str, pose: Pose) -> None:
-        """Put a robot, or a thing that can be pushed, elsewhere, at rest, as with the mouse in a simulator's window.
+        """Put a robot or a movable obstacle elsewhere, at rest, as with the mouse in a simulator's window.
 
-        Raises `WorldError` if something is in the way, and as `truth` does for an unknown name.
+        Raises `WorldError` if something is in the way, and the errors of `truth` for an unknown name.
         """
         self._do(lambda: self._drag(name, pose))
 
@@ -167,11 +167,11 @@ class Simulation(ABC):
         drag(self.engine, entity, pose)
 
     def place(self, pose: Pose, robot: str = "") -> None:
-        """Put a robot elsewhere, the first if none is named, as `drag` does; only its IMU feels it."""
+        """Put a robot elsewhere, the first if none is named, like `drag`; of its sensors only the IMU notices."""
         self._do(lambda: self._drag(robot, pose))
 
     def delete(self, name: str) -> None:
-        """Remove a robot or a model: its topics end, all else goes on. Raises as `truth` does."""
+        """Remove a robot or a model: its topics close, all else continues. Raises the errors of `truth`."""
         self._do(lambda: self._delete(name))
 
     def _delete(self, name: str) -> None:
@@ -183,9 +183,9 @@ class Simulation(ABC):
         return next((each for each in lasers if each.robot.name == name), None)
 
     def last_scan(self, robot: str = "") -> Any:
-        """The last `sensor_msgs/LaserScan` of a robot's first laser; None before the first one. Raises as `truth` does.
+        """Return the last `sensor_msgs/LaserScan` of a robot's first laser, or None. Raises the errors of `truth`.
 
-        In Gazebo a laser measures only while somebody listens.
+        In Gazebo a laser measures only while its topic has a subscriber.
         """
 
         def copy() -> Any:
@@ -196,19 +196,19 @@ class Simulation(ABC):
 
     @property
     def scan_pose(self) -> Pose:
-        """Where the first robot was at its last scan; where it started if it has no laser."""
+        """Pose of the first robot at its last scan; its start if it has no laser."""
         laser = self._laser()
         return self.engine.robot(self._entity("")).start if laser is None else laser.pose
 
     @property
     def scan_poses(self) -> NDArray[np.float64]:
-        """Where the first robot was at each beam of its last scan (beams, 3); (1, 3) if all were measured at once."""
+        """Pose of the first robot at each beam of its last scan (beams, 3); (1, 3) if all were measured at once."""
         laser = self._laser()
         return np.array([self.scan_pose]) if laser is None else laser.seen_from
 
     @property
     def odometry(self) -> Pose:
-        """Where the first robot's odometry last put it: x [m], y [m], heading [rad]. Raises `RobotGone`."""
+        """Pose of the first robot by its last odometry: x [m], y [m], heading [rad]. Raises `RobotGone`."""
         name = self._entity("")
         for device in self.host.devices:
             if isinstance(device, DifferentialDrive) and device.robot.name == name:
@@ -220,11 +220,11 @@ class Simulation(ABC):
     # -- saving --------------------------------------------------------------------------------------------------
 
     def save(self) -> SimulationState:
-        """Return all that the world goes on from: poses, velocities, odometry, noise to come, time. It can be pickled.
+        """Return everything the world continues from: poses, velocities, odometry, random generators and time.
 
-        Saving changes nothing. Messages on their way are not part of it: what was published in a step is heard right
-        after that step, so whoever saves between the two hears those messages after restoring too. Nor is what a
-        plugin of Gazebo remembers elsewhere than in a device.
+        Saving changes nothing, and the result can be pickled. Messages in transit are not included: subscribers get a
+        step's messages right after the step, so after saving between the two and restoring, they receive those messages
+        as well. Data that a plugin of Gazebo keeps outside a device is not included either.
         """
         return self._do(
             lambda: SimulationState(self.program, self.engine.world.name, self.host.save(), self._own_state())
@@ -234,10 +234,10 @@ class Simulation(ABC):
         return None
 
     def restore(self, state: SimulationState) -> None:
-        """Go on exactly as after `save`, to the last bit: what came since goes, and what has gone comes back.
+        """Continue exactly as after `save`, to the last bit: later additions are removed, removed objects come back.
 
         Time goes back too, and with it /clock; only the simulator's stamps follow the node's clock, which does not go
-        back. Raises `RosminiError` for what is no state of this program and this world, or of other devices.
+        back. Raises `RosminiError` for a state of another program, another world, or other devices.
         """
 
         def become() -> None:
@@ -257,56 +257,56 @@ class Simulation(ABC):
 
         self._do(become)
 
-    def _remove_new(self, own: Any) -> None:  # noqa: B027 - not every simulation has robots that come and go
-        """Remove what was not there, or was another, when the state was saved."""
+    def _remove_new(self, own: Any) -> None:  # noqa: B027 - not every simulation can add and remove robots
+        """Remove the robots and models that the saved state does not contain, or that differ there."""
 
     def _bring_back(self, own: Any) -> None:  # noqa: B027
-        """Give what was removed since, and is in the engine again, its devices."""
+        """Restore the devices of the removed robots and models that the engine has again."""
 
     # -- pictures ------------------------------------------------------------------------------------------------
 
     def show(self, **options: Any) -> Any:
-        """A picture of the world as it is now, with its robots.
+        """Return a picture of the world as it is now, with its robots.
 
-        Options, with what they are unless given:
-            scan=True: draw the first robot's last scan, if there is one yet, from where it was taken
-            trail=None: where the robot was: a `Recording`, of which odometry is drawn, too, or poses (n, 2) or (n, 3)
+        Options and their defaults:
+            scan=True: draw the first robot's last scan, if there is one
+            trail=None: the robot's path: a `Recording`, whose odometry is drawn too, or poses (n, 2) or (n, 3)
             title=None: a caption under the picture, and the first words of its text form
             size=(660.0, 540.0): the largest width and height [CSS px]
         """
         return show("simulation", self, **options)
 
     def show3d(self, **options: Any) -> Any:
-        """The world with its robots, to be turned.
+        """Return a view of the world with its robots that can be rotated.
 
-        Options, with what they are unless given:
-            focus='robot': what the camera looks at, or 'world'
-            distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: from where it looks [deg], 0: from the side of x, 90: of y; None: what shows it well
-            elevation=None: how high from [deg]; None: what shows it well
+        Options and their defaults:
+            focus='robot': the target of the camera; or 'world'
+            distance=None: of the camera from its target [m]; None: chosen automatically
+            azimuth=None: direction of the camera [deg], 0: from the side of x, 90: of y; None: chosen automatically
+            elevation=None: elevation of the camera [deg]; None: chosen automatically
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
         """
         return show("simulation_3d", self, **options)
 
     def view(self, **options: Any) -> Any:
-        """The running world, in which robots and things are dragged.
+        """Return a live view of the running world, in which robots and obstacles can be dragged.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             title=None: a caption under the view, and the first line of its text form
         """
         return show("simulation_view", self, **options)
 
     def pad(self, robot: str = "", **options: Any) -> Any:
-        """A pad to drive a robot with, the first if none is named.
+        """Return a pad for driving a robot, the first if none is named.
 
-        Options, with what they are unless given:
-            topic=None: where to publish, as the simulation's node resolves it; None: where the robot listens
+        Options and their defaults:
+            topic=None: the topic to publish to, resolved by the simulation's node; None: the robot's command topic
             name='teleop_pad': the name of the pad's node
-            limits=None: how fast at most, and how fast that changes; None: as fast as the robot may
-            keys='': whose keys it has; '': those of turtlebot3_teleop_key; or 'teleop_twist_keyboard'
-            hold=False: whether a key has to be held, as a dead man's switch has
-            solid=False: whether the robot is shown in three dimensions, from behind, in the place of the map
+            limits=None: maximum speeds and accelerations; None: those of the robot
+            keys='': the key bindings; '': those of turtlebot3_teleop_key; or 'teleop_twist_keyboard'
+            hold=False: True if a key must be held, like a dead man's switch
+            solid=False: True shows the robot in three dimensions, from behind, instead of the map
             title=None: a caption under the pad, and the first line of its text form
         """
         return show("teleop_pad", self, robot=robot and self._do(lambda: self._entity(robot)), **options)

@@ -1,19 +1,19 @@
 """The node `rosmini_sim/simulator`: TurtleBot3s in a world, with the topics of the real ones.
 
 Each subscribes to `cmd_vel` and publishes `scan`, `odom`, `/tf`, `joint_states` and `imu` at the rates of the robot's
-firmware, a waffle also what its camera sees, and beside them `base_pose_ground_truth`, where the robot really is
-(Stage's name; no real robot knows that). With `_board:=true` there are `sensor_state`, `battery_state`, `motor_power`
-and `reset` too. It offers `reset_positions` (Stage's name too).
+firmware, a Waffle also its camera's images, and in addition `base_pose_ground_truth`, its true pose
+(Stage's name; a real robot does not know it). With `_board:=true` there are also `sensor_state`, `battery_state`,
+`motor_power` and `reset`. The node offers the service `reset_positions` (Stage's name too).
 
-As on the real robot, the heading of `odom` comes from the IMU (`_odometry:=wheels` takes the wheels, as Gazebo does),
+As on the real robot, the heading of `odom` comes from the IMU (`_odometry:=wheels` uses the wheels, as Gazebo does),
 and the laser takes 0.2 s for a scan, while the robot moves on (`_sweep:=false` measures all beams at once, as Stage and
 Gazebo do). See `rosmini.sim.engine.odometry`, `rosmini.sim.sensors.imu` and `rosmini.sim.sensors.lidar`.
 
-As on the real robot (firmware 1.2.3) and in Stage, a command holds for a moment only: half a second after the last
-`cmd_vel` the robot stops. So whoever drives it repeats the command, as `rostopic pub -r 10` does. `_cmd_vel_timeout:=0`
-lets it go on, as in Gazebo.
+As on the real robot (firmware 1.2.3) and in Stage, a command expires: half a second after the last
+`cmd_vel` the robot stops. So a driving node must repeat the command, as `rostopic pub -r 10` does. With
+`_cmd_vel_timeout:=0` it does not expire, as in Gazebo.
 
-Without `~robots` there is one robot, whose topics are in the node's own namespace. With it there are several, see
+Without `~robots` there is one robot, whose topics are in the node's namespace. With it there are several, see
 `rosmini.sim.starts.read_starts`.
 """
 
@@ -41,7 +41,7 @@ from .worlds import world as world_called
 
 @dataclass(frozen=True)
 class SimulatorParameters(Parameters):
-    """The private parameters of `rosmini_sim/simulator`; beside them `~robots`, see `read_starts`."""
+    """The private parameters of `rosmini_sim/simulator`; for `~robots` see `read_starts`."""
 
     strict = True
     allowed = ("robots",)
@@ -81,17 +81,17 @@ class SimulatorParameters(Parameters):
 
 
 class Simulator(Simulation):
-    """Robots in a world, as a node of a graph: one at first, more with `spawn` or the parameter `~robots`.
+    """Robots in a world, as a node of a graph: initially one, more with `spawn` or the parameter `~robots`.
 
     Args:
-        node: the started node; its private parameters say which world and robot (`SimulatorParameters`).
-        world: the world, or its name; before the parameter.
-        model: the robot, or its name; before the parameter.
+        node: the started node; its private parameters select world and robot (`SimulatorParameters`).
+        world: the world, or its name; overrides the parameter.
+        model: the robot model, or its name; overrides the parameter.
 
     Raises:
-        WorldError: there is no such world, or a robot has no room where it is to start.
+        WorldError: there is no such world, or a robot has no room at its start.
         UnknownModel: there is no such robot.
-        ParameterError: a parameter has no such name, a wrong type, or a value out of range.
+        ParameterError: a parameter has an unknown name, a wrong type, or a value out of range.
 
     """
 
@@ -120,7 +120,7 @@ class Simulator(Simulation):
         pose = start_pose(world, own.x, own.y, own.yaw)
         starts = read_starts(node, self.model, world, pose, own.tf_prefix)
         self.name = starts[0].name
-        """Of the robot that is meant where none is named."""
+        """Name of the default robot of methods that take a name."""
         try:
             for start in starts:
                 add(engine, start)
@@ -132,7 +132,7 @@ class Simulator(Simulation):
         if own.obstacles:
             self.host.add(ObstacleMarkers(self.host))
         self.robots: dict[str, TurtleBot] = {}
-        """Those that are in the world, by name, in order of arrival."""
+        """The robots in the world by name, in order of arrival."""
         for start in starts:
             self._bring(start)
         self._service = node.service(
@@ -141,7 +141,7 @@ class Simulator(Simulation):
 
     @property
     def world(self) -> World:
-        """The world, with what has been put into it, and without what has been taken away, since it began."""
+        """The world with all obstacles that are in it now."""
         return self.engine.world
 
     def __repr__(self) -> str:
@@ -157,7 +157,7 @@ class Simulator(Simulation):
         )
 
     def _bring(self, start: Start) -> TurtleBot:
-        """Give a robot that is in the engine its topics."""
+        """Create the topics of a robot in the engine."""
         robot = TurtleBot(
             self.host,
             self.engine.robot(start.name),
@@ -183,14 +183,14 @@ class Simulator(Simulation):
         namespace: str | None = None,
         tf_prefix: str | None = None,
     ) -> TurtleBot:
-        """Put another robot into the world, while all goes on.
+        """Add another robot at run time.
 
-        Without a model it is one like the first; without a pose it comes to a free start of the world, or to the
-        nearest place that is free. Its topics are in the namespace, and its frames begin with the prefix, which both
-        are its name if nothing else is said.
+        Without a model it is like the first one; without a pose it starts at a free start of the world, or at the
+        nearest free position. `namespace` is the namespace of its topics, `tf_prefix` the prefix of its frames; both
+        are its name if not given.
 
-        Raises `RosminiError` for a name that is used, `IllegalName` for one that cannot be that of its topics,
-        `UnknownModel`, and `WorldError`, with the nearest free place, if something stands there.
+        Raises `RosminiError` for a name that is used, `IllegalName` for one that is not valid for topics,
+        `UnknownModel`, and `WorldError`, with the nearest free position, if something is in the way.
         """
 
         def bring() -> TurtleBot:
@@ -212,7 +212,7 @@ class Simulator(Simulation):
         del self.robots[name]
 
     def robot(self, name: str = "") -> TurtleBot:
-        """Return the robot of this name, or the first. Raises `RobotGone`, which says what became of it."""
+        """Return the robot of this name, or the first. Raises `RobotGone`, with the reason."""
         self._check_running()
         wanted = name or self.name
         if wanted not in self.robots:
@@ -248,7 +248,7 @@ class Simulator(Simulation):
         self.robots = {start.name: self.robots[start.name] for start in own}
 
     def remove(self) -> None:
-        """Remove all robots: their topics end, and the graph goes on. Harmless when repeated."""
+        """Remove all robots: their topics close, and the graph continues. Harmless when repeated."""
 
         def end() -> None:
             for name in list(self.robots):

@@ -1,4 +1,4 @@
-"""With which robots a simulator begins, and where: what its parameters say."""
+"""The initial robots of a simulator and their poses, from its parameters."""
 
 from __future__ import annotations
 
@@ -23,28 +23,28 @@ if TYPE_CHECKING:
     from .engine.robot import Robot
 
 KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
-"""What an entry of the parameter `~robots` may say."""
+"""Possible keys in an entry of the parameter `~robots`."""
 
 MOST_ROBOTS = 1000
-"""How many robots may begin."""
+"""Maximum number of initial robots."""
 
 PLACE = (
     "Say where with the arguments x:=, y:= and yaw:= of the launch file, or the parameters ~x, ~y and ~yaw"
 )
-"""What a user does about a place that is taken."""
+"""Advice to the user if a start is occupied."""
 
 GAP, RINGS = 0.05, 60
-"""A robot without a pose looks for one on squares around the first start, so far apart [m] and so many to a side."""
+"""Spacing of the grid around the first start that is searched for a free pose [m], and its half-width in cells."""
 
 
 @dataclass(frozen=True)
 class Start:
-    """One robot that is to come."""
+    """An initial robot."""
 
     name: str
     model: RobotModel
     pose: Pose | None = None
-    """Without one it comes to the world's first start that is free, or near by."""
+    """None: it starts at the world's first free start, or nearby."""
     namespace: str = ""
     tf_prefix: str = ""
 
@@ -52,11 +52,11 @@ class Start:
 def read_starts(
     node: Node, model: RobotModel, world: World, pose: Pose | None, tf_prefix: str
 ) -> list[Start]:
-    """The robots that `~robots` asks for, or the one of the other parameters.
+    """Return the robots of the parameter `~robots`, or the one described by the other parameters.
 
-    `~robots` is a number n, for robots tb3_0 ... tb3_(n-1); or a list, of names or of mappings with the keys `KEYS`.
-    Each has its topics in a namespace, and its frames with a prefix, both of which are its name if nothing else is
-    said. Raises `ParameterError`.
+    `~robots` is a number n, for robots tb3_0 ... tb3_(n-1); or a list of names or of mappings with the keys `KEYS`.
+    The namespace of a robot's topics and the prefix of its frames are its name if not given.
+    Raises `ParameterError`.
     """
     given = node.get_param("~robots", None)
     if given is None:
@@ -109,7 +109,7 @@ def _read(where: str, entry: Any, model: RobotModel, world: World) -> Start:
 
 
 def start_pose(world: World, x: float | None, y: float | None, yaw: float | None) -> Pose | None:
-    """A pose; what is missing is taken from the world's first start. None if all is."""
+    """Return a pose completed from the world's first start; None if all parts are None."""
     given = (x, y, yaw)
     if given == (None, None, None):
         return None
@@ -120,12 +120,12 @@ def start_pose(world: World, x: float | None, y: float | None, yaw: float | None
 
 
 def add(engine: Engine, start: Start) -> Robot:
-    """Put a robot into the engine.
+    """Add a robot to the engine.
 
-    One without a pose comes to a free start of the world, or else to a free place near the first one.
+    Without a pose it gets a free start of the world, or else a free position near the first one.
 
-    Raises `WorldError`, with the nearest free place, `RosminiError` for a name that is used, and `IllegalName` for a
-    namespace that is none.
+    Raises `WorldError`, with the nearest free position, `RosminiError` for a name that is used, and `IllegalName` for
+    an invalid namespace.
     """
     _check(start.name)
     check_name(start.namespace, f"namespace of the robot {start.name!r}")
@@ -147,7 +147,7 @@ def add(engine: Engine, start: Start) -> Robot:
 
 
 def displacement(engine: Engine, start: Start) -> str:
-    """Return a warning if a robot that was to come to the world's first start could not, since something is there."""
+    """Return a warning if a robot could not start at the world's first start because something is there."""
     first, model = engine.world.starts[0], start.model
     blocked = None if start.pose else engine.world.blocked(first, model.footprint, model.height)
     if blocked is None:
@@ -165,7 +165,7 @@ def _check(name: str) -> None:
 
 
 def _around(world: World, spacing: float) -> Iterator[Pose]:
-    """Return places around the first start, `spacing` [m] apart, within the world's bounds, the nearest first."""
+    """Yield positions around the first start, `spacing` [m] apart, within the world's bounds, the nearest first."""
     x, y, theta = world.starts[0]
     x0, y0, x1, y1 = world.bounds
     cells = [(i, j) for i in range(-RINGS, RINGS + 1) for j in range(-RINGS, RINGS + 1)]

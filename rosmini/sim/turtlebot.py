@@ -1,4 +1,4 @@
-"""One TurtleBot3, or another robot with a drive, in a simulator: its devices, their topics and frames."""
+"""A TurtleBot3, or another robot with a drive, in a simulator: its devices, topics and frames."""
 
 from __future__ import annotations
 
@@ -34,40 +34,40 @@ D = TypeVar("D", bound=Device)
 S = TypeVar("S", bound=Sensor)
 
 COMMAND_TIMEOUT = 0.5
-"""How long a command holds [s]: CONTROL_MOTOR_TIMEOUT of TurtleBot3's firmware."""
+"""Duration of a command [s]: CONTROL_MOTOR_TIMEOUT of TurtleBot3's firmware."""
 
 
 ODOMETRY = ("imu", "wheels")
-"""What a robot's odometry takes its heading from: the IMU, as in TurtleBot3's firmware, or the wheels, as in Gazebo."""
+"""Sources of the heading in odometry: the IMU, as in TurtleBot3's firmware, or the wheels, as in Gazebo."""
 
 
 @dataclass(frozen=True)
 class Options:
-    """How the robots of one simulator are set up."""
+    """Settings of the robots of one simulator."""
 
     noise: float = 1.0
     cmd_vel_timeout: float = COMMAND_TIMEOUT
     tf: bool = True
     use_rep_117: bool = True
     board: bool = False
-    """With sensor_state, battery_state, motor_power and reset."""
+    """True to publish sensor_state and battery_state, and subscribe to motor_power and reset."""
     battery: float = 1.0
-    """How full the battery is at first."""
+    """Initial charge level of the battery."""
     odometry: str = ODOMETRY[0]
-    """One of `ODOMETRY`; of a robot without an IMU, or not on two wheels, it is always the wheels."""
+    """One of `ODOMETRY`; a robot without an IMU, or not on two wheels, always uses the wheels."""
     sweep: bool = True
-    """Whether the laser measures one beam after the other."""
+    """True if the laser measures one beam after another."""
 
 
 class TurtleBot:
-    """A robot that is in the engine already, and its devices, which it adds to the host.
+    """Adds the devices of a robot in the engine to the host.
 
     Args:
-        host: where it lives.
+        host: the simulated world.
         robot: the engine's robot.
-        namespace: what its topics begin with, seen from the node's own namespace.
-        tf_prefix: what its frames begin with.
-        options: how it is set up.
+        namespace: the namespace of its topics, relative to the node's namespace.
+        tf_prefix: the prefix of its frames.
+        options: its settings.
 
     """
 
@@ -131,7 +131,7 @@ class TurtleBot:
             self._add_board()
 
     def _camera(self, camera: CameraModel) -> CameraDevice:
-        """A camera, on the topics that ROBOTIS's descriptions give it in Gazebo."""
+        """Return a camera device, on the topics of ROBOTIS's descriptions in Gazebo."""
         depth = camera.depth
         return CameraDevice(
             self.host,
@@ -147,7 +147,7 @@ class TurtleBot:
         )
 
     def _add_board(self) -> None:
-        """Give it what the real robot's board has beside."""
+        """Add the other devices of the real robot's board."""
         host, name = self.host, self.name
         kind = BURGER_BATTERY if self.model.name == BURGER.name else WAFFLE_BATTERY
         self.battery = self._add(
@@ -177,29 +177,29 @@ class TurtleBot:
         return device
 
     def add(self, kind: type[S], *, topic: str | None = None, frame: str | None = None, **options: Any) -> S:
-        """Give it another sensor, whose topic is in its namespace, and whose frame gets its prefix.
+        """Add another sensor; its topic is in the robot's namespace, and its frame gets the robot's prefix.
 
-        `options` are the sensor's own. Raises `RosminiError` if it has a device of this name already.
+        `options` are the sensor's own. Raises `RosminiError` if there is already a device of this name.
         """
         topic = self.topic(kind.default_topic if topic is None else topic)
         frame = self.frame(kind.default_frame if frame is None else frame)
         return self._add(kind(self.host, self.name, topic=topic, frame=frame, **options))
 
     def topic(self, name: str) -> str:
-        """The name of one of its topics."""
+        """Return the name of one of its topics."""
         return within(self.namespace, name)
 
     def frame(self, name: str) -> str:
-        """The name of one of its frames."""
+        """Return the name of one of its frames."""
         return prefixed(self.tf_prefix, name)
 
     @property
     def odometry(self) -> Pose:
-        """Where the robot believes to be: x [m], y [m], heading [rad, not wrapped], in its frame odom."""
+        """Its pose by odometry: x [m], y [m], heading [rad, not wrapped], in its frame odom."""
         return self.drive.reckoned.pose
 
     def close(self) -> None:
-        """End its topics."""
+        """Close its topics."""
         for device in self.devices:
             self.host.remove(device)
         if self._switches is not None:

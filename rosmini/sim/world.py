@@ -1,8 +1,8 @@
-"""What a robot drives in: walls, obstacles and places to start from, seen from above.
+"""A robot's surroundings: walls, obstacles and starts, seen from above.
 
 A world is plain data in metres and radians, in the frame `map`: x to the right, y up, angles counter-clockwise (REP
-103). Whatever it was made from (Python, a ROS map, later a Gazebo or a Stage file), the engine, the lidar and the
-pictures read this one structure.
+103). Whatever its source (Python, a ROS map, a Gazebo or a Stage file), the engine, the lidar and the
+pictures use this structure.
 """
 
 from __future__ import annotations
@@ -66,45 +66,45 @@ __all__ = [
 ]
 
 RAYS = 72
-"""In so many directions from its start a world has to be bounded to have an outside."""
+"""Number of directions in which a world must be bounded at its start in order to have an outside."""
 
 FAR = 10_000.0
-"""How far an open world goes on beyond what stands in it [m]."""
+"""Distance that an open world extends beyond its contents [m]."""
 
 
 @dataclass(frozen=True)
 class Obstacle:
-    """A thing in a world: fixed, or movable by robots if it has a mass, or moving by itself if it has a motion.
+    """An obstacle in a world: fixed, or movable by robots if it has a mass, or moving by itself if it has a motion.
 
     Raises `WorldError`, which names the obstacle and the field, for a number that is not finite, a size or a mass that
-    is not positive, a colour that is none, a top that is not above the bottom, and a polygon that crosses itself or
-    whose corners go clockwise.
+    is not positive, an invalid colour, a top that is not above the bottom, and a polygon that crosses itself or
+    whose corners are clockwise.
     """
 
     name: str
     shape: Shape
     pose: Pose = (0.0, 0.0, 0.0)
     height: float = 0.5
-    """How high above the ground its top is [m]; a laser above it does not see it.
+    """Height of its top above the ground [m]; a laser above it does not see it.
 
-    That of a sphere is where its radius takes it.
+    For a sphere it follows from the radius.
     """
     colour: Colour = "grey"
     mass: float | None = None
-    """[kg]; None: nobody can push it."""
+    """Mass [kg]; None: it cannot be pushed."""
     bottom: float = 0.0
-    """How high above the ground it begins [m]: what is lower, a robot or a laser, passes under it."""
+    """Height of its lower end above the ground [m]; lower robots and lasers pass under it."""
     motion: Motion | None = None
-    """How it moves by itself; None: it does not."""
+    """Its own motion; None: it does not move by itself."""
     drag: float | None = None
-    """Of what can be pushed: its friction on the ground; None: that of the engine, 0.5."""
+    """Friction of a movable obstacle on the ground; None: that of the engine, 0.5."""
     restitution: float = 0.0
-    """Of what can be pushed: how much of its speed it has after a blow, from 0 to 1.
+    """Coefficient of restitution of a movable obstacle, from 0 to 1.
 
-    Of two such things the product counts.
+    Between two movable obstacles the product applies.
     """
     passable: bool = False
-    """Robots and other things pass through it; lasers and cameras see it all the same."""
+    """True if robots and other obstacles pass through it; lasers and cameras see it nevertheless."""
     seen_by_lasers: bool = True
     """False: lasers see through it."""
 
@@ -158,31 +158,31 @@ class Obstacle:
 
     @property
     def movable(self) -> bool:
-        """Tell whether a robot can push it."""
+        """True if a robot can push it."""
         return self.mass is not None
 
     @property
     def fixed(self) -> bool:
-        """Tell whether it always stays where it is."""
+        """True if it never moves."""
         return self.mass is None and self.motion is None
 
     def at(self, t: float) -> Pose:
-        """Where it is at the time t [s] of its own motion, or its pose if it has none."""
+        """Return its pose at the time t [s] of its own motion, or its pose if it has no motion."""
         return self.pose if self.motion is None else self.motion.pose_at(t, self.pose)
 
     def parts(self) -> list[tuple[Simple, Pose]]:
-        """The shapes without parts that it is made of, each with its pose in the world."""
+        """Return its simple shapes, each with its pose in the world."""
         return list(simple_parts(self.shape, self.pose))
 
     def outline(self) -> NDArray[np.float64]:
-        """The corners (n, 2) in the world; what is round or has several parts has none."""
+        """Return the corners (n, 2) in the world; none for a round shape or a compound."""
         return (
             outline_at(self.shape, self.pose) if isinstance(self.shape, (Box, Polygon)) else np.empty((0, 2))
         )
 
 
 def edges(outline: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The sides (n, 4) of a closed outline (n, 2), each as x1, y1, x2, y2."""
+    """Return the sides (n, 4) of a closed outline (n, 2), each as x1, y1, x2, y2."""
     return polygons.sides_of(outline)
 
 
@@ -193,16 +193,16 @@ class World:
     name: str
     obstacles: tuple[Obstacle, ...] = ()
     walls: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 4)))
-    """Thin walls (n, 4), each a segment x1, y1, x2, y2 [m]: what a map is traced to."""
+    """Thin walls (n, 4), each a segment x1, y1, x2, y2 [m], for example traced from a map."""
     wall_height: float = 0.5
     starts: tuple[Pose, ...] = ((0.0, 0.0, 0.0),)
-    """Where robots are put when nobody says where, in this order."""
+    """Default starts of robots, in this order."""
     title: str = ""
-    """A few words for captions."""
+    """A short description for captions."""
     solid: bool = False
-    """The walls are closed outlines, and what is inside of them (by the even-odd rule) is solid, as in a traced map."""
+    """True if walls are closed outlines of solid areas (by the even-odd rule), as in a traced map."""
     passable_walls: bool = False
-    """Robots pass through the walls; lasers and cameras see them all the same."""
+    """True if robots pass through the walls; lasers and cameras see them nevertheless."""
 
     def __post_init__(self) -> None:
         problem = (
@@ -282,9 +282,9 @@ class World:
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
-        """The smallest rectangle around everything: x and y of its lower left and of its upper right corner [m].
+        """The bounding box of everything: x and y of its lower left and of its upper right corner [m].
 
-        A world with nothing in it is 10 m wide.
+        An empty world is 10 m wide.
         """
         points = [self.walls.reshape(-1, 2)]
         for o in self.obstacles:
@@ -304,7 +304,7 @@ class World:
 
     @cached_property
     def closed(self) -> bool:
-        """Whether the world has an outside: it is traced from a plan, or fixed things surround its first start."""
+        """True if the world has an outside: it is traced from a plan, or fixed obstacles surround its first start."""
         if len(self.walls):
             return True
         x, y, _ = self.starts[0]
@@ -312,9 +312,9 @@ class World:
         return bool(np.isfinite(seen).all())
 
     def outside(self, pose: Pose) -> str | None:
-        """Why a place is not in the world, in words that fit into a sentence; None if it is.
+        """Describe why a position is outside the world; None if it is inside.
 
-        An open world ends `FAR` from all that stands in it.
+        An open world ends at the distance `FAR` from its contents.
 
         Raises `WorldError` for a pose that is not finite.
         """
@@ -329,11 +329,11 @@ class World:
         return f"({pose[0]:.6g}, {pose[1]:.6g}) is outside of the world {self.name!r}, which goes {extent}"
 
     def blocked(self, pose: Pose, footprint: Footprint, height: float = 0.0) -> str | None:
-        """What of the fixed things a footprint at `pose` overlaps with, in words that fit into a sentence.
+        """Describe the fixed obstacle or wall that a footprint at `pose` overlaps.
 
-        None if it is free. The footprint is corners (n, 2), counter-clockwise, seen from the pose, or the radius of a
-        disc around it [m]; `height` is how high it reaches [m], which matters for what it may pass under. What only
-        touches is free, and so is what is movable or moves. Raises `WorldError` for a pose that is not finite.
+        Return None if it is free. The footprint is corners (n, 2), counter-clockwise, relative to the pose, or the
+        radius of a disc around it [m]; `height` is its upper end [m], so that it can pass under obstacles. Touching is
+        allowed; obstacles that can move are ignored. Raises `WorldError` for a pose that is not finite.
         """
         problem = pose_problem("pose", pose)
         if problem:
@@ -349,7 +349,7 @@ class World:
         return found
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what a copy is made from; the index of what is fixed is made again."""
+        """Return the state for a copy; the index of fixed obstacles is rebuilt."""
         return {name: value for name, value in vars(self).items() if name != "_fixtures"}
 
     def free_place(
@@ -359,11 +359,11 @@ class World:
         height: float = 0.0,
         taken: Callable[[Pose], object] = lambda _: None,
     ) -> Pose | None:
-        """The nearest place to `pose` that is free for a footprint, with the same heading.
+        """Return the nearest position to `pose` that is free for a footprint, with the same heading.
 
-        None if there seems to be none. It is looked for within a metre, in steps of 5 cm, inside the bounds of the
-        world; after that among the world's starts. `taken(pose)` is true, or words, where something stands that is no
-        part of the world: a robot. Raises `WorldError` for a pose that is not finite.
+        Return None if none is found. The search covers a metre, in steps of 5 cm, inside the world's bounds, and then
+        the world's starts. `taken(pose)` is true, or a description, if an object outside the world, such as a robot, is
+        there. Raises `WorldError` for a pose that is not finite.
         """
 
         def free(place: Pose) -> bool:
@@ -383,47 +383,47 @@ class World:
         return min(filter(free, self.starts), key=lambda start: math.dist(start[:2], (x, y)), default=None)
 
     def with_obstacles(self, obstacles: Iterable[Obstacle]) -> World:
-        """The same world with more obstacles in it."""
+        """Return the same world with additional obstacles."""
         return replace(self, obstacles=(*self.obstacles, *obstacles))
 
     def with_just(self, obstacles: Iterable[Obstacle]) -> World:
-        """The same world with these obstacles in it, whose names have to differ, and no others."""
+        """Return the same world with exactly these obstacles, whose names must differ."""
         new = object.__new__(World)
         own = {each.name: vars(self)[each.name] for each in fields(self)}
-        vars(new).update(own, obstacles=tuple(obstacles))  # without a check of what has been checked
+        vars(new).update(own, obstacles=tuple(obstacles))  # skip the checks, which have already been made
         return new
 
     def show(self, **options: Any) -> Any:
-        """A picture of the world from above, in metres.
+        """Return a picture of the world from above, in metres.
 
-        Options, with what they are unless given:
-            robot=None: where the robot is: x [m], y [m], heading [rad], in the world's frame; None: there is none
-            model=None: which robot; None: a TurtleBot3 Burger
-            scan=None: what its laser sees: a `sensor_msgs/LaserScan`, or ranges [m], beam i at 2 pi i / beams
-            scan_from=None: where the robot was then, or at each beam (beams, 3); None: where it is
-            trail=None: where the robot was, (n, 2) or (n, 3): a solid line
-            odom=None: where its odometry believes that it was, likewise: a dashed line
+        Options and their defaults:
+            robot=None: the robot's pose: x [m], y [m], heading [rad], in the world's frame; None: no robot
+            model=None: the robot's model; None: a TurtleBot3 Burger
+            scan=None: its laser scan: a `sensor_msgs/LaserScan`, or ranges [m], beam i at 2 pi i / beams
+            scan_from=None: the robot's pose at the scan, or at each beam (beams, 3); None: its current pose
+            trail=None: the robot's path, (n, 2) or (n, 3): a solid line
+            odom=None: its path by odometry, (n, 2) or (n, 3): a dashed line
             others=(): more robots, each an `Other`: they are drawn in other colours, with their names
-            name='': of the robot, where there are others
+            name='': the robot's name, if there are others
             title=None: a caption under the picture, and the first words of its text form
             size=(660.0, 540.0): the largest width and height [CSS px]
         """
         return show("world", self, **options)
 
     def show3d(self, **options: Any) -> Any:
-        """The world in three dimensions.
+        """Return a view of the world in three dimensions.
 
-        Options, with what they are unless given:
-            distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: from where it looks [deg], 0: from the side of x, 90: of y; None: what shows it well
-            elevation=None: how high from [deg]; None: what shows it well
+        Options and their defaults:
+            distance=None: of the camera from its target [m]; None: chosen automatically
+            azimuth=None: direction of the camera [deg], 0: from the side of x, 90: of y; None: chosen automatically
+            elevation=None: elevation of the camera [deg]; None: chosen automatically
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
         """
         return show("world_3d", self, **options)
 
 
-# ---- what is possible ----
+# ---- validation ----
 
 
 def _count(number: int, what: str) -> str:

@@ -73,7 +73,7 @@ class Contacts:
         self.forces: tuple[float, list[tuple[str, str, float]]] = (-1.0, [])
         """Time until which they apply [ns], and for each pair of bodies the force between them [N]."""
 
-    # -- what comes and goes -------------------------------------------------------------------------------------
+    # -- adding and removing -------------------------------------------------------------------------------------
 
     def add_robot(self, robot: Robot) -> None:
         """Add the body of a robot with a drive."""
@@ -115,7 +115,7 @@ class Contacts:
         """All obstacles that can be pushed."""
         return [crate for crate in self.loose.values() if crate.obstacle.movable]
 
-    # -- who is near ---------------------------------------------------------------------------------------------
+    # -- neighbours ----------------------------------------------------------------------------------------------
 
     def near(self, x: float, y: float, reach: float) -> Iterator[Body]:
         """Yield the bodies whose circles are within `reach` [m] of a position."""
@@ -153,7 +153,7 @@ class Contacts:
             ordered, [body.owner.pose for body in ordered], self.ground, self.surface, margin, self._loops
         )
 
-    # -- what is in the way --------------------------------------------------------------------------------------
+    # -- overlaps ------------------------------------------------------------------------------------------------
 
     def hindrance(self, model: RobotModel, pose: Pose, ignoring: str = "") -> str | None:
         """Describe a body that a robot of this model would overlap at `pose`; None if there is room."""
@@ -196,7 +196,7 @@ class Contacts:
                         return True
         return False
 
-    # -- what touches --------------------------------------------------------------------------------------------
+    # -- contacts ------------------------------------------------------------------------------------------------
 
     def touches(self, name: str) -> list[Touch]:
         """Return the current contacts of a robot or an obstacle, with the forces of the last step."""

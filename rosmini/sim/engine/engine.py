@@ -450,7 +450,7 @@ class Engine:
         everything.changed += 1
         self._stepper.forget()
 
-    # -- what is seen --------------------------------------------------------------------------------------------
+    # -- sensing -------------------------------------------------------------------------------------------------
 
     def scenery(self, name: str, lidar: LidarModel | None = None) -> tuple[Floats, Floats]:
         """Return what a robot's laser can see in the frame map, with other robots: segments (n, 4), discs (m, 3)."""

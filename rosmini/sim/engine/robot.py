@@ -218,7 +218,7 @@ class Robot:
         """Return the footprint (k, 2) at the robot's current pose."""
         return transform_points(self.pose, self.model.footprint)
 
-    # -- what it is told -----------------------------------------------------------------------------------------
+    # -- commands ------------------------------------------------------------------------------------------------
 
     def command(self, v: float, vy: float, w: float) -> None:
         """Set the commanded speeds ahead and to the left side [m/s] and turn to the left [rad/s], within its limits.

@@ -83,7 +83,7 @@ class Stepper:
         self._remembers = False
         self.invalidate_clearance()
 
-    # -- what happens when ---------------------------------------------------------------------------------------
+    # -- time ----------------------------------------------------------------------------------------------------
 
     def advance(self, until_ns: int) -> None:
         """Advance time to `until_ns`; a time in the past has no effect."""
@@ -146,7 +146,7 @@ class Stepper:
             each.room = 0.0
         self.invalidate_clearance()
 
-    # -- who may touch anything ----------------------------------------------------------------------------------
+    # -- planning contacts ---------------------------------------------------------------------------------------
 
     def _leave(self, tick: int) -> None:
         """Advance from a point of the grid."""

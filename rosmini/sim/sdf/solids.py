@@ -1,8 +1,8 @@
-"""Shapes of SDF as a flat world has them: upright solids, each an outline on the ground with a bottom and a top.
+"""Shapes of SDF in a flat world: upright solids, each an outline on the ground with a bottom and a top.
 
-What stands upright is taken as it is. What lies on a side or stands aslant is taken as its shadow: the outline of it
-seen from above, from its lowest to its highest point. A mesh is cut level at several heights, and stands for each cut
-as high as it resembles it.
+Upright shapes are kept as they are. A lying or tilted shape is replaced with its shadow: its outline seen from above,
+from its lowest to its highest point. A mesh is cut horizontally at several heights, and each cut represents a layer
+of the mesh.
 """
 
 from __future__ import annotations
@@ -26,24 +26,24 @@ from .poses import matrix, upright
 
 Floats = NDArray[np.float64]
 Triangles = NDArray[np.float64]
-"""(n, 3, 3): for each its three vertices x, y, z [m]."""
+"""(n, 3, 3): the three vertices x, y, z [m] of each triangle."""
 
 FLAT = 0.01
-"""What is no higher than this above the ground [m] is a part of the ground: wheels roll over it."""
+"""Parts that are no higher than this above the ground [m] belong to the ground: wheels roll over them."""
 LEVELS = (0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0, 2.0)
-"""Between these heights above the ground a mesh is cut [m], if its own corners are not all at a few heights."""
+"""Heights above the ground between which a mesh is cut [m], unless its own vertices have few heights."""
 STEPS = 8
-"""The largest number of heights of vertices that counts as few."""
+"""Maximum number of heights of vertices that counts as few."""
 GRAIN = 0.002
-"""How far the outline of a mesh may be from the cut [m]; more where it would keep more than `CORNERS` corners."""
+"""Maximum deviation of a mesh's outline from the cut [m]; larger if it would have more than `CORNERS` corners."""
 CORNERS = 60
 ROUND = 64
-"""Vertices in place of a slanted circle."""
+"""Number of vertices that replace a slanted circle."""
 
 
 @dataclass(frozen=True)
 class Solid:
-    """An upright part of something."""
+    """An upright solid part."""
 
     shape: Simple
     pose: Pose
@@ -52,7 +52,7 @@ class Solid:
 
 
 def solids(geometry: SdfGeometry, pose: Pose6, *, sliced: bool = True) -> tuple[list[Solid], str]:
-    """What a shape at a pose is in a flat world, and what has to be said about it ("" if nothing).
+    """Return the solids of a shape at a pose in a flat world, and a remark ("" if there is none).
 
     With `sliced=False` a mesh is one solid: the convex hull of its shadow. Raises `MeshError`.
     """
@@ -69,7 +69,7 @@ def _standing(shape: Simple, pose: Pose6, bottom: float, top: float) -> list[Sol
 
 
 def _shadow(points: Floats) -> list[Solid]:
-    """The convex hull of points (n, 3), seen from above."""
+    """Return the convex hull of points (n, 3), seen from above."""
     x, y = points[:, :2].mean(axis=0)
     hull = convex_hull(points[:, :2] - (x, y))
     if len(hull) < 3 or polygons.area(hull) < 1e-9:
@@ -88,7 +88,7 @@ def _moved(points: Floats, pose: Pose6) -> Floats:
 
 
 def _aslant(pose: Pose6) -> str:
-    """Say so if none of the axes of a pose is upright."""
+    """Return a remark if none of the axes of a pose is upright."""
     if (np.abs(np.abs(matrix(pose)[2, :3]) - 1) < 1e-6).any():
         return ""
     return "stands aslant; it is taken as its shadow, from its lowest to its highest point"
@@ -180,7 +180,7 @@ def _mesh(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
 
 
 def _heights(z: Floats) -> list[float]:
-    """Between which heights a mesh is cut."""
+    """Return the heights between which a mesh is cut."""
     low, high = max(0.0, float(z.min())), float(z.max())
     if high <= low:
         return []

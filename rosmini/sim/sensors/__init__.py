@@ -1,4 +1,4 @@
-"""What a robot measures: lasers, cameras, inertial units, bumpers, batteries and their errors.
+"""Models of a robot's sensors and their errors: lasers, cameras, inertial units, bumpers, batteries.
 
 Numbers in, numbers out.
 """

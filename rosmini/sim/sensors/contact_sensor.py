@@ -1,7 +1,7 @@
-"""A bumper: which of its sectors is pressed, from where a robot touches something and how hard.
+"""A bumper: its pressed sectors, from the robot's contact points and their forces.
 
-A sector is pressed when a contact lies within its angles, seen from the middle of the robot, and presses with the
-bumper's least force or more.
+A sector is pressed when a contact lies within its angles, seen from the centre of the robot, and has at least the
+bumper's minimum force.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import Pose
 
 Contact = tuple[tuple[float, float], float]
-"""Where a robot touches something, in the frame of the world [m], and how hard that presses [N]."""
+"""A contact point in the world's frame [m], and its force [N]."""
 
 
 @dataclass(frozen=True)
@@ -25,22 +25,22 @@ class Sector:
     angle_min: float
     angle_max: float
     bit: int
-    """What it adds to the number that a message holds."""
+    """Its bit in the message's number."""
 
     def holds(self, angle: float) -> bool:
-        """Tell whether an angle [rad] lies in it; its ends do."""
+        """Return True if an angle [rad] is within the sector, ends included."""
         beyond = normalize_angle(angle - (self.angle_min + self.angle_max) / 2)
         return abs(beyond) <= (self.angle_max - self.angle_min) / 2 + 1e-9
 
 
 @dataclass(frozen=True)
 class BumperModel:
-    """A ring of sectors around `centre`, which is seen from base_footprint [m]."""
+    """A ring of sectors around `centre`, relative to base_footprint [m]."""
 
     sectors: tuple[Sector, ...]
     centre: tuple[float, float] = (0.0, 0.0)
     force: float = 0.0
-    """The least force that presses it [N]."""
+    """Minimum force that presses it [N]."""
     frame: str = "base_link"
 
 
@@ -66,7 +66,7 @@ KOBUKI_BUMPER = BumperModel(
 
 
 def pressed(bumper: BumperModel, pose: Pose, contacts: Iterable[Contact]) -> tuple[Sector, ...]:
-    """The sectors, in the bumper's order, that are pressed on a robot at `pose`."""
+    """Return the pressed sectors of a robot at `pose`, in the bumper's order."""
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
     angles = []
@@ -79,5 +79,5 @@ def pressed(bumper: BumperModel, pose: Pose, contacts: Iterable[Contact]) -> tup
 
 
 def bits(sectors: Iterable[Sector]) -> int:
-    """The number that a message holds for pressed sectors."""
+    """Return the number for pressed sectors in a message."""
     return sum({sector.bit for sector in sectors})

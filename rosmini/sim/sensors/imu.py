@@ -1,24 +1,24 @@
-"""An inertial measurement unit: angular velocity, acceleration and heading of the place where it sits.
+"""An inertial measurement unit: angular velocity, acceleration and heading at its mount.
 
-At (x, y) from the middle of the axle, of a robot with the speed v ahead and w to the left and their rates dv and dw,
-the acceleration is
+At (x, y) relative to the middle of the axle, for a robot with the speed v ahead and the turn w to the left, and their
+rates dv and dw, the acceleration is
 
     a_x = dv - x w^2 - y dw,   a_y = v w + x dw - y w^2,   a_z = g
 
-and if it goes to its left too, with u and its rate du, then - u w and du come on top of these (a_z points up at rest:
-REP 145, https://www.ros.org/reps/rep-0145.html). To each comes white noise, and a bias that stays. The gyroscope shows
-(1 + s) w of a turn, and its heading is the integral of what it shows: Madgwick's filter without a magnetometer, which
-TurtleBot3's board runs, knows nothing else about the heading of a robot on flat ground (`IMU.cpp` and
-`MadgwickAHRS.cpp` in https://github.com/ROBOTIS-GIT/OpenCR). So after t seconds, turned by a, the heading is off by
+and with a speed u to its left, at the rate du, - u w and du are added to these (a_z points up at rest:
+REP 145, https://www.ros.org/reps/rep-0145.html). White noise and a constant bias are added to each. The gyroscope shows
+(1 + s) w of a turn, and the heading is the integral of its output: Madgwick's filter without a magnetometer, which
+TurtleBot3's board runs, has no other information about the heading of a robot on flat ground (`IMU.cpp` and
+`MadgwickAHRS.cpp` in https://github.com/ROBOTIS-GIT/OpenCR). So after t seconds and a turn by a, the heading's error is
 
     s a + b t + n,   n ~ N(0, sigma^2 t / f)
 
-with s the error of the scale, b the bias, and sigma the deviation of one of f samples a second. That board calibrates
-the gyroscope when it is connected to, and again on the topic `reset`: it takes the mean of 512 samples for its zero,
-rounded down to whole steps of the converter. What remains for b is anything from none to one step, 0.061 degrees a
-second: so the heading of a TurtleBot3 that stands drifts to the left, as its users report
-(https://github.com/ROBOTIS-GIT/turtlebot3/issues/819). Published are sigma, the step and the largest s; our choice is
-that s is normal, a third of the largest. Left out: warmth, which moves b, the low-pass filter of the chip, and tilts.
+with the scale error s, the bias b, and the deviation sigma of one of f samples a second. That board calibrates the
+gyroscope when a connection is made, and on the topic `reset`: it takes the mean of 512 samples as its zero, rounded
+down to whole steps of the converter. The remaining b is between zero and one step, 0.061 degrees a second: so the
+heading of a TurtleBot3 at rest drifts to the left (https://github.com/ROBOTIS-GIT/turtlebot3/issues/819). Published
+are sigma, the step and the largest s; we assume that s is normal, with a third of the largest as deviation.
+Temperature, which changes b, the chip's low-pass filter, and tilts are left out.
 """
 
 from __future__ import annotations
@@ -35,20 +35,20 @@ from rosmini.sim.models import ImuModel
 Floats = NDArray[np.float64]
 
 BLOCK = 256
-"""The noise of this number of samples is drawn at once."""
+"""Number of samples whose noise is drawn at once."""
 
 ROW = Struct("7d")
-"""Of one sample: the noise and biases of the gyroscope and the accelerometer, and the drift of the heading."""
+"""One sample: the noise and biases of the gyroscope and the accelerometer, and the drift of the heading."""
 
 FINEST = 2.0**-22
-"""A heading is told to so much [rad]: the board counts with numbers of 32 bits."""
+"""Resolution of a heading [rad]: the board computes with 32-bit numbers."""
 
 CALIBRATION = 512
-"""Of so many samples the mean is taken for what a gyroscope shows at rest: MPU_CALI_COUNT of TurtleBot3's firmware."""
+"""Number of samples averaged for a gyroscope's zero: MPU_CALI_COUNT of TurtleBot3's firmware."""
 
 
 class Motion(NamedTuple):
-    """How a robot moves at one moment: speeds ahead [m/s] and to the left [rad/s], and their rates."""
+    """A robot's motion at one moment: speed ahead [m/s], turn to the left [rad/s], and their rates."""
 
     v: float
     w: float
@@ -59,9 +59,9 @@ class Motion(NamedTuple):
 def acceleration(
     x: float, y: float, v: float, w: float, dv: float, dw: float, aside: tuple[float, float] = (0.0, 0.0)
 ) -> tuple[float, float]:
-    """The acceleration ahead and to the left [m/s2] at the place (x, y) of a robot that moves so: the equations above.
+    """Return the acceleration ahead and to the left [m/s2] at (x, y) on a moving robot: the equations above.
 
-    `aside` is its speed to its left side [m/s] and how fast that changes [m/s2].
+    `aside` is its speed to its left side [m/s] and the rate of that [m/s2].
     """
     ahead, left = dv - x * w * w - y * dw, v * w + x * dw - y * w * w
     if aside == (0.0, 0.0):
@@ -70,7 +70,7 @@ def acceleration(
 
 
 class Imu:
-    """One unit with its biases. Sample k always gets the same noise, whether the samples before it were read or not."""
+    """A unit with its biases. Sample k always gets the same noise, whether or not earlier samples were read."""
 
     def __init__(self, model: ImuModel, rng: np.random.Generator, scale: float = 1.0) -> None:
         self.model = model
@@ -80,14 +80,14 @@ class Imu:
         gyro, accel = scale * model.gyro_bias, scale * model.accel_bias
         self.bias: list[float] = (rng.standard_normal(6) * ([gyro] * 3 + [accel] * 3)).tolist()
         self._rows = b""
-        """A `ROW` for each sample from `_first` to before `_end`: a fifth of the memory of lists."""
+        """A `ROW` for each sample from `_first` to before `_end`; takes a fifth of the memory of lists."""
         self._first = self._end = 0
         self._deviations = np.array([model.gyro_noise] * 3 + [model.accel_noise] * 3) * scale
         self._drift = 0.0
-        # of its own, so that the noise is the same whatever the scale is, and whenever it is calibrated
+        # a separate generator, so that the noise depends neither on the scale nor on calibrations
         self._unit = rng.spawn(1)[0]
         self.scale = 1.0 + scale * model.gyro_scale * float(self._unit.standard_normal())
-        """How much of a turn it shows."""
+        """Ratio of the measured to the true turn."""
         self._step = scale * model.gyro_step
         self._offset: Floats = self._step * self._unit.random(3)
         self._zero = np.zeros(3)
@@ -95,10 +95,10 @@ class Imu:
         self.calibrate(-1)
 
     def calibrate(self, number: int, w: float = 0.0) -> None:
-        """Take what the gyroscope shows now for its zero, in whole steps, from the sample after `number` on.
+        """Take the gyroscope's current output as its zero, in whole steps, from the sample after `number` on.
 
-        It should stand: a turn of `w` [rad/s] is taken for zero too. The real unit takes two and a half seconds for it,
-        this one no time.
+        The robot should be at rest: a turn of `w` [rad/s] becomes part of the zero. The real unit takes two and a half
+        seconds for it, this one no time.
         """
         if self._step:
             shown = self._offset + self._unit.standard_normal(3) * self._deviations[:3] / math.sqrt(
@@ -110,7 +110,7 @@ class Imu:
             self._zero = zero
 
     def _shift(self, number: int, more: Floats) -> None:
-        """Let the gyroscope show so much more [rad/s] after sample `number`."""
+        """Add this bias [rad/s] to the gyroscope's output after sample `number`."""
         self.bias[:3] = (np.array(self.bias[:3]) + more).tolist()
         if self._rows:
             rows = np.frombuffer(self._rows).reshape(-1, 7).copy()
@@ -131,10 +131,10 @@ class Imu:
         dw: float,
         aside: tuple[float, float] = (0.0, 0.0),
     ) -> tuple[float, float, float, float, float, float, float]:
-        """Return sample `number`, from 0 and never backwards.
+        """Return sample `number`, from 0 in ascending order.
 
-        The heading [rad] of a robot that has turned by `turned`, see `heading`; the angular velocities [rad/s] and the
-        accelerations [m/s2] along x, y and z.
+        The sample contains the heading [rad] after a turn by `turned`, see `heading`; the angular velocities [rad/s]
+        and the accelerations [m/s2] along x, y and z.
         """
         x, y, _ = self._mount
         ax, ay = acceleration(x, y, v, w, dv, dw, aside)
@@ -160,14 +160,14 @@ class Imu:
         return self.sample(number, 0.0, v, w, dv, dw, aside)[1:]
 
     def heading(self, number: int, turned: float) -> float:
-        """Return the integral [rad] of what the gyroscope showed up to sample `number`, of a robot turned so far.
+        """Return the integral [rad] of the gyroscope's output up to sample `number`, for a robot turned by `turned`.
 
-        In multiples of `FINEST`.
+        The result is a multiple of `FINEST`.
         """
         return self.sample(number, turned, 0.0, 0.0, 0.0, 0.0)[0]
 
     def _draw(self, number: int) -> None:
-        """Draw the blocks up to that of sample `number`."""
+        """Draw the blocks up to the one with sample `number`."""
         while number >= self._end:
             block = self._rng.standard_normal((BLOCK, 6)) * self._deviations + self.bias
             drifts = self._drift + np.cumsum(block[:, 2]) / self.model.rate

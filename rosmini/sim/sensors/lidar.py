@@ -1,19 +1,19 @@
-"""A laser: from what stands around to the ranges of a `sensor_msgs/LaserScan`.
+"""A laser: from the surroundings to the ranges of a `sensor_msgs/LaserScan`.
 
-Beam i looks at the angle angle_min + i increment, counter-clockwise from where the laser looks, and measures the
-distance to the first thing in its way plus Gaussian noise. A laser that turns has beams all around: angle_min is 0, and
-the increment 2 pi / n. What it cannot measure follows REP 117 (https://www.ros.org/reps/rep-0117.html), as in Gazebo:
-inf where nothing is within reach, -inf where something is too close. A real LDS-01 sends 0 for what it cannot measure,
-and its driver, `hls_lfcd_lds_driver`, passes that on; `unmeasured` makes this form of ours.
+Beam i points to the angle angle_min + i increment, counter-clockwise from the laser's forward direction, and measures
+the distance to the first object in its way plus Gaussian noise. A rotating laser covers the full circle: angle_min is 0
+and the increment 2 pi / n. Invalid ranges follow REP 117 (https://www.ros.org/reps/rep-0117.html), as in Gazebo:
+inf if nothing is within reach, -inf if an object is too close. A real LDS-01 sends 0 for both cases,
+and its driver, `hls_lfcd_lds_driver`, passes that on; `unmeasured` converts ours to this form.
 
-A real LDS-01 takes 0.2 s for a scan, while the robot moves on: a message of a robot that turns is bent. The simulator's
-laser sweeps likewise, see `rosmini.sim.engine.sweep`, and its messages are laid out as those of the driver
-(`hlds_laser_publisher`, 1.1.2, the last one for Noetic): the mirror goes round clockwise, the driver writes ranges from
-the last one measured to the first, so that angles increase, and it takes the stamp when all have come in. So the stamp
-is the time of `ranges[0]`, straight ahead, and `ranges[i]` is older by i / 1800 s. We say so with a negative
-`time_increment`, -1/1800 s, which stamp + i time_increment then is true for; the driver writes 0.00003 s there, too
-little and of the wrong sign (https://github.com/ROBOTIS-GIT/turtlebot3/issues/634). In Stage and Gazebo, and with
-`_sweep:=false`, all beams are measured at one moment, and it is 0.
+A real LDS-01 takes 0.2 s for a scan, while the robot moves on: the scan of a turning robot is distorted. Our
+laser sweeps likewise, see `rosmini.sim.engine.sweep`, and its messages have the layout of the driver
+(`hlds_laser_publisher`, 1.1.2, the last one for Noetic): the mirror rotates clockwise, the driver writes ranges from
+the last one measured to the first, so that angles increase, and takes the stamp when all have arrived. So the stamp
+is the time of `ranges[0]`, straight ahead, and `ranges[i]` is older by i / 1800 s. We publish this as a negative
+`time_increment`, -1/1800 s, so that stamp + i time_increment is right; the driver writes 0.00003 s, which is too
+small and has the wrong sign (https://github.com/ROBOTIS-GIT/turtlebot3/issues/634). In Stage and Gazebo, and with
+`_sweep:=false`, all beams are measured at one moment, and `time_increment` is 0.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ Floats = NDArray[np.float64]
 def scan(
     lidar: LidarModel, pose: Pose, segments: Floats, discs: Floats, noise: Floats | None = None
 ) -> Floats:
-    """The ranges (beams,) [m] that the laser of a robot at `pose` measures.
+    """Return the ranges (beams,) [m] that the laser of a robot at `pose` measures.
 
-    `segments` (n, 4) and `discs` (m, 3) are what is as high as the laser, in the world's frame; `noise` (beams,) is
-    added to what is hit.
+    `segments` (n, 4) and `discs` (m, 3) are the objects at the laser's height in the world's frame; `noise` (beams,) is
+    added to measured distances.
     """
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
@@ -51,12 +51,12 @@ def scan(
 
 
 def measured(lidar: LidarModel, distances: Floats) -> Floats:
-    """Distances (n,) as the laser tells them: inf beyond its reach, -inf if too close (REP 117)."""
+    """Return distances (n,) as the laser reports them: inf beyond its reach, -inf if too close (REP 117)."""
     ranges = np.where(distances > lidar.range_max, np.inf, distances)
     ranges[distances < lidar.range_min] = -np.inf
     return ranges
 
 
 def unmeasured(ranges: Floats, value: float = 0.0) -> Floats:
-    """Ranges (n,) with `value` in place of what was not measured: 0.0, as a real LDS-01 has it."""
+    """Return ranges (n,) with `value` instead of inf and -inf: 0.0, as a real LDS-01 does."""
     return np.where(np.isfinite(ranges), ranges, value)

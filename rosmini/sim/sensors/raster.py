@@ -1,13 +1,13 @@
-"""From things to see to pixels: which of them each pixel shows, and how near it is.
+"""From visible objects to pixels: the object that each pixel shows, and its depth.
 
 A pixel (u, v) looks along r = ((u - cx) / fx, (v - cy) / fy, 1) in the frame of the camera. A flat face with the
 corners P_i covers it if r is on the inner side of each plane through the camera and two neighbouring corners, that is
 if (P_i x P_i+1) . r has the same sign for all i; and the inverse of the depth at which r meets the face's plane n . P =
 d is n . r / d. Both are linear in u and v, so no corner has to be in front of the camera and nothing is clipped (Olano
 and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997). The nearest face wins; of two that are
-equally near, the first.
+near, the first.
 
-Cylinders and balls meet r where a quadratic says so.
+Cylinders and balls meet r at the solution of a quadratic equation.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 SLACK = 1e-9
-"""By how much, of its length, a corner's plane may be missed: faces that meet have no gap between them."""
+"""Tolerance, relative to its length, of a corner's plane: adjacent faces have no gap between them."""
 
 GROUND = -1
-"""What a pixel shows that shows no thing: the ground or the sky."""
+"""Number of a pixel without an object: the ground or the sky."""
 
 
 class Lens(NamedTuple):
@@ -51,11 +51,11 @@ class Eye(NamedTuple):
     lens: Lens
 
     def seen(self, points: Floats) -> Floats:
-        """Points (n, 3) of the world in the frame of the camera: X to the right, Y down, Z ahead [m]."""
+        """Transform points (n, 3) of the world to the frame of the camera: X to the right, Y down, Z ahead [m]."""
         return matrix_product(points - self.position, self.axes.T)
 
     def project(self, points: Floats) -> Floats:
-        """Where points (n, 3) of the world are on the image, and how deep: u, v and depth (n, 3).
+        """Return the positions of points (n, 3) of the world on the image, and their depths: u, v and depth (n, 3).
 
         Behind the camera the depth is negative.
         """
@@ -71,22 +71,22 @@ class Eye(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """The visible faces, prepared: the coefficients of what is linear in u and v, and their boxes on the image."""
+    """The visible faces, prepared: coefficients that are linear in u and v, and bounding boxes on the image."""
 
     number: Ints
-    """(n,) which face it is."""
+    """(n,): index of the face."""
     edges: Floats
-    """(n, 4, 3): inside where a + b u + c v >= 0 for each."""
+    """(n, 4, 3): inside if a + b u + c v >= 0 for each edge."""
     inverse: Floats
-    """(n, 3): the inverse of the depth is a + b u + c v."""
+    """(n, 3): the inverse depth is a + b u + c v."""
     box: Ints
-    """(n, 4): the columns from, to and the rows from, to, both ends among them."""
+    """(n, 4): first and last column, first and last row."""
 
 
 def plan(corners: Floats, seen: NDArray[np.bool_], lens: Lens) -> Plan:
-    """Make faces (n, 4, 3), in the frame of the camera, ready.
+    """Prepare faces (n, 4, 3), in the frame of the camera.
 
-    Those that are not `seen`, or outside of the image, are left out.
+    Faces that are not `seen`, or outside the image, are left out.
     """
     number = np.flatnonzero(
         seen & (corners[:, :, 2].max(axis=1) > lens.near) & (corners[:, :, 2].min(axis=1) < lens.far)
@@ -104,19 +104,19 @@ def plan(corners: Floats, seen: NDArray[np.bool_], lens: Lens) -> Plan:
     edges[..., 0] += slack
     across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     distance = (across * middle).sum(axis=1)
-    flat = distance == 0  # seen from its edge
+    flat = distance == 0  # seen edge-on
     inverse = _linear(across / np.where(flat, 1.0, distance)[:, None], lens)
     return Plan(number[~flat], edges[~flat], inverse[~flat], box[~flat])
 
 
 def _linear(planes: Floats, lens: Lens) -> Floats:
-    """`planes . r` (..., 3) as the coefficients of 1, u and v."""
+    """Return `planes . r` (..., 3) as the coefficients of 1, u and v."""
     b, c = planes[..., 0] / lens.fx, planes[..., 1] / lens.fy
     return np.stack([planes[..., 2] - b * lens.cx - c * lens.cy, b, c], axis=-1)
 
 
 def _boxes(corners: Floats, lens: Lens) -> Ints:
-    """Where on the image faces (n, 4, 3) are at most: (n, 4)."""
+    """Return bounding boxes (n, 4) on the image of faces (n, 4, 3)."""
     here, there = corners, np.roll(corners, -1, axis=1)
     z, onward = here[..., 2], there[..., 2]
     crossing = (z < lens.near) != (onward < lens.near)
@@ -137,7 +137,7 @@ def _boxes(corners: Floats, lens: Lens) -> Ints:
 
 
 def _pixels(left: Floats, right: Floats, top: Floats, bottom: Floats, lens: Lens) -> Ints:
-    """The pixels between borders, as (n, 4)."""
+    """Return the pixels between borders, as (n, 4)."""
     return np.stack(
         [
             np.ceil(np.clip(left - 1e-6, 0, lens.width)),
@@ -150,7 +150,7 @@ def _pixels(left: Floats, right: Floats, top: Floats, bottom: Floats, lens: Lens
 
 
 def boxes_around(low: Floats, high: Floats, eye: Eye) -> Ints:
-    """Return the boxes on the image (n, 4) of things within upright boxes from `low` to `high` (n, 3) in the world."""
+    """Return image bounding boxes (n, 4) of objects in upright boxes from `low` to `high` (n, 3) in the world."""
     x0, y0, z0 = low.T
     x1, y1, z1 = high.T
     sides = np.stack(
@@ -169,7 +169,7 @@ def boxes_around(low: Floats, high: Floats, eye: Eye) -> Ints:
 
 
 def draw(plan: Plan, lens: Lens, inverse: Floats, shown: Ints) -> None:
-    """Draw faces into `inverse` (h, w), the inverse depth of what is shown so far, and `shown` (h, w), its number."""
+    """Draw faces into the inverse depth `inverse` (h, w) and the number `shown` (h, w) of the nearest object so far."""
     columns, rows = np.arange(lens.width, dtype=np.float64), np.arange(lens.height, dtype=np.float64)
     most, least = 1.0 / lens.near, 1.0 / lens.far
     for number, edges, (a, b, c), (left, right, top, bottom) in zip(
@@ -216,9 +216,9 @@ def draw_rods(
     inverse: Floats,
     shown: Ints,
 ) -> None:
-    """Draw upright cylinders (m, 5), of which the first has the number `first`, as `draw` does.
+    """Draw upright cylinders (m, 5), the first with the number `first`, in the same way as `draw`.
 
-    A camera inside of one does not see it.
+    A cylinder that contains the camera is invisible.
     """
     ex, ey, ez = position.tolist()
     for i, ((x, y, radius, bottom, top), box) in enumerate(zip(rods.tolist(), boxes.tolist(), strict=True)):
@@ -254,7 +254,7 @@ def draw_balls(
     inverse: Floats,
     shown: Ints,
 ) -> None:
-    """Draw balls (k, 4), likewise."""
+    """Draw balls (k, 4) in the same way as `draw_rods`."""
     ex, ey, ez = position.tolist()
     for i, ((x, y, z, radius), box) in enumerate(zip(balls.tolist(), boxes.tolist(), strict=True)):
         ox, oy, oz = ex - x, ey - y, ez - z
@@ -270,7 +270,7 @@ def draw_balls(
 
 
 def _window(box: list[int], rays: Floats) -> tuple[tuple[slice, slice] | None, Floats, Floats, Floats]:
-    """A part of the image, and the ways that its pixels look along."""
+    """Return a window of the image, and the ray directions of its pixels."""
     left, right, top, bottom = box
     u, v = np.arange(left, right + 1, dtype=np.float64), np.arange(top, bottom + 1, dtype=np.float64)
     if not (len(u) and len(v)):
@@ -282,7 +282,7 @@ def _window(box: list[int], rays: Floats) -> tuple[tuple[slice, slice] | None, F
 def _put(
     depth: Floats, number: int, window: tuple[slice, slice], lens: Lens, inverse: Floats, shown: Ints
 ) -> None:
-    """Show what is at `depth` where nothing nearer is shown."""
+    """Draw an object at `depth` where no nearer one is drawn."""
     hit = (depth >= lens.near) & (depth <= lens.far)
     near = np.where(hit, 1.0 / np.where(hit, depth, 1.0), -1.0)
     hit &= near > inverse[window]

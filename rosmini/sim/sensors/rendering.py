@@ -1,15 +1,15 @@
-"""A camera: the image, and the depths, of a world that is flat but for how high its things are.
+"""A camera: the image and the depths of a world whose objects are upright.
 
 It has no distortion. A point at (X, Y, Z) in its optical frame (X to the right, Y down, Z ahead: REP 103) is seen at
 
     u = fx X / Z + cx,   v = fy Y / Z + cy,   fx = fy = width / (2 tan(horizontal_fov / 2)),
 
-where whole numbers are the middles of pixels. cx = (width + 1) / 2 and cy = (height + 1) / 2 are what gazebo_ros's
-camera plugin writes into `sensor_msgs/CameraInfo`; here the image is drawn by them too, so that what the message says
-is exact.
+where whole numbers are the centres of pixels. cx = (width + 1) / 2 and cy = (height + 1) / 2 are the values in the
+`sensor_msgs/CameraInfo` of gazebo_ros's camera plugin; here the image is rendered with them too, so the message is
+exact.
 
-The camera sits where its model says on a robot, turned by `yaw` to the left and then by `pitch` down. A pixel is what
-its middle shows. The light and the ground are those of `rosmini.sim.sensors.shading`.
+The camera's position on a robot is in its model; it is turned by `yaw` to the left and then by `pitch` down. A pixel
+shows the point at its centre. Light and ground are described in `rosmini.sim.sensors.shading`.
 """
 
 from __future__ import annotations
@@ -39,16 +39,16 @@ Depths = NDArray[np.float32]
 Ints = NDArray[np.int64]
 
 View = Scene | World | Iterable[Part]
-"""What there is to see; a `Scene` that is kept is quickest."""
+"""The visible objects; a cached `Scene` is fastest."""
 
 
 class CameraError(RosminiError, ValueError):
-    """There is no such place to look from."""
+    """The camera's pose is invalid."""
 
 
 @dataclass(frozen=True)
 class CameraInfo:
-    """The numbers of a `sensor_msgs/CameraInfo`, row by row as the message holds them."""
+    """The calibration in a `sensor_msgs/CameraInfo`, row by row as in the message."""
 
     width: int
     height: int
@@ -62,16 +62,16 @@ class CameraInfo:
 
 
 def lens_of(camera: CameraModel) -> Lens:
-    """How a camera projects."""
+    """Return the projection of a camera."""
     f = camera.focal_length
     cx, cy = (camera.width + 1) / 2, (camera.height + 1) / 2
     return Lens(camera.width, camera.height, f, f, cx, cy, camera.near, camera.far)
 
 
 def camera_info(camera: CameraModel, baseline: float = 0.0) -> CameraInfo:
-    """What a camera's `camera_info` says.
+    """Return the contents of a camera's `camera_info`.
 
-    `baseline` [m] is how far it sits to the right of a first camera (Gazebo's `hackBaseline`).
+    `baseline` [m] is its distance to the right of a first camera (Gazebo's `hackBaseline`).
     """
     lens = lens_of(camera)
     k = (lens.fx, 0.0, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0)
@@ -80,9 +80,9 @@ def camera_info(camera: CameraModel, baseline: float = 0.0) -> CameraInfo:
 
 
 def eye_of(camera: CameraModel, pose: Pose, height: float = 0.0, roll: float = 0.0) -> Eye:
-    """Where the camera of a robot at `pose` is, and where it looks.
+    """Return the position and orientation of the camera of a robot at `pose`.
 
-    `height` is that of the robot's base_footprint above the ground [m]; `roll` turns the camera about where it looks,
+    `height` is that of the robot's base_footprint above the ground [m]; `roll` turns the camera about its optical axis,
     to the right [rad].
 
     Raises:
@@ -117,17 +117,17 @@ def capture(
     noise: Floats | None = None,
     depth_far: float | None = None,
 ) -> tuple[Image, Depths]:
-    """The image (h, w, 3), red, green, blue, and the depths (h, w) [m] that a camera sees; both from one look.
+    """Return the image (h, w, 3), red, green, blue, and the depths (h, w) [m] that a camera sees at one moment.
 
     Args:
-        camera: which camera; or an eye anywhere, and then `pose` is not asked for.
-        pose: where the robot is that carries it.
-        view: what there is to see.
-        noise: (h, w), what to add to each pixel's brightness, of 1 from black to white: `camera_noise` draws it.
-        depth_far: the farthest that is measured [m]; the camera's own if not given.
+        camera: the camera's model; or an eye anywhere, in which case `pose` is ignored.
+        pose: the pose of the robot that carries it.
+        view: the visible objects.
+        noise: (h, w), added to each pixel's brightness, on a scale from 0 (black) to 1 (white); see `camera_noise`.
+        depth_far: the maximum measured depth [m]; the camera's own if not given.
 
-    Depths are along the camera's axis (REP 118). Where nothing is seen within reach they are inf (REP 117); what is
-    nearer than the camera's `near` is not seen at all, neither in the image nor in the depths, as in Gazebo.
+    Depths are along the camera's axis (REP 118). They are inf if nothing is within reach (REP 117); objects
+    nearer than the camera's `near` are invisible in the image and in the depths, as in Gazebo.
 
     Raises:
         CameraError: the pose is not finite.
@@ -148,12 +148,12 @@ def render(
     *,
     noise: Floats | None = None,
 ) -> Image:
-    """The image (h, w, 3) alone; see `capture`."""
+    """Return only the image (h, w, 3); see `capture`."""
     return capture(camera, pose, view, noise=noise)[0]
 
 
 def depth(camera: CameraModel | Eye, pose: Pose, view: View, *, far: float | None = None) -> Depths:
-    """The depths (h, w) [m] alone; see `capture`."""
+    """Return only the depths (h, w) [m]; see `capture`."""
     eye = camera if isinstance(camera, Eye) else eye_of(camera, pose)
     if far is None and isinstance(camera, CameraModel):
         far = camera.depth_far
@@ -162,7 +162,7 @@ def depth(camera: CameraModel | Eye, pose: Pose, view: View, *, far: float | Non
 
 
 def camera_noise(camera: CameraModel, rng: np.random.Generator, scale: float = 1.0) -> Floats | None:
-    """The noise (h, w) of one image; None if the camera has none."""
+    """Return the noise (h, w) of one image; None if the camera has no noise."""
     deviation = camera.noise * scale
     if not deviation:
         return None
@@ -171,7 +171,7 @@ def camera_noise(camera: CameraModel, rng: np.random.Generator, scale: float = 1
 
 
 def look(eye: Eye, scene: Scene) -> tuple[Floats, Ints]:
-    """What each pixel shows: the inverse of its depth (h, w) [1/m], 0 for the sky; and the number (h, w) of what it is.
+    """Return for each pixel the inverse depth (h, w) [1/m], 0 for the sky, and the number (h, w) of its object.
 
     Faces, cylinders and balls are numbered in this order; -1 is the ground or the sky.
     """
@@ -205,7 +205,7 @@ def _image(eye: Eye, scene: Scene, inverse: Floats, shown: Ints, noise: Floats |
 
 
 def _ground(eye: Eye, rays: Floats) -> Floats:
-    """The inverse depth (h, w) of the ground, 0 where it is not seen."""
+    """Return the inverse depth (h, w) of the ground, 0 where it is not visible."""
     lens, height = eye.lens, float(eye.position[2])
     if height <= 0:
         return np.zeros((lens.height, lens.width))

@@ -1,7 +1,7 @@
-"""What a camera can see of a world, as arrays: flat faces, cylinders and balls, each with its colour.
+"""The objects of a world that a camera can see, as arrays: flat faces, cylinders and balls, each with its colour.
 
-Upright sides, tops and bottoms are faces of four corners; a polygon's top is cut into trapezia, which also does for
-walls that go round something.
+Upright sides, tops and bottoms are faces of four corners; a polygon's top is divided into trapezia, and so is the top
+of solid walls.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ PAINT = {
 
 
 def rgb(colour: str) -> Rgb:
-    """Red, green and blue, each 0 to 1, of a named colour or of "#rrggbb"."""
+    """Return red, green and blue, each 0 to 1, of a named colour or of "#rrggbb"."""
     digits = PAINT.get(colour, colour)
     return (int(digits[1:3], 16) / 255, int(digits[3:5], 16) / 255, int(digits[5:7], 16) / 255)
 
@@ -43,16 +43,16 @@ def _none(*shape: int) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Things to see, in the frame of the world [m]. `a + b` holds what both hold."""
+    """Visible objects in the frame of the world [m]. `a + b` contains the objects of both."""
 
     faces: Floats = field(default_factory=lambda: _none(4, 3))
-    """(n, 4, 3): corners, counter-clockwise seen from outside; a triangle has its last corner twice."""
+    """(n, 4, 3): corners, counter-clockwise seen from outside; a triangle repeats its last corner."""
     paints: Floats = field(default_factory=lambda: _none(3))
     """(n, 3): the faces' colours, 0 to 1."""
     normals: Floats = field(default_factory=lambda: _none(3))
-    """(n, 3): to where each face looks, of length 1."""
+    """(n, 3): the faces' outward unit normals."""
     thin: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=bool))
-    """(n,): which faces are seen from behind too, as walls without thickness are."""
+    """(n,): True for faces that are visible from behind too, as walls without thickness are."""
     rods: Floats = field(default_factory=lambda: _none(5))
     """(m, 5): upright cylinders, each x, y, radius, bottom and top."""
     rod_paints: Floats = field(default_factory=lambda: _none(3))
@@ -70,7 +70,7 @@ class Scene:
 
     @classmethod
     def of(cls, parts: Iterable[Part]) -> Scene:
-        """What solid parts look like from outside."""
+        """Return solid parts as seen from outside."""
         quads, paints, thin, rods, rod_paints, balls, ball_paints = _lists()
         for part in parts:
             paint = rgb(part.colour)
@@ -101,7 +101,7 @@ class Scene:
 
     @classmethod
     def walls(cls, segments: Floats, height: float, *, solid: bool = False, colour: str = "wall") -> Scene:
-        """Walls from the ground up on segments (n, 4); if `solid`, with a top on what they go round."""
+        """Return walls from the ground up on segments (n, 4); if `solid`, with a top on the areas they enclose."""
         (x1, y1, x2, y2), low = np.asarray(segments, dtype=float).reshape(-1, 4).T, np.zeros(len(segments))
         high = low + height
         sides = np.stack(
@@ -119,27 +119,27 @@ class Scene:
 
     @classmethod
     def of_world(cls, world: World) -> Scene:
-        """A world as it was made, its things where they stand at first."""
+        """Return a world with its obstacles at their initial poses."""
         return cls.walls(world.walls, world.wall_height, solid=world.solid) + cls.of(
             parts_of(world.obstacles)
         )
 
 
 def parts_of(obstacles: Iterable[Obstacle]) -> list[Part]:
-    """Obstacles as parts in the world."""
+    """Return obstacles as parts in the world."""
     return [Part(o.shape, o.pose, o.bottom, o.height, o.colour, o.name) for o in obstacles]
 
 
 def placed(parts: Iterable[Part], pose: tuple[float, float, float]) -> list[Part]:
-    """Parts in the frame of something, as a `RobotModel` has them, when that stands at `pose` in the world."""
+    """Transform parts from a frame, such as that of a `RobotModel`, with that frame at `pose` in the world."""
     return [Part(p.shape, compose(pose, p.pose), p.bottom, p.top, p.colour, p.name) for p in parts]
 
 
 def trapezia(segments: Floats, height: float) -> Floats:
-    """Level faces (n, 4, 3) at `height` that fill the closed outlines of segments (m, 4) by the even-odd rule.
+    """Return level faces (n, 4, 3) at `height` that fill the closed outlines of segments (m, 4) by the even-odd rule.
 
-    The plane is cut into strips from one corner's y to the next; in a strip, each two sides that follow one another
-    bound a trapezium.
+    The plane is cut into strips between the y coordinates of neighbouring corners; in a strip, each pair of consecutive
+    sides bounds a trapezium.
     """
     sides = np.asarray(segments, dtype=float).reshape(-1, 4)
     sides = sides[sides[:, 1] != sides[:, 3]]
@@ -158,19 +158,19 @@ def trapezia(segments: Floats, height: float) -> Floats:
 
 
 def _prism(outline: Floats, bottom: float, top: float) -> Floats:
-    """The sides, the top and the bottom of an upright prism, as faces (n, 4, 3)."""
+    """Return the sides, the top and the bottom of an upright prism, as faces (n, 4, 3)."""
     ends = np.roll(outline, -1, axis=0)
     low, high = np.full(len(outline), bottom), np.full(len(outline), top)
     corners = ((outline, low), (ends, low), (ends, high), (outline, high))
     sides = np.stack([np.column_stack(each) for each in corners], axis=1)
     lid = _lid(outline, top)
-    if bottom <= 0:  # it stands on the ground: nobody sees it from below
+    if bottom <= 0:  # on the ground, so its bottom is invisible
         return np.concatenate([sides, lid])
     return np.concatenate([sides, lid, _lid(outline, bottom)[:, ::-1]])
 
 
 def _lid(outline: Floats, height: float) -> Floats:
-    """A polygon's area at one height, as faces counter-clockwise seen from above."""
+    """Return a polygon's area at one height, as faces counter-clockwise seen from above."""
     if len(outline) == 4:
         around = np.roll(outline, -1, axis=0) - outline
         onward = np.roll(around, -1, axis=0)
@@ -180,7 +180,7 @@ def _lid(outline: Floats, height: float) -> Floats:
 
 
 def _normals(faces: Floats) -> Floats:
-    """The unit vectors (n, 3) across faces (n, 4, 3), to the outside."""
+    """Return the outward unit normals (n, 3) of faces (n, 4, 3)."""
     across = np.cross(faces[:, 2] - faces[:, 0], faces[:, 3] - faces[:, 1])
     length = norms(across)[:, None]
     unit: Floats = across / np.where(length > 0, length, 1.0)

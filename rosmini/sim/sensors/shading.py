@@ -1,8 +1,8 @@
-"""How things look: light from above and from one side, a chequered ground, a pale sky, and a little haze.
+"""Appearance of a scene: light from above and from one side, a chequered ground, a pale sky, and a little haze.
 
 A surface with the normal n has its colour times 0.76 + 0.26 n . l, where l points to the light: walls that meet in a
-corner differ, and what one sees from above is brightest. The ground's squares are as large as a step, so that motion is
-seen; where they are smaller than a pixel they blur into their mean.
+corner differ, and surfaces seen from above are brightest. The squares of the ground are about a step in size, which
+makes motion visible; where they are smaller than a pixel they blur into their average.
 """
 
 from __future__ import annotations
@@ -20,25 +20,25 @@ from .scene import Floats, Rgb, Scene
 Pixels = NDArray[np.float32]
 Ints = NDArray[np.int64]
 Ways = tuple[Pixels, ...]
-"""Where the pixels look, along x, y and z, for one metre of depth."""
+"""The ray directions of the pixels, along x, y and z, for one metre of depth."""
 
 LIGHT = np.array([0.36, 0.52, 0.775]) / norm([0.36, 0.52, 0.775])
 AMBIENT, DIFFUSE = 0.76, 0.26
 
 SQUARE = 0.5
-"""The side of one square of the ground [m]."""
+"""Edge length of a square of the ground [m]."""
 GROUND_LIGHT: Rgb = (0.800, 0.775, 0.735)
 GROUND_DARK: Rgb = (0.705, 0.675, 0.630)
 HORIZON: Rgb = (0.905, 0.930, 0.955)
 ZENITH: Rgb = (0.520, 0.680, 0.860)
 HAZE = 45.0
-"""At this distance [m] things have 63 % of the horizon's colour."""
+"""Distance [m] at which objects have 63 % of the horizon's colour."""
 
 
 def coloured(eye: Eye, scene: Scene, inverse: Floats, shown: Ints) -> Pixels:
-    """The image, a plane for each of red, green and blue (3, h, w), 0 to 1, of what `rosmini.sim.sensors.raster` drew.
+    """Return the image drawn by `rosmini.sim.sensors.raster`, as planes of red, green and blue (3, h, w), 0 to 1.
 
-    In planes numpy's loops run along many pixels, and not along three numbers.
+    With planes numpy's loops run along many pixels instead of three numbers.
     """
     height, width = shown.shape
     u, v = np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32)
@@ -59,13 +59,13 @@ def coloured(eye: Eye, scene: Scene, inverse: Floats, shown: Ints) -> Pixels:
 
 
 def lit(normals: Floats) -> Floats:
-    """How bright surfaces with normals (n, 3) are."""
+    """Return the brightness of surfaces with normals (n, 3)."""
     bright: Floats = AMBIENT + DIFFUSE * matrix_product(normals, LIGHT)
     return bright
 
 
 def _paints(*colours: Rgb) -> Pixels:
-    """Colours (n, 3) in numbers of 32 bits."""
+    """Return colours (n, 3) as 32-bit numbers."""
     return np.array(colours, dtype=np.float32)
 
 
@@ -84,7 +84,7 @@ def _ground(planes: Pixels, where: Ints, eye: Eye, near: Pixels, ways: Ways) -> 
     depth: Pixels = np.reciprocal(near[where])
     x: Pixels = depth * ways[0][where] + np.float32(eye.position[0])
     y: Pixels = depth * ways[1][where] + np.float32(eye.position[1])
-    # a pixel covers so much of the ground: more along the way than across it
+    # a pixel's extent on the ground is larger along the ray than across it
     stretch = np.maximum(np.float32(1.0), np.float32(0.35 / abs(eye.position[2])) * depth)
     step: Pixels = (depth * np.float32(1 / eye.lens.fx) * stretch).astype(np.float32)
     wave = (_wave(x, step) * _wave(y, step)).astype(np.float32, copy=False)
@@ -96,7 +96,7 @@ def _ground(planes: Pixels, where: Ints, eye: Eye, near: Pixels, ways: Ways) -> 
 
 
 def _wave(x: Pixels, step: Pixels) -> Pixels:
-    """1 and -1 by turns, with edges as soft as a pixel is wide."""
+    """Return a square wave between 1 and -1, with edges one pixel wide."""
     period = np.float32(2 * SQUARE)
     x = x / period + np.float32(0.25)
     x -= np.floor(x)
@@ -106,7 +106,7 @@ def _wave(x: Pixels, step: Pixels) -> Pixels:
 
 
 def face_colours(eye: Eye, scene: Scene) -> Floats:
-    """The colours (n, 3) of the faces in the light; a thin wall shows the side where the camera is."""
+    """Return the colours (n, 3) of the lit faces; a thin wall shows the side that faces the camera."""
     normals = scene.normals
     towards = (normals * (eye.position - scene.faces[:, 0])).sum(axis=1)
     normals = np.where((scene.thin & (towards < 0))[:, None], -normals, normals)
@@ -115,7 +115,7 @@ def face_colours(eye: Eye, scene: Scene) -> Floats:
 
 
 def _colours(eye: Eye, scene: Scene, near: Pixels, number: Ints, things: Ints, ways: Ways) -> Pixels:
-    """The colours (3, n) of the pixels where something is shown, in the light."""
+    """Return the colours (3, n) of the pixels that show an object, in the light."""
     shown, faces = number[things], len(scene.faces)
     table = np.zeros((faces + len(scene.rods) + len(scene.balls), 3), dtype=np.float32)
     table[:faces] = face_colours(eye, scene)
@@ -128,7 +128,7 @@ def _colours(eye: Eye, scene: Scene, near: Pixels, number: Ints, things: Ints, w
 
 
 def _round(eye: Eye, scene: Scene, near: Pixels, number: Ints, ways: Sequence[Pixels]) -> Pixels:
-    """Return the colours (3, n) of cylinders and balls: their normals follow from where they were met."""
+    """Return the colours (3, n) of cylinders and balls, whose normals follow from the visible points."""
     rods = len(scene.rods)
     depth = np.reciprocal(near)
     x, y, z = (depth * way + np.float32(e) for e, way in zip(eye.position, ways, strict=True))

@@ -1,4 +1,4 @@
-"""From the robots of a Stage file to models for the engine."""
+"""Conversion of the robots in a Stage file to models for the engine."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from .solids import Solid, filled, solid
 from .things import Thing
 
 UNSEEN = (-2.0, -1.0)
-"""Where the parts of a robot are that no ranger sees [m]: below the ground."""
+"""Bottom and top of the parts that rangers do not see [m]: below the ground."""
 
 
 def robot_model(robot: StageRobot, interval: float) -> RobotModel:
-    """The model of a robot that is looked at every `interval` [s].
+    """Return the model of a robot that is updated every `interval` [s].
 
     It reaches a commanded velocity at once, within its bounds, as in Stage, and its wheels are perfect: the errors of
-    its odometry are Stage's own model (`StageOdometry`). What touches others is the smallest convex polygon around
+    its odometry follow Stage's own model (`StageOdometry`). Its contact outline is the convex hull of
     its body. Raises `StageError`.
     """
     bodies = [(thing, each) for thing in robot.body for each in _solids(thing)]
@@ -49,7 +49,7 @@ def robot_model(robot: StageRobot, interval: float) -> RobotModel:
 
 
 def laser_model(laser: StageLaser, name: str, interval: float) -> LidarModel:
-    """The model of a laser whose topic has this name. What is too near for it has a range all the same, as in Stage."""
+    """Return the model of a laser whose topic has this name. Objects that are too near are measured, as in Stage."""
     half = laser.fov / 2 if laser.samples > 1 else 0.0
     return LidarModel(
         name=name,

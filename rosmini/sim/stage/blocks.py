@@ -1,8 +1,8 @@
-"""Bodies of Stage's models: blocks, which are polygons with a bottom and a top, or what is dark in an image.
+"""Bodies of Stage's models: blocks, which are polygons with a bottom and a top, or the dark pixels of an image.
 
-A body is stretched to the model's `size`: the smallest box around it becomes that size, and its middle the model's
-origin. So a floor plan's image needs black up to its edges (or a `boundary`) to keep its scale: white margins do not
-count, which surprises those who come from map_server. A pixel is dark if its first channel is not over 127 (facts:
+A body is stretched to the model's `size`: its bounding box gets that size, and its centre becomes the model's
+origin. So a floor plan's image needs black up to its edges (or a `boundary`) to keep its scale: white margins are
+ignored, which surprises users of map_server. A pixel is dark if its first channel is at most 127 (facts:
 libstage's blockgroup.cc, block.cc and stage.cc).
 """
 
@@ -26,12 +26,12 @@ Size = tuple[float, float, float]
 
 THRESHOLD = 127
 EDGE = 0.01
-"""How thick a boundary is [m]."""
+"""Thickness of a boundary [m]."""
 
 
 @dataclass(frozen=True)
 class Block:
-    """A closed outline (n, 2), counter-clockwise, clockwise for a hole in another one, from one height to another."""
+    """A closed outline (n, 2), counter-clockwise, or clockwise for a hole, from one height to another."""
 
     outline: Floats
     bottom: float = 0.0
@@ -40,22 +40,22 @@ class Block:
 
 @dataclass(frozen=True)
 class Body:
-    """What a model is made of, in its own frame [m]."""
+    """The geometry of a model, in its own frame [m]."""
 
     blocks: tuple[Block, ...]
     traced: bool = False
-    """From an image: the outlines are apart from one another, but may be holes in others."""
+    """True if it is from an image: its outlines do not touch, but can be holes in others."""
     boundary: tuple[Block, ...] = ()
-    """A frame around it all."""
+    """A frame around the whole body."""
 
 
 def square() -> Block:
-    """What a model is of which nothing else is said."""
+    """Return the default block of a model."""
     return Block(np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]))
 
 
 def block(points: Floats, bottom: float, top: float) -> tuple[Block | None, str]:
-    """Return a block of these vertices (n, 2), in either sense, and what is odd about it; None if it encloses nothing.
+    """Return a block of these vertices (n, 2), in either sense, and a remark; None if it encloses nothing.
 
     Stage draws the sides of any list of points; here a block whose sides cross becomes its convex hull.
     """
@@ -79,7 +79,7 @@ def block(points: Floats, bottom: float, top: float) -> tuple[Block | None, str]
 
 
 def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
-    """Outlines of what is dark, in pixels, y up; the box around it (x0, y0, x1, y1); and what is odd about it."""
+    """Return the outlines of the dark pixels, y up; their bounding box (x0, y0, x1, y1); and a remark."""
     try:
         with images.opened(path) as found:
             first = np.asarray(found.convert("RGB"))[:, :, 0]
@@ -104,9 +104,9 @@ def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, flo
 def stretched(
     blocks: tuple[Block, ...], size: Size, box: tuple[float, float, float, float] | None = None
 ) -> tuple[Block, ...]:
-    """Scale blocks so that the smallest box around them, or `box` (x0, y0, x1, y1), has a size [m] and is centred.
+    """Scale blocks so that their bounding box, or `box` (x0, y0, x1, y1), has a size [m] and is centred.
 
-    Heights start where they start: only their extent is scaled.
+    Heights are scaled from 0 and not shifted.
     """
     if not blocks:
         return ()
@@ -122,7 +122,7 @@ def stretched(
 
 
 def frame(size: Size) -> tuple[Block, ...]:
-    """The boundary of a body of this size: four thin walls within it."""
+    """Return the boundary of a body of this size: four thin walls within it."""
     x, y, z = size[0] / 2, size[1] / 2, size[2]
     sides = ((-x, -y, x, -y + EDGE), (-x, y - EDGE, x, y), (-x, -y, -x + EDGE, y), (x - EDGE, -y, x, y))
     return tuple(

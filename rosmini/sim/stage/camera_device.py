@@ -1,8 +1,8 @@
-"""Stage's camera: `image`, `depth` and `camera_info`, as long as somebody listens to one of the first two.
+"""Stage's camera: publishes `image`, `depth` and `camera_info` while one of the first two has a subscriber.
 
-It looks along the heading of its pose, turned to the right by the pan and down by the tilt of its `pantilt`. (Stage
-4.3 draws the picture as if the pose had no heading, and publishes the heading on `/tf` all the same; here both
-agree.) Its pixels need not be square: each field of view is its own.
+It faces the heading of its pose, turned to the right by the pan and down by the tilt of its `pantilt`. (Stage
+4.3 draws the picture as if the pose had no heading, but publishes the heading on `/tf`; here both
+agree.) Its pixels need not be square, because the two fields of view are independent.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ MILLIMETRES = 1000
 
 
 class StageCameraDevice(CameraDevice):
-    """A camera on a robot, published once a step.
+    """A camera on a robot, published once per step.
 
-    `canonical` depths are 32FC1, in metres, -inf for what is nearer than `range` says and inf for what is farther
-    (REP 118); else they are 16UC1, in millimetres, with 0 for both.
+    `canonical` depths are 32FC1, in metres, with -inf below the minimum of `range` and inf above the maximum
+    (REP 118); otherwise they are 16UC1, in millimetres, with 0 for both.
     """
 
     def __init__(
@@ -80,17 +80,17 @@ class StageCameraDevice(CameraDevice):
         return info
 
     def wanted(self) -> bool:
-        """Return whether anybody looks; for the numbers alone nothing is done."""
+        """Return True if the images or depths have a subscriber; camera_info alone is not published."""
         return heard(self._image) or heard(self._depth)
 
     def eye(self) -> Eye:
-        """Where it is now, and where it looks."""
+        """Return its current position and orientation."""
         camera = self.stage_camera
         x, y, heading = compose(self.robot.pose, (camera.pose[0], camera.pose[1], camera.pose[3]))
         return Eye(np.array([x, y, camera.elevation]), axes_of(heading - camera.pan, camera.tilt), self.lens)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Take a picture."""
+        """Render and publish an image."""
         self.warn()
         image, depths = capture(self.eye(), self.robot.pose, self._scene())
         opaque = np.full((*image.shape[:2], 1), 255, dtype=np.uint8)
@@ -107,12 +107,12 @@ class StageCameraDevice(CameraDevice):
         return np.where(within, np.minimum(np.where(within, depths, 0) * MILLIMETRES, 65535), 0).astype("<u2")
 
     def rotation(self) -> tuple[float, float, float, float]:
-        """The quaternion of its optical frame (x to the right, y down, z ahead: REP 103), seen from base_link."""
+        """Return the quaternion of its optical frame (x right, y down, z ahead: REP 103) relative to base_link."""
         return optical(self.stage_camera.pose[3] - self.stage_camera.pan, self.stage_camera.tilt)
 
 
 def lens(camera: StageCamera) -> Lens:
-    """How a camera projects: stageros's numbers, the middle of the picture in (width / 2, height / 2)."""
+    """Return the projection of a camera: stageros's values, with the image centre at (width / 2, height / 2)."""
     fx, fy = (
         size / (2 * math.tan(fov / 2))
         for size, fov in zip((camera.width, camera.height), camera.fov, strict=True)
@@ -123,12 +123,12 @@ def lens(camera: StageCamera) -> Lens:
 
 
 def optical(yaw: float, pitch: float) -> tuple[float, float, float, float]:
-    """The quaternion x, y, z, w of the optical frame of a camera turned left by `yaw`, then down by `pitch` [rad].
+    """Return the quaternion x, y, z, w of a camera's optical frame, turned left by `yaw`, then down by `pitch` [rad].
 
     >>> [round(part, 3) for part in optical(0.0, 0.0)]
     [-0.5, 0.5, -0.5, 0.5]
     """
-    # about z by yaw - 90 degrees, and then about the new x by -90 degrees less the pitch
+    # rotation about z by yaw - 90 degrees, and then about the new x by -90 degrees less the pitch
     half, tilt = (yaw - math.pi / 2) / 2, (-math.pi / 2 - pitch) / 2
     c, s, ct, st = math.cos(half), math.sin(half), math.cos(tilt), math.sin(tilt)
     return (c * st, s * st, s * ct, c * ct)

@@ -1,4 +1,4 @@
-"""What stageros publishes of a robot, once a step, in the form that Stage gives it."""
+"""The devices that publish a robot's topics once per step, in the form of stageros."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ Floats = NDArray[np.float64]
 NO_COVARIANCE = (0.0,) * 6
 
 LATE = 1e-9
-"""Times that differ by less [s] are the same."""
+"""Times that differ by less [s] count as equal."""
 
 
 class StageBase(DifferentialDrive):
-    """A position: `cmd_vel` in, `odom` out.
+    """A position model: subscribes to `cmd_vel`, publishes `odom`.
 
-    It has at once the velocity it is told, cut to its bounds. Of a car linear.x is the speed of its steered wheel and
-    angular.z the angle that this wheel is turned by; "diff" leaves linear.y out. `commanded` is called at each
+    It reaches the commanded velocity at once, within its bounds. For a car linear.x is the speed of its steered wheel
+    and angular.z that wheel's angle; "diff" ignores linear.y. `commanded` is called at each
     command.
     """
 
@@ -61,7 +61,7 @@ class StageBase(DifferentialDrive):
         self._update()
 
     def velocity(self, v: float, aside: float, w: float) -> Velocity:
-        """The velocity that a command means."""
+        """Return the velocity for a command."""
         robot = self.stage_robot
         if robot.drive == "car":
             v, w = v * math.cos(w), v * math.sin(w) / robot.wheelbase
@@ -74,12 +74,12 @@ class StageBase(DifferentialDrive):
         return (ahead, left if self.sideways else 0.0, turn)
 
     def command(self, v: float, w: float, vy: float = 0.0) -> None:
-        """Drive ahead and to the side [m/s] and turn left [rad/s]. Raises `RosminiError` for no finite number."""
+        """Drive ahead and to the side [m/s] and turn left [rad/s]. Raises `RosminiError` unless all are finite."""
         self._commanded()
         self.go(self.velocity(v, vy, w))
 
     def go(self, velocity: Velocity) -> None:
-        """Go on at this velocity."""
+        """Continue at this velocity."""
         self.host.catch_up()
         self.reckoning.told(velocity, self.host.engine.now)
         v, aside, w = velocity
@@ -91,24 +91,24 @@ class StageBase(DifferentialDrive):
         self.reckoned = Reckoned(self.reckoning.pose(self.robot.pose), v, aside, w)
 
     def reset(self) -> None:
-        """Stand. What the base believes of where it is stays, as in Stage."""
+        """Stop. The estimated pose stays the same, as in Stage."""
         self.reckoning.told(STILL, self.host.engine.now)
 
     def state(self) -> Any:
-        """The odometry, and whether the motors have current."""
+        """Return the odometry and the state of the motors."""
         return super().state(), copy.copy(self.reckoning)
 
     def restore(self, state: Any) -> None:
-        """Restore the odometry."""
+        """Restore what `state` returned."""
         own, reckoning = state
         super().restore(own)
         self.reckoning = copy.copy(reckoning)
 
 
 class StageTruth(GroundTruth):
-    """The topic `base_pose_ground_truth`: pose and velocity of a base in the world's frame, from one step to the next.
+    """The topic `base_pose_ground_truth`: pose and velocity of a base in the world's frame, between two steps.
 
-    Its frame has the name of the topic, as in stageros: nobody knows where that frame is.
+    Its frame has the topic's name, as in stageros; no transform connects that frame to others.
     """
 
     always = True
@@ -123,24 +123,24 @@ class StageTruth(GroundTruth):
         self._before: Pose = self.robot.pose
 
     def due(self, stamp: Stamp, number: int, /) -> None:
-        """Tell where it is, and remember it for the next step."""
+        """Publish the pose, and remember it for the next step."""
         if self.wanted():
             super().due(stamp, number)
         self._before = self.robot.pose
 
     def sample(self, _: int) -> tuple[float, ...]:
-        """Return where it is, and its velocity since the last step."""
+        """Return the pose, and the velocity since the last step."""
         pose, before = self.robot.pose, self._before
         vx, vy = (pose[0] - before[0]) * self.rate, (pose[1] - before[1]) * self.rate
         return odometry_values(pose, vx, vy, normalize_angle(pose[2] - before[2]) * self.rate)
 
 
 class StageLaserDevice(RangeDevice):
-    """`base_scan`. A ray that hits nothing has the largest range, as in Stage, and what is too near has its own.
+    """`base_scan`. A ray without a hit reports the maximum range, as in Stage, and too near objects are measured.
 
-    Stage's noise: a range r becomes r + r p u + n, with u even between -1 and 1 and n normal, where `noise [n p ..]`
-    in the file gives p, and the standard deviation of n, which Stage 4.3's code takes as a variance. Intensities are
-    1 where something was hit, Stage's `ranger_return` if none is given.
+    Stage's noise: a range r becomes r + r p u + n, with u uniform between -1 and 1 and n normal, where `noise [n p ..]`
+    in the file gives p, and the standard deviation of n, which Stage 4.3's code uses as a variance. Intensities are
+    1 for a hit, the default of Stage's `ranger_return`.
     """
 
     queue_size = 10
@@ -161,12 +161,12 @@ class StageLaserDevice(RangeDevice):
         super().__init__(host, robot, model, topic=topic, frame=frame, name=name)
 
     def describe(self, message: Any) -> None:
-        """Fill in the numbers of the laser."""
+        """Fill in the laser's constants."""
         super().describe(message)
         message.range_min = self._near
 
     def sample(self, _: int) -> tuple[Floats, Floats]:
-        """Return ranges and intensities. Noise is drawn even if nobody listens: it does not depend on who does."""
+        """Return ranges and intensities. Noise is drawn even without subscribers, and so does not depend on them."""
         engine, model = self.host.engine, self.lidar
         exact = engine.scan(self.robot.name, lidar=model)
         hit = np.isfinite(exact)
@@ -181,7 +181,7 @@ class StageLaserDevice(RangeDevice):
 
 
 class StageTransforms(Device):
-    """`/tf` of all robots: odom to base_footprint, which is base_link, and from there to the sensors."""
+    """`/tf` of all robots: odom to base_footprint, base_footprint to base_link, and base_link to the sensors."""
 
     order = OdometryTransforms.order
 
@@ -206,7 +206,7 @@ class StageTransforms(Device):
         rotation: Sequence[float],
         wanted: Callable[[], bool] | None = None,
     ) -> None:
-        """Add a sensor that sits there [m], turned by a quaternion; if `wanted` is given, while it returns True."""
+        """Add a sensor at a position [m], turned by a quaternion; if `wanted` is given, only while it returns True."""
         make = fixed_transform(frame, child, place, rotation)
         if wanted is None:
             self._still.append(make)
@@ -214,7 +214,7 @@ class StageTransforms(Device):
             self._sometimes.append((wanted, make))
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Publish where all are."""
+        """Publish the current transforms."""
         if not self._publisher.num_connections():
             return
         fixed = [*self._still, *(make for wanted, make in self._sometimes if wanted())]
@@ -223,14 +223,14 @@ class StageTransforms(Device):
         self._publisher.publish_frozen(self._list(transforms=made))
 
     def close(self) -> None:
-        """End the topic."""
+        """Close the topic."""
         self._publisher.unregister()
 
 
 class Watchdog(Device):
-    """Stops all robots when none got a command for `timeout` [s]; 0: never.
+    """Stops all robots if none has received a command for `timeout` [s]; 0: never.
 
-    One for all, as in stageros, checked once a step.
+    All robots share it, as in stageros; it is checked once per step.
     """
 
     order = -1
@@ -242,18 +242,18 @@ class Watchdog(Device):
         self._fed = 0.0
 
     def feed(self) -> None:
-        """A robot got a command."""
+        """Record that a robot received a command."""
         self._fed = self.host.engine_now
 
     def due(self, _stamp: Stamp, _: int, /) -> None:
-        """Check whether it is time."""
+        """Stop the robots if the timeout has passed."""
         if self.timeout > 0 and self.host.engine.now - self._fed >= self.timeout - LATE:
             for base in self.bases:
                 if base.reckoning.velocity != STILL:
                     base.go(base.velocity(0.0, 0.0, 0.0))
 
     def state(self) -> Any:
-        """When it last got a command."""
+        """Return the time of the last command."""
         return self._fed
 
     def restore(self, state: Any) -> None:
@@ -262,7 +262,7 @@ class Watchdog(Device):
 
 
 class End(Device):
-    """Calls something once, when it is `when` [s]."""
+    """Calls a function once, at the time `when` [s]."""
 
     order = 100
 
@@ -272,6 +272,6 @@ class End(Device):
         self._call = call
 
     def due(self, _stamp: Stamp, _: int, /) -> None:
-        """Check whether it is time."""
+        """Call the function if it is time."""
         if self.host.engine.now >= self._when - LATE:
             self._call()

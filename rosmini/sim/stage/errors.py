@@ -1,4 +1,4 @@
-"""What can be wrong with a Stage world, and where."""
+"""Errors of Stage world files, with their location."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Place(NamedTuple):
 class StageError(WorldError):
     """A world file cannot be read or used; the message begins with the file and the line.
 
-    An include may name any file of the reader's, so an error in an included file does not quote it: `unquoted` is the
+    An include may name any file of the user's, so an error in an included file does not quote it: `unquoted` is the
     message for that case.
     """
 

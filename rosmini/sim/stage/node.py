@@ -1,19 +1,19 @@
-"""The node `stage_ros/stageros`: the robots of a Stage world file on a graph.
+"""The node `stage_ros/stageros`: the robots of a Stage world file in a graph.
 
     rosrun stage_ros stageros [-g] [-u] world/willow-erratic.world
 
 For each robot it subscribes to `cmd_vel`, and publishes `odom`, `base_scan`, `base_pose_ground_truth` and, for a
-camera, `image`, `depth` and `camera_info`; for all of them `/tf` and `/clock`; everything once a step of the
+camera, `image`, `depth` and `camera_info`; for all of them `/tf` and `/clock`; everything once per step of the
 simulation (`interval_sim`, usually 0.1 s). With several robots each has a namespace: `/robot_0` and so on. The
-service `reset_positions` puts everything back to where it started. Time starts at 0, and /use_sim_time is set, so
-that nodes that start later follow it.
+service `reset_positions` returns everything to its initial pose. Time starts at 0, and /use_sim_time is set, so
+that nodes that start later use it.
 
-After 0.2 s without a command to any robot all of them stop: `~base_watchdog_timeout`. It is one watchdog for all, as in
-stageros: a robot without commands goes on while another one gets some.
+After 0.2 s without a command to any robot all of them stop: `~base_watchdog_timeout`. They share one watchdog, as in
+stageros: a robot without commands continues while another one receives some.
 
-Facts: http://wiki.ros.org/stage_ros, and stageros.cpp of https://github.com/ros-simulation/stage_ros. What differs:
-frames have no slash before them; messages of several transforms are one; bodies touch, slide and push (there a robot
-that would touch something stays where it is); with -g there are cameras too.
+Facts: http://wiki.ros.org/stage_ros, and stageros.cpp of https://github.com/ros-simulation/stage_ros. Differences:
+frames have no leading slash; several transforms are in one message; bodies touch, slide and push (in Stage a robot
+stops before a contact); with -g there are cameras too.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ USAGE = "Usage: stageros [-g] [-u] <worldfile>   (-g: no window; -u: topics by t
 WATCHDOG = 0.2
 
 WINDOWLESS_RATE = 10.0
-"""The rate of steps of stageros without a window [Hz], however long they are and whatever `speedup` says."""
+"""Step rate of stageros without a window [Hz], whatever the step's duration and `speedup`."""
 
 
 @dataclass(frozen=True)
@@ -63,13 +63,13 @@ class StageParameters(Parameters):
 
 
 class OneRobot:
-    """A robot of stageros, and what it publishes."""
+    """A robot of stageros, with its devices."""
 
     def __init__(self, stage: Stageros, robot: StageRobot, name: str, names: Names) -> None:
         self.file = robot
-        """What the world file says of it."""
+        """Its description in the world file."""
         self.name = name
-        """What the engine calls it: robot_0, or its own name with -u."""
+        """The engine's name for it: robot_0, or its own name with -u."""
         self.names = names
         host, interval = stage.host, stage.file.interval
         self.base = host.add(StageBase(host, name, robot, names, stage.watchdog.feed))
@@ -96,12 +96,12 @@ class OneRobot:
 
     @property
     def model(self) -> RobotModel:
-        """What the engine knows of it."""
+        """The engine's model of it."""
         return self.base.model
 
     @property
     def namespace(self) -> str:
-        """What its topics begin with: robot_0; empty for a robot that is alone."""
+        """The namespace of its topics: robot_0; empty for a single robot."""
         return self.names.prefix
 
     def _camera(self, stage: Stageros, i: int) -> StageCameraDevice:
@@ -121,16 +121,16 @@ class OneRobot:
 
 
 class Stageros(Simulation):
-    """A Stage world on a graph.
+    """A Stage world in a graph.
 
     Args:
         node: the started node.
         arguments: as on the command line: -g, -u, and the world file, its path or `package://` address.
 
     Raises:
-        ScriptError: the arguments are none.
-        StageError: the file cannot be read, or a robot has no room where it is to start.
-        ParameterError: a parameter has no such name, a wrong type, or a value out of range.
+        ScriptError: the arguments are invalid.
+        StageError: the file cannot be read, or a robot has no room at its start.
+        ParameterError: a parameter has an unknown name, a wrong type, or a value out of range.
 
     """
 
@@ -152,7 +152,7 @@ class Stageros(Simulation):
         self.watchdog = self.host.add(Watchdog(self.host, rate, self.parameters.base_watchdog_timeout))
         self.transforms = self.host.add(StageTransforms(self.host, rate))
         self.robots: dict[str, OneRobot] = {}
-        """By the names that the engine has for them: robot_0, robot_1 ..., in the order of the file."""
+        """The robots by the engine's names: robot_0, robot_1 ..., in the order of the file."""
         self._bring(by_model=by_model)
         self.clock = self.host.add(ClockDevice(self.host, rate=rate))
         if self.file.quit_time:
@@ -160,7 +160,7 @@ class Stageros(Simulation):
         self._service = node.service(
             "reset_positions", service_class("std_srvs/Empty"), self._reset_positions
         )
-        self.host.unpause()  # only now: a kernel may have had to be compiled meanwhile
+        self.host.unpause()  # only now, because a kernel may have been compiled meanwhile
 
     def __repr__(self) -> str:
         return f"<Stageros {self.node.name}: {_count(len(self.robots), 'robot')} in {self.file.name}>"
@@ -186,7 +186,7 @@ class Stageros(Simulation):
             devices = f"{_count(len(robot.lasers), 'laser')} and {_count(len(robot.cameras), 'camera')}"
             self.node.loginfo(f"robot {robot.number}, {robot.name}, has {devices}")
 
-    # -- what happens --------------------------------------------------------------------------------------------
+    # -- events --------------------------------------------------------------------------------------------------
 
     def _reset_positions(self, _: Any) -> dict[str, Any]:
         self.reset()
@@ -195,10 +195,10 @@ class Stageros(Simulation):
     def _quit(self) -> None:
         self.node.scheduler.call_soon(lambda: self.node.shutdown("quit_time of the world file"))
 
-    # -- for who started it --------------------------------------------------------------------------------------
+    # -- for Python ----------------------------------------------------------------------------------------------
 
     def robot(self, name: str = "") -> OneRobot:
-        """The robot of this name (robot_0, or the one that the file gives it), or the first. Raises `RobotGone`."""
+        """Return the robot of this name (robot_0, or its name in the file), or the first. Raises `RobotGone`."""
         self._check_running()
         if not self.robots:
             raise RobotGone(f"the world {self.file.name!r} has no robots: none of its models is a position")
@@ -231,7 +231,7 @@ class Stageros(Simulation):
         return self.robot(name).name
 
     def _drag(self, name: str, pose: Pose) -> None:
-        """Drag as in Stage's window: a robot forgets its command, and with localization "odom" it does not notice."""
+        """Drag as in Stage's window: clear the robot's command; odometry with localization "odom" does not change."""
         super()._drag(name, pose)
         robot = self.robots.get(self._entity(name))
         if robot is not None:
@@ -239,7 +239,7 @@ class Stageros(Simulation):
 
 
 def _options(arguments: tuple[str, ...]) -> tuple[str, bool, bool]:
-    """The world file, whether -u was given, and whether there is a window. Raises `ScriptError`."""
+    """Return the world file, whether -u was given, and whether there is a window. Raises `ScriptError`."""
     files = [each for each in arguments if not each.startswith("-")]
     flags = [each for each in arguments if each.startswith("-")]
     unknown = [each for each in flags if each not in ("-g", "-u")]

@@ -1,4 +1,4 @@
-"""The grammar of a Stage world file: properties and entities, and what `define` makes of them.
+"""The grammar of a Stage world file: properties and entities, and the expansion of `define`.
 
     resolution 0.02                      # a property of the world
     define erratic position              # from here on an erratic is a position
@@ -8,9 +8,9 @@
     )
     erratic( pose [1 2 0 90] name "era" )
 
-A defined entity begins with all of its base, in its order; then come the properties and children of where it is used.
-What is said last holds. (Stage's manual: https://player-stage-manual.readthedocs.io, "Worldfiles"; facts of the
-grammar from libstage's worldfile.cc.)
+A defined entity begins with the contents of its base, in order, followed by the properties and children at its use.
+The last value of a property applies. (Stage's manual: https://player-stage-manual.readthedocs.io, "Worldfiles"; facts
+of the grammar from libstage's worldfile.cc.)
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from .tokens import Token, read
 Value = float | str
 
 DEEPEST = 100
-"""The deepest nesting of entities; a file that goes deeper is broken, or malicious."""
+"""Maximum nesting of entities; a deeper file is broken, or malicious."""
 
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
 MOST = 100_000
-"""The largest number of entities of a world."""
+"""Maximum number of entities of a world."""
 
 MOST_WORDS = 500_000
-"""How many words the definitions may insert, those of one definition as often as it is used."""
+"""Maximum number of words that definitions insert; those of a definition count at each use."""
 
 
 @dataclass(frozen=True)
@@ -50,12 +50,12 @@ class Property:
 
 @dataclass
 class Entity:
-    """A thing with properties and children; the world itself is one without a kind."""
+    """An entity with properties and children; the world itself has no kind."""
 
     kind: str
     place: Place
     title: str = ""
-    """What it was called where it is used: the name of a macro, or the kind itself."""
+    """Its name at its use: the name of a macro, or the kind itself."""
     properties: dict[str, Property] = field(default_factory=dict)
     children: list[Entity] = field(default_factory=list)
 
@@ -65,13 +65,13 @@ class _Macro:
     name: str
     base: str
     body: tuple[Token, ...]
-    """What stands between its parentheses."""
+    """The words between its parentheses."""
     place: Place
 
 
 @dataclass
 class Parsed:
-    """A world file as it was written, and what is odd about it."""
+    """A world file as written, with remarks."""
 
     root: Entity
     path: Path
@@ -80,17 +80,17 @@ class Parsed:
 
 
 def parse_file(path: Path) -> Parsed:
-    """The entities of a world file and all that it includes. Raises `StageError`."""
+    """Return the entities of a world file and its includes. Raises `StageError`."""
     return parse(read(path), path)
 
 
 def parse(words: Iterable[Token], path: Path) -> Parsed:
-    """The entities that these words make. Raises `StageError`."""
+    """Return the entities described by these words. Raises `StageError`."""
     return _Parser(tuple(words), path).world()
 
 
 class _Words:
-    """Words to be taken one by one; `whole`: they are those of the whole file."""
+    """A sequence of words; `whole`: it is that of the whole file."""
 
     def __init__(self, words: tuple[Token, ...], end: Place, *, whole: bool = False) -> None:
         self.words = words
@@ -116,13 +116,13 @@ class _Parser:
         self._count = self._inserted = 0
 
     def world(self) -> Parsed:
-        """Read all."""
+        """Parse all words."""
         self._fill(self._parsed.root, self._words, ())
         self._parsed.macros = {name: macro.place for name, macro in self._macros.items()}
         return self._parsed
 
     def _fill(self, entity: Entity, words: _Words, using: tuple[str, ...]) -> None:
-        """Give an entity the properties and children that these words say."""
+        """Add the properties and children that these words describe to an entity."""
         while (word := words.next()) is not None:
             if word.kind != "word":
                 raise StageError(word.place, f"a name is missing before {_shown(word)}")
@@ -161,7 +161,7 @@ class _Parser:
         self._macros[macro.name] = macro
 
     def _make(self, name: str, place: Place, body: tuple[Token, ...], using: tuple[str, ...]) -> Entity:
-        """The entity that is called `name`."""
+        """Return the entity called `name`."""
         if len(using) > DEEPEST:
             raise StageError(place, f"entities are nested more than {DEEPEST} deep")
         macro = self._macros.get(name)
@@ -186,7 +186,7 @@ class _Parser:
 
 
 def _between(words: _Words, owner: Token) -> tuple[Token, ...]:
-    """The words between the parenthesis that comes now and its partner."""
+    """Return the words between the next parenthesis and its partner."""
     words.next()
     begin, depth = words.at, 1
     while depth:
@@ -208,7 +208,7 @@ def _property(name: Token, words: _Words, notes: list[tuple[Place, str]]) -> Pro
     values: list[Value] = []
     while True:
         word = words.next()
-        if word is None and words.whole:  # Stage takes the end of the file for the bracket
+        if word is None and words.whole:  # Stage treats the end of the file as the bracket
             notes.append((name.place, f"the [ after {name.text} has no ]; it ends with the file"))
         if word is None and not words.whole:
             raise StageError(name.place, f"the [ after {name.text} has no ]")
@@ -231,7 +231,7 @@ def _value(word: Token, notes: list[tuple[Place, str]]) -> Value:
 def leading_number(text: str) -> tuple[float, bool]:
     """Return the number that a text begins with, as C's `atof` does, and whether it is the whole text.
 
-    Of what does not begin with a number it is 0.
+    The number is 0 if the text does not begin with one.
     """
     found = _NUMBER.match(text)
     return (float(found.group()), found.end() == len(text.rstrip())) if found else (0.0, False)
@@ -242,7 +242,7 @@ def _shown(word: Token) -> str:
 
 
 def unknown_kind(entity: Entity, known: Iterable[str], macros: Iterable[str]) -> StageError:
-    """The error of an entity of which nothing is known."""
+    """Return the error for an entity of an unknown kind."""
     hint = nearest(entity.kind, [*known, *macros])
     what = f"there is no model {entity.kind!r} in Stage, and none is defined before it is used"
     return StageError(entity.place, f"{what}{'; ' + hint if hint else ''}", "Stage has no such model")

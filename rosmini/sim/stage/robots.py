@@ -1,9 +1,9 @@
-"""Positions of a Stage file, with what they carry: bases that drive, lasers and cameras.
+"""Position models of a Stage file, with the lasers and cameras that they carry.
 
-Where a ranger sees from: with `stack_children` (the default) what is on a model stands on top of it, so a laser with
-`pose [0.05 0 0 0]` on a robot 0.25 m high looks out 0.26 m above the ground (plus half of the sensor's own 2 cm),
-over the heads of robots of the same kind. That they do not see each other is no error of the simulator: give the
-laser a negative z.
+Height of a ranger: with `stack_children` (the default) a child model stands on top of its parent, so a laser with
+`pose [0.05 0 0 0]` on a robot 0.25 m high is 0.26 m above the ground (half of the sensor's own 2 cm is added),
+above robots of the same kind. So they do not see each other, in Stage as well; give the
+laser a negative z to change it.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ BASE = ("wheelbase", "velocity", "acceleration_bounds", "odom")
 SENSOR_SIZE = (0.02, 0.02, 0.02)
 CAMERA_RANGE, CAMERA_FOV, CAMERA_RESOLUTION = (0.2, 8.0), (70.0, 40.0), (32.0, 32.0)
 LASER3_RANGE, LASER3_FOV, LASER3_SAMPLES = (0.0, 8.0), math.pi, 180
-"""Of Stage 3's model `laser`."""
+"""Defaults of Stage 3's model `laser`."""
 
 
 @dataclass(frozen=True)
 class StageLaser:
-    """A ranger: one fan of rays, equally far apart, the first and the last on the borders of its field of view."""
+    """A ranger: one fan of equally spaced rays, the first and the last on the borders of its field of view."""
 
     pose: Pose4
-    """Seen from the robot's pose; the rays come from `height` above the ground [m]."""
+    """Relative to the robot's pose; the rays start at `height` above the ground [m]."""
     height: float
     range_min: float
     range_max: float
@@ -44,7 +44,7 @@ class StageLaser:
     """[rad]"""
     samples: int
     noise: tuple[float, float]
-    """Standard deviation of a range [m], and by which part of it at most it is wrong besides."""
+    """Standard deviation of a range [m], and the maximum of an additional relative error."""
     place: Place
 
 
@@ -53,9 +53,9 @@ class StageCamera:
     """A camera, which also measures depth."""
 
     pose: Pose4
-    """Seen from the robot's pose."""
+    """Relative to the robot's pose."""
     elevation: float
-    """How high above the ground it is [m]."""
+    """Its height above the ground [m]."""
     width: int
     height: int
     fov: tuple[float, float]
@@ -63,44 +63,44 @@ class StageCamera:
     near: float
     far: float
     pan: float
-    """How far it is turned to the right of its pose [rad]: Stage's sense, against REP 103."""
+    """Its rotation to the right of its pose [rad]: Stage's sense, opposite to REP 103."""
     tilt: float
-    """How far it looks down [rad]."""
+    """Its downward inclination [rad]."""
     place: Place
 
 
 @dataclass(frozen=True)
 class StageRobot:
-    """A position of a Stage file."""
+    """A position model of a Stage file."""
 
     number: int
     """0 for the first one of the file."""
     name: str
     named: bool
-    """Whether the file gives it this name."""
+    """True if the file gives it this name."""
     pose: tuple[float, float, float]
-    """Where it starts, in the world's frame."""
+    """Its start in the world's frame."""
     size: tuple[float, float, float]
     drive: Drive
     wheelbase: float
-    """Of a car [m]."""
+    """Wheelbase of a car [m]."""
     velocity_bounds: tuple[Bounds, Bounds, Bounds]
-    """Least and largest speed ahead, to the left [m/s], and of turning [rad/s]."""
+    """Minimum and maximum speed ahead, to the left [m/s], and of turning [rad/s]."""
     localization: Literal["gps", "odom"]
     localization_origin: tuple[float, float, float]
-    """The pose in the world where its odometry is 0."""
+    """The pose in the world at which its odometry is 0."""
     odom_error: tuple[float | None, float | None, float | None]
-    """The relative errors ahead, to the left and around; None: the file does not say, and it is drawn."""
+    """The relative errors ahead, to the left and in turns; None: not in the file, so it is drawn."""
     mass: float
     body: tuple[Thing, ...]
-    """All that has a body: the base, and what it carries."""
+    """All models with a body: the base, and those it carries."""
     lasers: tuple[StageLaser, ...]
     cameras: tuple[StageCamera, ...]
     place: Place
 
 
 def robot(thing: Thing, number: int, units: Units) -> StageRobot:
-    """Return the robot that a position is. Raises `StageError` for more beams or pixels than there may be."""
+    """Return the robot of a position model. Raises `StageError` for too many beams or pixels."""
     reader = thing.reader
     lasers: list[StageLaser] = []
     cameras: list[StageCamera] = []
@@ -148,7 +148,7 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
 
 
 def _odom_error(reader: Reader) -> tuple[float | None, float | None, float | None]:
-    """The odometry errors of a file. The turn's is an angle to Stage, in degrees like all angles of a file."""
+    """Return the odometry errors in a file. Stage treats the one of turns as an angle, in degrees as usual."""
     found = reader.find("odom_error")
     if found is None:
         return (None, None, None)
@@ -185,19 +185,19 @@ def _notes(reader: Reader, units: Units) -> None:
 
 
 def _on(thing: Thing, base: Thing) -> Pose4:
-    """Where a thing is, seen from the pose of its base, but its height, which is from the ground."""
+    """Return a model's pose relative to its base, except its height, which is above the ground."""
     x, y, _, a = base.at
     c, s = math.cos(a), math.sin(a)
     dx, dy = thing.at[0] - x, thing.at[1] - y
     seen = (c * dx + s * dy, c * dy - s * dx, thing.at[2] - base.at[2], thing.at[3] - a)
     on_x, on_y, on_z, heading = (
         round(part, 12) + 0.0 for part in seen
-    )  # without the last digits of turning there and back
+    )  # rounding removes the errors of the rotations
     return (on_x, on_y, on_z, heading)
 
 
 def _laser(thing: Thing, base: Thing, units: Units) -> list[StageLaser]:
-    """The laser that stageros publishes of a ranger; none if it measures nothing."""
+    """Return the laser that stageros publishes for a ranger; none if it measures nothing."""
     if thing.kind == "laser":
         return _old_laser(thing, base, units)
     sensors = [child for child in thing.entity.children if child.kind == "sensor"]
@@ -229,7 +229,7 @@ def _sensor(entity: Entity, thing: Thing, base: Thing, units: Units) -> list[Sta
 
 
 def _old_laser(thing: Thing, base: Thing, units: Units) -> list[StageLaser]:
-    """A laser of Stage 3, whose files are still about."""
+    """Return a laser of Stage 3, whose files are still in use."""
     reader = thing.reader
     units.note(thing.place, "Stage 4 knows no laser; it is read as a ranger with one sensor")
     low = reader.length("range_min", LASER3_RANGE[0])
@@ -243,7 +243,7 @@ def _old_laser(thing: Thing, base: Thing, units: Units) -> list[StageLaser]:
 
 
 def _checked(laser: StageLaser, reader: Reader, units: Units) -> list[StageLaser]:
-    """The laser with numbers that are possible; none if it measures nothing. Raises `StageError` for too many beams."""
+    """Return the laser with valid numbers; none if it measures nothing. Raises `StageError` for too many beams."""
     name = "range" if "range" in reader.entity.properties else "range_max"
     if laser.samples < 1 or laser.range_max <= 0:
         what = f"a ranger of {laser.samples} samples up to {laser.range_max:g} m measures nothing and is left out"
@@ -264,7 +264,7 @@ def _checked(laser: StageLaser, reader: Reader, units: Units) -> list[StageLaser
 
 
 def _camera(thing: Thing, base: Thing, units: Units) -> list[StageCamera]:
-    """The camera; none if it has no picture. Raises `StageError` for too many pixels."""
+    """Return the camera; none if it has no picture. Raises `StageError` for too many pixels."""
     reader = thing.reader
     width, height = (int(part) for part in reader.several("resolution", "ff", CAMERA_RESOLUTION))
     if width * height > MOST_PIXELS:

@@ -1,4 +1,4 @@
-"""Bodies of a Stage file as rosmini's shapes."""
+"""Conversion of bodies in a Stage file to rosmini's shapes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .things import Pose4, Thing
 
 
 def filled(thing: Thing) -> tuple[tuple[Block, ...], int]:
-    """The blocks of a thing's body without what is hollow, and how many hollow parts there are."""
+    """Return the blocks of a model's body without hollow parts, and the number of hollow parts."""
     if thing.body is None or not thing.body.traced:
         return (() if thing.body is None else thing.body.blocks), 0
     outer = [each for each in thing.body.blocks if area(each.outline) > 0]
@@ -37,21 +37,21 @@ class Solid:
     shape: Shape
     pose: Pose
     bottom: float
-    """How high above the ground it begins and ends [m]."""
+    """Heights above the ground at which it begins and ends [m]."""
     top: float
 
     def seen_from(self, pose: Pose) -> tuple[Shape, Pose]:
-        """The shape, and its pose seen from `pose`."""
+        """Return the shape, and its pose relative to `pose`."""
         return self.shape, compose(inverse(pose), self.pose)
 
 
 def placed(thing: Thing, block: Block) -> NDArray[np.float64]:
-    """The outline of a block (n, 2) in the world's frame."""
+    """Return the outline of a block (n, 2) in the world's frame."""
     return np.asarray(transform_points(_flat(thing.at), transform_points(_flat(thing.origin), block.outline)))
 
 
 def solid(thing: Thing, block: Block) -> Solid:
-    """A block of a thing in the world's frame; what is a plain box becomes one."""
+    """Return a block of a model in the world's frame; a rectangular one becomes a box."""
     ground = thing.at[2] + thing.origin[2]
     bottom, top = _rounded(ground + block.bottom), _rounded(ground + block.top)
     corners, origin = block.outline, _flat(thing.origin)
@@ -70,5 +70,5 @@ def _flat(pose: Pose4) -> Pose:
 
 
 def _rounded(value: float) -> float:
-    """A length without the last digits, which are those of stretching [m]."""
+    """Round a length [m] to remove the errors of stretching."""
     return round(value, 9) + 0.0

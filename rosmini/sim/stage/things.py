@@ -1,4 +1,4 @@
-"""What every model of a Stage file has: name, pose, body, and how sensors and wheels see it.
+"""Common properties of all models in a Stage file: name, pose, body, and visibility for sensors.
 
 Defaults are those of Stage 4.3 (libstage's model.cc; https://player-stage-manual.readthedocs.io, "model").
 """
@@ -34,23 +34,23 @@ SIZES = {
     "fiducial": (0.1, 0.1, 0.1),
 }
 SIZE = (0.4, 0.4, 1.0)
-"""Of a model of another kind [m]."""
+"""Size of models of other kinds [m]."""
 
 COLOURS = {"ranger": "#000080", "laser": "#000080", "camera": "black"}
 COLOUR = "red"
 
 BODILESS = ("ranger", "laser", "fiducial")
-"""Kinds that nothing bumps into or sees, unless they are given blocks."""
+"""Kinds without a body, unless they have blocks."""
 
 SIMULATED = ("model", "position", "ranger", "laser", "camera")
 LEFT_OUT = (
     "actuator", "blinkenlight", "blobfinder", "bumper", "fiducial", "gripper", "lightindicator", "loadcell", "puck",
     "speech", "wifi",
 )  # fmt: skip
-"""Kinds of Stage that do nothing here."""
+"""Kinds of Stage that are not simulated here."""
 
 MASS = 10.0
-"""Of a model of which nothing is said [kg]: the manual's number."""
+"""Default mass of a model [kg]: the manual's number."""
 
 UNUSED = (
     "alwayson", "blob_return", "ctrl", "debug", "event_queue", "fiducial_key", "fiducial_return", "friction",
@@ -58,7 +58,7 @@ UNUSED = (
     "kjoules", "kjoules_capacity", "map_resolution", "noblocks", "say", "take_watts", "trail_interval", "trail_length",
     "update_interval", "watts",
 )  # fmt: skip
-"""Properties that Stage knows, and that change nothing here."""
+"""Properties of Stage that have no effect here."""
 
 
 @dataclass
@@ -69,20 +69,20 @@ class Thing:
     kind: str
     name: str
     named: bool
-    """Whether the file gives it its name."""
+    """True if the file gives it its name."""
     pose: Pose4
-    """In the frame of what it is on."""
+    """In the frame of its parent."""
     at: Pose4
     """In the world's frame."""
     size: tuple[float, float, float]
     origin: Pose4
-    """Where the middle of its body is, seen from its pose."""
+    """Position of its body's centre relative to its pose."""
     body: Body | None
     colour: str
     solid: bool
-    """Whether it is solid."""
+    """True if it is solid."""
     seen: float
-    """How well rangers see it: its reflectance; below 0 they see through it."""
+    """Its reflectance for rangers; below 0 they see through it."""
     pushable: bool
     mass: float
     reader: Reader
@@ -90,25 +90,25 @@ class Thing:
 
     @property
     def place(self) -> Place:
-        """Where the file speaks of it."""
+        """Its line in the file."""
         return self.entity.place
 
     def family(self) -> Iterator[Thing]:
-        """It, and all that is on it."""
+        """Yield it and all models on it."""
         yield self
         for child in self.children:
             yield from child.family()
 
 
 def moved(frame_pose: Pose4, pose: Pose4) -> Pose4:
-    """The pose in the world's frame of what has `pose` in a frame that has `frame_pose` there."""
+    """Transform `pose` from a frame with the pose `frame_pose` to the world's frame."""
     x, y, z, a = frame_pose
     c, s = math.cos(a), math.sin(a)
     return (x + c * pose[0] - s * pose[1], y + s * pose[0] + c * pose[1], z + pose[2], a + pose[3])
 
 
 class Maker:
-    """Makes the things of one file."""
+    """Makes the models of one file."""
 
     def __init__(self, parsed: Parsed, units: Units) -> None:
         self.parsed = parsed
@@ -117,12 +117,12 @@ class Maker:
         self._images: dict[Path, tuple[tuple[Block, ...], tuple[float, float, float, float], str]] = {}
 
     def things(self) -> list[Thing]:
-        """The models of the world, with their children. Raises `StageError`."""
+        """Return the models of the world, with their children. Raises `StageError`."""
         made = (self.thing(each, None) for each in self.parsed.root.children if each.kind != "window")
         return [thing for thing in made if thing is not None]
 
     def thing(self, entity: Entity, parent: Thing | None) -> Thing | None:
-        """One model; None if nothing of it is simulated."""
+        """Return a model; None if nothing of it is simulated."""
         if entity.kind in LEFT_OUT:
             article = "an" if entity.kind[0] in "aeiou" else "a"
             what = f"{article} {entity.kind}"
@@ -167,7 +167,7 @@ class Maker:
         )
 
     def _name(self, entity: Entity, parent: Thing | None) -> str:
-        """The name that Stage makes up: that of the parent, the kind, and how many of this kind there were before."""
+        """Return Stage's default name: that of the parent, the kind, and the number of earlier ones of this kind."""
         prefix = f"{parent.name}." if parent else ""
         number = self._counts[f"{prefix}{entity.kind}"]
         self._counts[f"{prefix}{entity.kind}"] += 1
@@ -233,12 +233,10 @@ class Maker:
         return Body(stretched((square(),), size), boundary=boundary)
 
     def _block(self, entity: Entity) -> Block | None:
-        """A block; None if it encloses nothing."""
+        """Return a block; None if it encloses nothing."""
         reader = Reader(entity, self.units)
         count = reader.whole("points", 0, minimum=0)
-        count = min(
-            count, len(entity.properties) + 1
-        )  # of the points that are missing, one is as good as many
+        count = min(count, len(entity.properties) + 1)  # one missing point is enough for the note
         missing = [i for i in range(count) if f"point[{i}]" not in entity.properties]
         if missing:
             what = f"a block has no point[{missing[0]}]; as in Stage, [0 0] is used"

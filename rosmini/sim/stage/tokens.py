@@ -1,8 +1,8 @@
 """The words of a Stage world file: names, numbers, strings, brackets and parentheses, each with its file and line.
 
 Stage's rules: `#` begins a comment, names begin with a letter (and may have indices, `point[0]`), numbers have a sign
-and a decimal point but no exponent, strings are in double quotes on one line, `include "file"` puts the words of
-another file in its place. An included file is sought beside the world file (as Stage does), beside the file that
+and a decimal point but no exponent, strings are in double quotes on one line, `include "file"` is replaced with the
+words of another file. An included file is searched for beside the world file (as in Stage), beside the file that
 includes it, and in the folders of the environment variable STAGEPATH.
 """
 
@@ -22,13 +22,13 @@ from .errors import Place, StageError
 Kind = Literal["word", "number", "string", "(", ")", "[", "]"]
 
 VARIABLE = "STAGEPATH"
-"""The environment variable with folders of files to include, as `PATH` has them."""
+"""The environment variable with folders of included files, in the format of `PATH`."""
 
 MOST_FILES = 1000
-"""The largest number of includes of a world, repeated ones counted."""
+"""Maximum number of includes of a world, counting repeated ones."""
 
 MOST_BYTES = 500_000
-"""The size of all included files together, repeated ones counted [bytes]."""
+"""Maximum total size of all included files, counting repeated ones [bytes]."""
 
 _TOKEN = re.compile(
     r"""(?P<space>[ \t\r\f\v]+|\#[^\n]*)
@@ -43,7 +43,7 @@ _WRONG = re.compile(r'"[^\n]*|[^\s()\[\]"#]+|.')
 
 
 class Token(NamedTuple):
-    """One word, of this kind, as it stands there; a string without its quotes."""
+    """A word with its kind and text; a string is without its quotes."""
 
     kind: Kind
     text: str
@@ -83,13 +83,13 @@ def _complaint(text: str, at: int) -> str:
 
 
 def read(path: Path) -> Iterator[Token]:
-    """The words of a world file and of all that it includes. Raises `StageError`."""
+    """Yield the words of a world file and all its includes. Raises `StageError`."""
     return _included(path, path, (), _Included())
 
 
 @dataclass
 class _Included:
-    """How much a world has included so far."""
+    """The number and size of the files included so far."""
 
     files: int = 0
     size: int = 0
@@ -132,16 +132,16 @@ def _included(path: Path, root: Path, above: tuple[Path, ...], so_far: _Included
 
 
 def find_file(name: str, root: Path, mentioned_in: Path) -> Path | None:
-    """The file that a world file means by `name`; None if there is none."""
+    """Return the file that a world file calls `name`; None if there is none."""
     path = expanded(name)
     folders = [root.parent, mentioned_in.parent]
-    found = [folder / path for folder in folders]  # an absolute path stays what it is
+    found = [folder / path for folder in folders]  # an absolute path is unchanged
     found += [Path(folder) / path.name for folder in os.environ.get(VARIABLE, "").split(os.pathsep) if folder]
     return next((each for each in found if files.is_file(each)), None)
 
 
 def expanded(name: str) -> Path:
-    """A path with a home folder in place of ``~``; that of an unknown user stays as it is."""
+    """Return a path with ``~`` expanded; that of an unknown user is unchanged."""
     try:
         return Path(name).expanduser()
     except RuntimeError:
@@ -149,6 +149,6 @@ def expanded(name: str) -> Path:
 
 
 def searched(root: Path, mentioned_in: Path) -> str:
-    """Where `find_file` looks, in words."""
+    """Describe where `find_file` searches."""
     folders = dict.fromkeys([str(root.parent), str(mentioned_in.parent)])
     return f"in {' or '.join(folders)}, nor in what {VARIABLE} names"

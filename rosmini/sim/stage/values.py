@@ -1,4 +1,4 @@
-"""From the properties of an entity to numbers and words, checked, in metres and radians."""
+"""Reads the properties of an entity as validated numbers and words, in metres and radians."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ ANGLES = {"degrees": DEGREE, "radians": 1.0}
 
 @dataclass
 class Units:
-    """What a number in the file stands for, and what there is to say about the file."""
+    """The units of numbers in the file, and remarks about the file."""
 
     length: float = 1.0
     angle: float = DEGREE
     left_out: Counter[str] = field(default_factory=Counter)
-    """What is left out of the world, in a few words each, and how often."""
+    """Short descriptions of what is left out of the world, with their counts."""
     hint: Hints = field(default_factory=Hints)
     _notes: dict[str, list[str]] = field(default_factory=dict)
 
     def note(self, place: Place, what: str, who: str = "", left_out: str = "") -> None:
-        """Remember what differs from the file, or from Stage; `{}` in `what` is replaced by the name `who`.
+        """Record a difference from the file, or from Stage; `{}` in `what` is replaced by the name `who`.
 
-        `left_out` names the thing that is left out, in a few words.
+        `left_out` is a short description of what is left out.
         """
         self._notes.setdefault(what, []).append(f"{place}: {what.replace('{}', who)}")
         if left_out:
@@ -40,7 +40,7 @@ class Units:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """All notes, each once, with the place where it was found first, and how often it was found."""
+        """All notes, each once, with its first location and the number of occurrences."""
         return tuple(
             found[0] if len(found) == 1 else f"{found[0]} ({len(found)} times in this world)"
             for found in self._notes.values()
@@ -50,8 +50,8 @@ class Units:
 class Reader:
     """Reads the properties of one entity, as leniently as Stage.
 
-    Stage reads a number from whatever begins like one, and 0 from anything else; it takes the first of several values,
-    and the default of a choice that it does not know. Each such reading leaves a note.
+    Stage reads a number from any text that begins like one, and 0 from any other; it uses the first of several values,
+    and the default for an unknown choice. Each such case adds a note.
     """
 
     def __init__(self, entity: Entity, units: Units) -> None:
@@ -60,12 +60,12 @@ class Reader:
         self.read: set[str] = set()
 
     def find(self, name: str) -> Property | None:
-        """Return the property of this name, if it is there."""
+        """Return the property of this name, or None."""
         self.read.add(name)
         return self.entity.properties.get(name)
 
     def place(self, name: str) -> Place:
-        """Return where a property is written; if it is not there, where the entity is."""
+        """Return the location of a property, or that of the entity if it does not exist."""
         found = self.entity.properties.get(name)
         return found.place if found else self.entity.place
 
@@ -103,14 +103,14 @@ class Reader:
         return value
 
     def whole(self, name: str, default: int, *, minimum: int | None = None) -> int:
-        """Return a whole number; as in Stage the digits after the point do not count."""
+        """Return a whole number; as in Stage decimals are ignored."""
         value = self.number(name, default, minimum=minimum)
         if value != int(value):
             self.units.note(self.place(name), f"{name} is {value:g}; as in Stage it is cut to {int(value)}")
         return int(value)
 
     def flag(self, name: str, *, default: bool) -> bool:
-        """Return whether a number is 1 or more, or negative."""
+        """Return True if a number is 1 or more, or -1 or less."""
         return int(self.number(name, float(default))) != 0
 
     def length(self, name: str, default: float, *, minimum: float | None = None) -> float:
@@ -125,7 +125,7 @@ class Reader:
     def several(self, name: str, kinds: str, default: Sequence[float]) -> tuple[float, ...]:
         """Return numbers in brackets, one for each letter: l a length [m], a an angle [rad], f a plain number.
 
-        Where there are fewer, the rest is that of `default`, as in Stage 4.1; more are ignored.
+        Missing ones are taken from `default`, as in Stage 4.1; additional ones are ignored.
         """
         found = self.find(name)
         if found is None:
@@ -143,7 +143,7 @@ class Reader:
         return (*values, *default[len(values) :])
 
     def _first(self, found: Property) -> Value:
-        """Return the value of a property that takes one. Raises `StageError` if it has none."""
+        """Return the value of a property with a single value. Raises `StageError` if it has none."""
         if not found.values:
             raise StageError(found.place, f"{found.name} needs a value, and there is none in its brackets")
         if len(found.values) > 1:
@@ -163,7 +163,7 @@ class Reader:
         return number
 
     def done(self, known: Sequence[str]) -> None:
-        """Note the properties that nobody has read and that Stage does not know either."""
+        """Add notes for properties that have not been read and that Stage does not know either."""
         for name, found in self.entity.properties.items():
             if name in self.read or name in known:
                 continue

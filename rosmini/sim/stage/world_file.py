@@ -1,10 +1,10 @@
-"""A Stage world file as a world with robots: `load`.
+"""Loads a Stage world file as a world with robots.
 
-What is read: include, define, units, `resolution`, `interval_sim`, `speedup`, `paused`, `quit_time`, and
+Supported are include, define, units, `resolution`, `interval_sim`, `speedup`, `paused`, `quit_time`, and
 the models `model`, `position`, `ranger`, `laser` (of Stage 3) and `camera` with blocks, bitmaps and boundaries.
-Models with `gripper_return 1` can be pushed; lasers see those with `obstacle_return 0`, and robots drive through them.
-The file is read as leniently as by Stage itself. `StageWorld.notes` lists what is left out or read otherwise, with file
-and line; what Stage refuses, too, is a `StageError`, which names them as well.
+Models with `gripper_return 1` can be pushed; lasers see models with `obstacle_return 0`, and robots drive through them.
+The file is read as leniently as by Stage. `StageWorld.notes` lists everything that is left out or read differently,
+with file and line; an error in Stage is a `StageError` here, also with file and line.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from .values import Reader, units_of
 SCHEME = "package://"
 DEFAULT_RESOLUTION = 0.02
 DEFAULT_INTERVAL = 0.1
-"""How long a step of the simulation is [s]."""
+"""Duration of a simulation step [s]."""
 
 MOST_ROBOTS = 1000
 
@@ -60,26 +60,26 @@ KNOWN = {
 
 @dataclass(frozen=True)
 class StageWorld:
-    """A world file: the world without its robots, the robots, and how time goes on."""
+    """A world file: the world without its robots, the robots, and the settings of time."""
 
     name: str
     path: Path
     world: World
     robots: tuple[StageRobot, ...]
     interval: float
-    """How long a step is [s]; all topics are published once a step."""
+    """Duration of a step [s]; all topics are published once per step."""
     speedup: float
-    """Seconds of the world in one second."""
+    """Simulated seconds per second."""
     paused: bool
-    """Whether time initially stands still in Stage's window; stageros here has none, and runs."""
+    """True if Stage's window starts paused; stageros here has no window and runs."""
     quit_time: float
-    """When it all ends [s]; 0: never."""
+    """Time at which the simulation ends [s]; 0: never."""
     resolution: float
-    """Of Stage's raytracing [m]. Here rays are exact."""
+    """Resolution of Stage's raytracing [m]; here rays are exact."""
     notes: tuple[str, ...]
-    """What is left out, or not as one would think, each with file and line."""
+    """Everything that is left out or read unexpectedly, each with file and line."""
     left_out: dict[str, int]
-    """What is left out, in a few words each, and how often."""
+    """Short descriptions of what is left out, with their counts."""
 
 
 def load(path: str | os.PathLike[str]) -> StageWorld:
@@ -92,7 +92,7 @@ def load(path: str | os.PathLike[str]) -> StageWorld:
 
 
 class _World:
-    """Puts a world together."""
+    """Builds the world of a file."""
 
     def __init__(self, parsed: Parsed) -> None:
         self.parsed = parsed
@@ -162,7 +162,7 @@ class _World:
         return paused
 
     def _take(self, thing: Thing) -> None:
-        """Take a model of the top into the world."""
+        """Add a top-level model to the world."""
         if thing.kind == "position":
             if len(self.robots) == MOST_ROBOTS:
                 raise StageError(thing.place, f"there are more than {MOST_ROBOTS} robots in this world")
@@ -182,7 +182,7 @@ class _World:
             self._stand(each)
 
     def _stand(self, thing: Thing) -> None:
-        """A fixed thing."""
+        """Add a fixed model."""
         body = thing.body
         if body is None or not self._there(thing):
             return
@@ -200,7 +200,7 @@ class _World:
             self._obstacle(thing, each)
 
     def _push(self, thing: Thing, bodies: list[Thing]) -> None:
-        """A thing that can be pushed, with all that is on it."""
+        """Add a model that can be pushed, with all models on it."""
         blocks: list[tuple[Thing, Block]] = []
         for each in bodies:
             if each.body is not None and self._there(each):
@@ -227,7 +227,7 @@ class _World:
             self._add(thing, Solid(parts, pose, low, high), mass)
 
     def _there(self, thing: Thing) -> bool:
-        """Return whether anything bumps into the thing or lasers see it, and note if not."""
+        """Return True if robots collide with the model or lasers see it; add a note otherwise."""
         if thing.solid or thing.seen >= 0:
             return True
         what = "nothing bumps into {} and no laser sees it: it is left out"
@@ -235,7 +235,7 @@ class _World:
         return False
 
     def _filled(self, thing: Thing) -> tuple[Block, ...]:
-        """The blocks of a thing's body, without what is hollow in them."""
+        """Return the blocks of a model's body without hollow parts; add a note if there are any."""
         found, holes = filled(thing)
         if holes:
             what = (
@@ -252,7 +252,7 @@ class _World:
         self._add(thing, found)
 
     def _add(self, thing: Thing, what: Solid, mass: float | None = None) -> None:
-        """Take one solid of a thing into the world; without a mass it is fixed."""
+        """Add a solid of a model to the world; without a mass it is fixed."""
         count = self.names[thing.name]
         self.names[thing.name] += 1
         name = thing.name if not count else f"{thing.name} ({count + 1})"
@@ -273,7 +273,7 @@ class _World:
         self.obstacles.append(found)
 
     def _note_starts(self, world: World) -> World:
-        """Return the same world, and note the robots that start outside of it."""
+        """Return the same world after adding notes for robots that start outside it."""
         for each in self.robots:
             outside = world.outside(each.pose)
             if outside:

@@ -1,7 +1,7 @@
-"""`turtlesim` (http://wiki.ros.org/turtlesim): turtles that drive, and draw while they do.
+"""`turtlesim` (http://wiki.ros.org/turtlesim): turtles that drive and draw.
 
-`turtle`, `paper` and `frame` are the simulation without ROS, `node` puts it into a graph, and `window()` finds the one
-that runs.
+`turtle`, `paper` and `frame` are the simulation without ROS, `node` connects it to a graph, and `window()` returns the
+running one.
 """
 
 from .frame import Frame

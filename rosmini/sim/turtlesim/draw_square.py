@@ -1,6 +1,6 @@
-"""`turtlesim/draw_square`: turtle1 drives round a square for ever, and looks at its pose to know where it is.
+"""`turtlesim/draw_square`: turtle1 drives round a square forever, using its pose as feedback.
 
-`Square` decides, without ROS; its tolerances and texts are those of turtlesim's tutorial (0.10.2).
+`Square` is the algorithm, without ROS; its tolerances and texts are those of turtlesim's tutorial (0.10.2).
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ if TYPE_CHECKING:
 
 PERIOD_S = 0.016
 SIDE_M, SPEED, TURNING = 2.0, 1.0, 0.4
-"""The side [m], the speed along it [m/s], and that of a turn [rad/s]."""
+"""The side [m], the speed along it [m/s], and the rate of turn [rad/s]."""
 NEAR_M, NEAR_RAD, STILL = 0.1, 0.01, 1e-4
-"""How near to a goal is there [m, rad], and what counts as standing [m/s, rad/s]."""
+"""Tolerances at a goal [m, rad], and the speed below which the turtle counts as stopped [m/s, rad/s]."""
 PI = 3.141592
-"""As the tutorial has it."""
+"""Pi as in the tutorial."""
 
 Pose = tuple[float, float, float]
 
 
 class Square:
-    """Decides how to drive: forward, stop, turn, stop, and so on."""
+    """The algorithm: forward, stop, turn, stop, and so on."""
 
     def __init__(self) -> None:
         self.goal: Pose | None = None
@@ -34,7 +34,7 @@ class Square:
     def decide(
         self, pose: Pose, linear: float, angular: float
     ) -> tuple[tuple[float, float] | None, list[str]]:
-        """Return the command at a pose with these speeds, None while there is nothing to say, and what to log."""
+        """Return the command at a pose with these speeds, or None for no command, and the lines to log."""
         log: list[str] = []
         if self.goal is None:
             log.append(self._ahead(pose))
@@ -68,7 +68,7 @@ class Square:
 
 
 class DrawSquare:
-    """The node: it waits for a turtlesim, resets it, and drives turtle1."""
+    """The node: waits for a turtlesim, resets it, and drives turtle1."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -79,7 +79,7 @@ class DrawSquare:
         self._commands = node.publisher("turtle1/cmd_vel", type(self._twist), queue_size=1)
         node.wait_for_service("reset")
         node.service_client("reset", service_class("std_srvs/Empty"))()
-        self._pose = None  # one from before the reset would be a false start
+        self._pose = None  # a pose from before the reset would be wrong
         node.timer(PERIOD_S, lambda _: self._drive())
 
     def _heard(self, pose: Any) -> None:

@@ -1,6 +1,6 @@
-"""Our own turtles, as filled outlines: path data that SVG and a canvas's `Path2D` both take.
+"""Drawings of turtles as filled outlines: path data for SVG and a canvas's `Path2D`.
 
-Each is about 45 pixels long, a metre of the window, with its middle at 0, 0; it looks to the right, and y is down.
+Each is about 45 pixels long, a metre in the window, with its centre at 0, 0; it faces right, and y is down.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 
 class Drawing(NamedTuple):
-    """A turtle: name, the colour `#rrggbb` of its shell, and its parts from the lowest up, each a path and a colour."""
+    """A turtle: its name, the colour `#rrggbb` of its shell, and its parts from bottom to top (path, colour)."""
 
     name: str
     colour: str
@@ -21,7 +21,7 @@ def _oval(x: float, y: float, rx: float, ry: float) -> str:
 
 
 def _pair(x: float, y: float, rx: float, ry: float) -> str:
-    """Two ovals, one on either side."""
+    """Return two ovals, one on either side."""
     return _oval(x, -y, rx, ry) + _oval(x, y, rx, ry)
 
 
@@ -95,4 +95,4 @@ DRAWINGS = (
         ),
     ),
 )  # fmt: skip
-"""The family. Which one a turtle is, is drawn from the graph's seed."""
+"""All drawings. The drawing of a turtle is chosen at random with the graph's seed."""

@@ -1,4 +1,4 @@
-"""The turtles of one window and the paper they draw on, without a node. `node.py` puts it into a graph."""
+"""The turtles of one window and their paper, without a node. `node.py` connects it to a graph."""
 
 from __future__ import annotations
 
@@ -11,38 +11,38 @@ from .paper import SIZE, Colour, Paper
 from .turtle import METRE, Turtle, TurtleError
 
 MOST_TURTLES = 1000
-"""One window has no more."""
+"""Maximum number of turtles in a window."""
 
 
 class Frame:
-    """What a window of turtlesim shows.
+    """The contents of a turtlesim window.
 
     Args:
         background: the colour of the paper.
-        choose: returns the number of a new turtle's drawing; the first one's by default.
+        choose: returns the index of a new turtle's drawing; that of the first one by default.
 
     """
 
     def __init__(self, background: Colour | None = None, choose: Callable[[], int] = lambda: 0) -> None:
         self.paper = Paper() if background is None else Paper(background)
         self.turtles: dict[str, Turtle] = {}
-        """By name, in the order of the names, which is that of the updates, too."""
+        """By name, sorted; this is also the order of the updates."""
         self.updates = 0
-        """How many steps were made."""
+        """Number of updates so far."""
         self._choose = choose
         self._counter = 0
 
     def free_name(self) -> str:
-        """The next of turtle1, turtle2, ... that nobody has. A name is given out once, until a reset."""
+        """Return the next free name of turtle1, turtle2, ...; each is returned once, until a reset."""
         while True:
             self._counter += 1
             if (name := f"turtle{self._counter}") not in self.turtles:
                 return name
 
     def spawn(self, x: float, y: float, theta: float, name: str = "", *, holonomic: bool = True) -> Turtle:
-        """Put a new turtle somewhere [m, m, rad]; beyond a border the next update puts it there.
+        """Add a turtle at a pose [m, m, rad]; outside the window, the next update moves it to the border.
 
-        Raises `TurtleError` if the name is taken, if a number is not finite, and if there are too many already.
+        Raises `TurtleError` if the name is taken, if a number is not finite, and if there are too many turtles.
         """
         if name in self.turtles:
             raise TurtleError(
@@ -58,29 +58,29 @@ class Frame:
         return turtle
 
     def kill(self, name: str) -> Turtle:
-        """Take a turtle away; its drawing stays. Raises `TurtleError` if there is none of this name."""
+        """Remove a turtle and keep its drawing. Raises `TurtleError` if there is no turtle of this name."""
         if name not in self.turtles:
             hint = nearest(name, self.turtles) or f"there are {', '.join(list(self.turtles)[:8]) or 'none'}"
             raise TurtleError(f"there is no turtle {name!r}: {hint}")
         return self.turtles.pop(name)
 
     def reset(self) -> list[Turtle]:
-        """Take all turtles away and number new ones from 1; the paper stays. Return those that were there."""
+        """Remove all turtles and restart numbering at 1, but keep the paper. Return the removed turtles."""
         gone, self.turtles, self._counter = list(self.turtles.values()), {}, 0
         return gone
 
     def step(self, now_s: float) -> None:
-        """Let all turtles go on by one update."""
+        """Update all turtles."""
         for turtle in self.turtles.values():
             turtle.move(now_s, self.paper)
             turtle.draw(self.paper)
         self.updates += 1
 
     def state(self, since: int = 0, clears: int | None = None) -> dict[str, Any]:
-        """What a canvas needs to draw the window: plain numbers, texts, lists and dictionaries.
+        """Return the data for drawing the window on a canvas: numbers, texts, lists and dictionaries.
 
         Args:
-            since: the number of the first stroke that the caller does not have, `next` of its last state.
+            since: the number of the first stroke that the caller does not have: `next` of its last state.
             clears: `clears` of its last state; if the paper was cleared since then, `since` counts as 0.
 
         Returns:

@@ -1,6 +1,6 @@
-"""`turtlesim/mimic`: one turtle does what another one does.
+"""`turtlesim/mimic`: one turtle imitates another.
 
-It hears poses on `input/pose` and publishes their velocities on `output/cmd_vel`; remap both:
+It subscribes to poses on `input/pose` and publishes their velocities on `output/cmd_vel`; remap both:
 `rosrun turtlesim mimic input:=turtle1 output:=turtle2`.
 """
 

@@ -2,8 +2,8 @@
 
 Each turtle has the topics `NAME/cmd_vel` (geometry_msgs/Twist), `NAME/pose` and `NAME/color_sensor`, and the services
 `NAME/set_pen`, `NAME/teleport_absolute` and `NAME/teleport_relative`; the node has `clear`, `reset`, `spawn` and
-`kill`. As in ROS, a Twist is looked at by the next update, the last one of several, and holds for a second. What
-changes the drawing or a pose (pens, teleports, `clear`) is answered by the next update, at most 16 ms later.
+`kill`. As in ROS, a Twist takes effect at the next update (the last one if there are several), and holds for a second.
+Requests that change the drawing or a pose (pens, teleports, `clear`) are answered at the next update, within 16 ms.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ STEP_NS = round(STEP_S * 1e9)
 
 @dataclass(frozen=True)
 class TurtleSimParameters(Parameters):
-    """The private parameters of `turtlesim_node`. Those of the background are set by the node if they are not set.
+    """The private parameters of `turtlesim_node`. The node sets those of the background if they do not exist.
 
-    A changed background is seen after `clear` or `reset`.
+    A changed background takes effect at `clear` or `reset`.
     """
 
     background_r: int = parameter(BACKGROUND[0], "red of the background")
@@ -46,18 +46,18 @@ class TurtleSimParameters(Parameters):
 
     @property
     def background(self) -> Colour:
-        """The colour of a fresh sheet: of each number its lowest byte, as Qt's `qRgb` takes it."""
+        """The background colour; only the lowest byte of each number is used, as in Qt's `qRgb`."""
         return self.background_r & 255, self.background_g & 255, self.background_b & 255
 
 
 class TurtleSim:
-    """A window of turtlesim: `frame` has the turtles and their drawing, `show()` is a picture of it.
+    """A window of turtlesim: `frame` contains the turtles and their drawing, `show()` returns a picture of it.
 
     Args:
         node: the started node.
 
     Raises:
-        ParameterError: a parameter has no such name, a wrong type, or a value out of range.
+        ParameterError: a parameter has an unknown name, a wrong type, or a value out of range.
 
     """
 
@@ -97,43 +97,43 @@ class TurtleSim:
         return self.frame.turtles
 
     def state(self, since: int = 0, clears: int | None = None) -> dict[str, Any]:
-        """What a canvas needs to draw the window: see `Frame.state`."""
+        """Return the data for drawing the window on a canvas: see `Frame.state`."""
         return self.frame.state(since, clears)
 
     def record(self) -> Tape:
-        """Keep from now on what the turtles do and draw, until the tape's `stop()`; its `replay()` plays it."""
+        """Record the turtles' motion and drawing until the tape's `stop()`; its `replay()` plays it."""
         tape = Tape(self.node.name, self._clock.now_ns() * 1e-9, self.frame)
         self._tapes.append(tape)
         return tape
 
     def show(self, **options: Any) -> Any:
-        """A picture of the window.
+        """Return a picture of the window.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             title=None: a caption under the picture, and the first words of its text form
             size=360.0: its width and height [CSS px]
         """
         return show("turtlesim", self.frame, **options)
 
     def pad(self, robot: str = "", **options: Any) -> Any:
-        """A pad to drive a turtle with, the first if none is named; in a live notebook its window moves.
+        """Return a pad for driving a turtle, the first if none is named; in a live notebook its window moves.
 
-        Options, with what they are unless given:
-            topic=None: where to publish; None: where the turtle listens
+        Options and their defaults:
+            topic=None: the topic to publish to; None: the turtle's command topic
             name='teleop_pad': the name of the pad's node
-            limits=None: how fast at most; None: as fast as turtle_teleop_key
-            keys='': whose keys it has; '': those of turtle_teleop_key
-            hold=False: whether a key has to be held, as a dead man's switch has
+            limits=None: maximum speeds; None: those of turtle_teleop_key
+            keys='': the key bindings; '': those of turtle_teleop_key
+            hold=False: True if a key must be held, like a dead man's switch
             title=None: a caption under the pad, and the first line of its text form
         """
         return show("teleop_pad", self, robot=robot, **options)
 
-    # -- turtles come and go -------------------------------------------------------------------------------------
+    # -- turtles -------------------------------------------------------------------------------------------------
 
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> str:
-        """Put a turtle at a pose [m, m, rad], with its topics and services; return its name.
+        """Add a turtle at a pose [m, m, rad], with its topics and services; return its name.
 
-        Raises `TurtleError`, and `RosminiError` if no topics can have this name.
+        Raises `TurtleError`, and `RosminiError` if the name is not valid for topics.
         """
         if name:
             self._check_name(name)
@@ -144,7 +144,7 @@ class TurtleSim:
         except BaseException:
             self.frame.turtles.pop(turtle.name, None)
             raise
-        if self.frame.turtles.get(turtle.name) is not turtle:  # the Master took its time
+        if self.frame.turtles.get(turtle.name) is not turtle:  # killed while its topics were created
             plugs.pull()
             raise TurtleError(f"turtle {turtle.name} was killed before it had its topics")
         self._plugs[turtle.name] = plugs
@@ -152,7 +152,7 @@ class TurtleSim:
         return turtle.name
 
     def _check_name(self, name: str) -> None:
-        """Raise unless a new turtle's topics can begin with this name. That it is taken is said elsewhere."""
+        """Raise unless this name is valid for a new turtle's topics; whether it is taken is checked elsewhere."""
         space = self.node.resolve(check_name(name, "turtle name"))
         same = next((each for each in self.turtles if self.node.resolve(each) == space), name)
         if same != name:
@@ -164,7 +164,7 @@ class TurtleSim:
         except (TurtleError, IllegalName) as error:
             if (
                 request.name in self.frame.turtles
-            ):  # what ROS says: nothing to the caller, and this in the log
+            ):  # as in ROS: no error text for the caller, and this in the log
                 self.node.logerr(f"A turtled named [{request.name}] already exists")
                 raise ServiceRefused from error
             raise self._refused(error) from error
@@ -193,7 +193,7 @@ class TurtleSim:
         return []
 
     def _background(self) -> Colour:
-        """The colour that the parameters say now; if they say none, the one before."""
+        """Return the colour in the current parameters, or the previous one if they are invalid."""
         try:
             return TurtleSimParameters.read(self.node).background
         except ParameterError as error:
@@ -215,7 +215,7 @@ class TurtleSim:
     # -- updates -------------------------------------------------------------------------------------------------
 
     def at_update(self, work: Callable[[], object]) -> None:
-        """Let the next update do something first, and wait for it. A `TurtleError` refuses the service."""
+        """Run `work` at the beginning of the next update, and wait for it. A `TurtleError` refuses the service."""
         waiter = self.node.waiter("the next update of turtlesim")
         self._requests.append((work, waiter))
         try:
@@ -224,9 +224,9 @@ class TurtleSim:
             raise self._refused(error) from error
 
     def _wake(self) -> None:
-        """Make an update. This event has no lane: nothing in it blocks."""
+        """Make an update. This event has no lane, because nothing in it blocks."""
         late = self._clock.now_ns() - self._due_ns
-        self._due_ns += STEP_NS * (1 + late // STEP_NS)  # what was missed is not made up for
+        self._due_ns += STEP_NS * (1 + late // STEP_NS)  # missed updates are not made up for
         self._cancel = self._clock.call_at(self._due_ns, self._wake)
         self.node.guarded(self._update, what="the update of the turtles")
 
@@ -240,10 +240,10 @@ class TurtleSim:
             else:
                 waiter.wake()
         frame, now = self.frame, self._clock.now_ns() * 1e-9
-        if frame.updates:  # the first one only looks at the clock, as in ROS
+        if frame.updates:  # the first one only reads the clock, as in ROS
             for turtle in frame.turtles.values():
                 plugs = self._plugs.get(turtle.name)
-                if plugs is None:  # its topics are being made
+                if plugs is None:  # its topics are being created
                     continue
                 bump = turtle.move(now, frame.paper)
                 if bump is not None:
@@ -282,7 +282,7 @@ class Plugs:
         ]
 
     def pull(self) -> None:
-        """Close them all."""
+        """Close all topics and services."""
         for service in self._services:
             service.shutdown("the turtle is gone")
         self._velocities.unregister()
@@ -290,7 +290,7 @@ class Plugs:
         self._colours.unregister()
 
     def publish(self, turtle: Turtle) -> None:
-        """Tell where the turtle is and what colour is under it, if somebody listens."""
+        """Publish the turtle's pose and the colour under it, each if its topic has a subscriber."""
         if self._poses.num_connections():
             pose = self._pose
             pose.x, pose.y, pose.theta = turtle.x, turtle.y, turtle.theta

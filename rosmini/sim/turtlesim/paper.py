@@ -1,9 +1,9 @@
-"""What the turtles draw on: the strokes, and the image of 500 by 500 pixels that the colour sensor looks at.
+"""The drawing surface of turtles: the strokes, and the image of 500 by 500 pixels for the colour sensor.
 
-Coordinates are pixels of the window, x to the right and y down. As Qt draws without antialiasing, a pixel (column, row)
-is painted where its middle lies in the stroke: a rectangle as wide as the pen, half a width longer at either end (a
-square cap, Qt's default); a line of one pixel has one in each column, or row. Beside real Qt 5.15, the pixels of one in
-three hundred updates differ: there a middle lies on the very edge, and Qt's fixed-point arithmetic decides otherwise.
+Coordinates are pixels of the window, x to the right and y down. As in Qt without antialiasing, a pixel (column, row)
+is painted if its centre is in the stroke: a rectangle of the pen's width, extended by half a width at either end (a
+square cap, Qt's default); a line of one pixel has one in each column, or row. Compared with real Qt 5.15, pixels
+differ in one of three hundred updates, if a centre is exactly on an edge and Qt's fixed-point arithmetic rounds.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ SIZE = 500
 """The width and the height of the window [px]."""
 
 MOST_STROKES = 400_000
-"""So many strokes are remembered. When there are more, the older half is in the image only."""
+"""Maximum number of strokes in memory. Beyond it the older half is in the image only."""
 
 CENTRE = 0.5 - 2**-10
-"""The middle of a pixel, from its top left [px]; a hair less, so that of two edges that meet in it Qt's is taken."""
+"""Centre of a pixel from its top left [px]; slightly less, to resolve ties between edges as Qt does."""
 
 Colour = tuple[int, int, int]
 """Red, green and blue, 0 to 255."""
@@ -55,7 +55,7 @@ class Stroke(NamedTuple):
 
 
 class Paper:
-    """Strokes in order, numbered from 0 since the paper was last cleared.
+    """Strokes in order, numbered from 0 since the last clear.
 
     Args:
         background: its colour.
@@ -65,7 +65,7 @@ class Paper:
     def __init__(self, background: Colour = BACKGROUND) -> None:
         self.background = background
         self.clears = 0
-        """How often it was cleared."""
+        """Number of clears."""
         self._image = np.empty((SIZE, SIZE, 3), dtype=np.uint8)
         self._wipe()
 
@@ -78,7 +78,7 @@ class Paper:
         self._image[:] = self.background
 
     def clear(self, background: Colour | None = None) -> None:
-        """Take a fresh sheet, of this colour or of the same one as before."""
+        """Clear the paper, with this background or the same one as before."""
         self.background = self.background if background is None else background
         self.clears += 1
         self._wipe()
@@ -95,35 +95,35 @@ class Paper:
 
     @property
     def first(self) -> int:
-        """The number of the oldest stroke that is remembered; older ones are in the image only."""
+        """The number of the oldest stroke in memory; older ones are in the image only."""
         return self._first
 
     @property
     def count(self) -> int:
-        """How many strokes were drawn since the last clear: the number that the next one gets."""
+        """Number of strokes since the last clear, which is also the number of the next one."""
         return self._first + len(self._styles)
 
     def strokes(self, since: int = 0) -> Iterator[Stroke]:
-        """The strokes from this number on."""
+        """Yield the strokes from this number on."""
         styles = list(self._pens)
         for index in range(max(since - self._first, 0), len(self._styles)):
             x1, y1, x2, y2 = self._ends[4 * index : 4 * index + 4]
             yield Stroke(x1, y1, x2, y2, *styles[self._styles[index]])
 
     def pixel(self, x: float, y: float) -> Colour:
-        """The colour at a point [px]; that of the nearest pixel for a point outside."""
+        """Return the colour at a point [px]; for a point outside, that of the nearest pixel."""
         self._paint()
         column, row = (min(max(math.floor(each + 0.5), 0), SIZE - 1) for each in (x, y))
         red, green, blue = self._image[row, column]
         return int(red), int(green), int(blue)
 
     def image(self) -> NDArray[np.uint8]:
-        """All that was drawn, (row, column, 3), from the top left."""
+        """Return the whole drawing, (row, column, 3), from the top left."""
         self._paint()
         return self._image.copy()
 
     def _paint(self) -> None:
-        """Paint the strokes that are not in the image yet: only who looks pays for them."""
+        """Paint the strokes that are not in the image yet; called only when the image is needed."""
         for stroke in self.strokes(self._painted):
             _paint(self._image, stroke)
         self._painted = self.count
@@ -131,7 +131,7 @@ class Paper:
 
 def _paint(image: NDArray[np.uint8], stroke: Stroke) -> None:
     x, y, end_x, end_y, pen, _ = stroke
-    if max(abs(x), abs(y)) > max(abs(end_x), abs(end_y)):  # measure from the end that is nearer to the image
+    if max(abs(x), abs(y)) > max(abs(end_x), abs(end_y)):  # measure from the end nearer to the image
         x, y, end_x, end_y = end_x, end_y, x, y
     if pen.width == 1:
         _paint_thin(image, (x, y), (end_x, end_y), pen.colour)
@@ -153,7 +153,7 @@ def _paint_thin(
     image: NDArray[np.uint8], start: tuple[float, float], end: tuple[float, float], colour: Colour
 ) -> None:
     """Paint a line of one pixel: one pixel for each column, or for each row if it is steep."""
-    # Qt keeps a 64th of a pixel
+    # Qt rounds to a 64th of a pixel
     start, end = ((math.trunc(x * 64) / 64, math.trunc(y * 64) / 64) for x, y in (start, end))
     steep = abs(end[0] - start[0]) < abs(end[1] - start[1])
     (u, v), (end_u, end_v) = sorted((start[::-1], end[::-1]) if steep else (start, end))
@@ -167,7 +167,7 @@ def _paint_thin(
 
 
 def _span(first: float, second: float, half: float) -> tuple[int, int]:
-    """The columns, or the rows, that a stroke may touch."""
-    reach = 1.5 * half + 1.0  # the corner of a square cap is further out than half a width
+    """Return the range of columns, or of rows, that a stroke may touch."""
+    reach = 1.5 * half + 1.0  # the corner of a square cap is farther out than half a width
     low, high = min(first, second) - reach, max(first, second) + reach
     return math.floor(min(max(low, 0.0), float(SIZE))), math.ceil(min(max(high + 1.0, 0.0), float(SIZE)))

@@ -1,7 +1,7 @@
 """`turtle_actionlib`: a turtle draws a regular polygon as an action (http://wiki.ros.org/turtle_actionlib).
 
-`Polygon` steers, without ROS; `ShapeServer` is `turtle_actionlib/shape_server` (the node and action `turtle_shape`),
-`ShapeClient` is `turtle_actionlib/shape_client` (the node `test_shape`), which asks for a pentagon.
+`Polygon` is the controller, without ROS; `ShapeServer` is `turtle_actionlib/shape_server` (the node and action
+`turtle_shape`), `ShapeClient` is `turtle_actionlib/shape_client` (the node `test_shape`), which requests a pentagon.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 GAIN = 6.0
-"""How much speed [1/s] for what is left of an edge or of a turn."""
+"""Speed per remaining distance or angle [1/s]."""
 TOLERANCE = 1e-5
-"""When an edge or a turn is done [m, rad]."""
+"""Tolerance at the end of an edge or a turn [m, rad]."""
 EDGES, RADIUS_M, PATIENCE_S = 5, 1.3, 40.0
-"""What the client asks for, and how long it waits."""
+"""The client's goal, and its timeout."""
 
 Pose = tuple[float, float, float]
 
@@ -31,11 +31,11 @@ class Polygon:
     """Steers along the edges of a regular polygon, and turns left at each corner.
 
     Args:
-        edges: how many.
-        radius: of the circle through the corners [m].
+        edges: number of edges.
+        radius: radius of the circle through the corners [m].
 
     Raises:
-        TurtleError: there are fewer than three edges, or the radius is no positive number.
+        TurtleError: there are fewer than three edges, or the radius is not a positive number.
 
     """
 
@@ -46,13 +46,13 @@ class Polygon:
             )
         self.edges = edges
         self.interior_angle = (edges - 2) * math.pi / edges
-        """Between two edges [rad]."""
+        """Angle between two edges [rad]."""
         self.apothem = radius * math.cos(math.pi / edges)
-        """From the middle to an edge [m]."""
+        """Distance from the centre to an edge [m]."""
         self.side = 2 * self.apothem * math.tan(math.pi / edges)
         """The length of an edge [m]."""
         self.done = 0
-        """How many edges are drawn, each with the turn after it."""
+        """Number of finished edges, each with the turn after it."""
         self._start: Pose | None = None
 
     def steer(self, pose: Pose) -> tuple[float, float] | None:
@@ -73,7 +73,7 @@ class Polygon:
 
 
 class ShapeServer:
-    """The node: it draws with turtle1, one goal at a time."""
+    """The node: draws with turtle1, one goal at a time."""
 
     node_name = "turtle_shape"
 
@@ -121,7 +121,7 @@ class ShapeServer:
 
 
 class ShapeClient:
-    """The node: it asks for a shape, waits for it, logs how it ended, and ends itself."""
+    """The node: sends a goal, waits for the result, logs it, and shuts down."""
 
     node_name = "test_shape"
 

@@ -1,4 +1,4 @@
-"""What the turtles of a window did over time, to be played: `tape = window().record()`, and later `tape.replay()`."""
+"""Recording of a window's turtles for playback: `tape = window().record()`, and later `tape.replay()`."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from .paper import Colour, Pen
 from .turtle import STEP_S, Turtle, TurtleError
 
 MOST_SAMPLES = 500_000
-"""A tape is full then, and says so."""
+"""Maximum number of samples; a full tape stops recording."""
 
 Pose = tuple[float, float, float]
 
 
 @dataclass(eq=False)
 class Track:
-    """Where one turtle was, at its updates; while it stands, only the first and the last of them are kept."""
+    """The poses of one turtle at its updates; while it does not move, only the first and the last of them are kept."""
 
     turtle: Turtle
     came_s: float
     gone_s: float = math.inf
     times: list[float] = field(default_factory=list)
     poses: list[Pose] = field(default_factory=list)
-    """x and y up [m], and the heading [rad], which is not wrapped."""
+    """x and y (up) [m], and the heading [rad], which is not wrapped."""
     pens: list[Pen | None] = field(default_factory=list)
-    """With what the line to each pose was drawn."""
+    """The pen with which the line to each pose was drawn."""
 
     def note(self, now_s: float) -> int:
-        """Note where the turtle is, if it moved; return how many samples that took."""
+        """Record the turtle's pose if it moved; return the number of samples added."""
         turtle, before = self.turtle, len(self.times)
         pose = turtle.x, turtle.y, turtle.theta
         if self.poses:
@@ -41,7 +41,7 @@ class Track:
             pose = *pose[:2], last[2] + math.remainder(pose[2] - last[2], 2 * math.pi)
             if pose == last:
                 return 0
-            if now_s - self.times[-1] > 1.5 * STEP_S:  # it stood until a moment ago
+            if now_s - self.times[-1] > 1.5 * STEP_S:  # it was at rest until a moment ago
                 self._add(now_s - STEP_S, last, self.pens[-1])
         self._add(now_s, pose, turtle.pen if turtle.pen_on else None)
         return len(self.times) - before
@@ -53,23 +53,23 @@ class Track:
 
 
 class Line(NamedTuple):
-    """What one turtle drew without lifting or changing its pen."""
+    """A line drawn by one turtle without lifting or changing its pen."""
 
     pen: Pen
     times: list[float]
     points: list[tuple[float, float]]
-    """x and y up [m]."""
+    """x and y (up) [m]."""
     until_s: float
-    """When the paper was cleared; infinity if it was not."""
+    """Time at which the paper was cleared; infinity if it was not."""
 
 
 class Tape:
-    """Notes at each update where the turtles of a window are and with what they draw, until `stop()`.
+    """Records the poses and pens of a window's turtles at each update, until `stop()`.
 
     Args:
-        name: of the window.
-        start_s: when it begins.
-        frame: what is in the window.
+        name: the name of the window.
+        start_s: the start time.
+        frame: the contents of the window.
 
     """
 
@@ -79,7 +79,7 @@ class Tape:
         self.background: Colour = frame.paper.background
         self.tracks: list[Track] = []
         self.wipes: list[float] = []
-        """When the paper was cleared [s]."""
+        """Times at which the paper was cleared [s]."""
         self.is_running = True
         self.is_full = False
         self._clears = frame.paper.clears
@@ -92,15 +92,15 @@ class Tape:
         return f"<Tape of {self.name}: {seconds:.2f} s, {len(self.tracks)} tracks{', full' * self.is_full}>"
 
     def stop(self) -> None:
-        """Note nothing any more."""
+        """Stop recording."""
         self.is_running = False
 
     def note(self, now_s: float, frame: Frame) -> None:
-        """Note what the last update has changed."""
+        """Record the changes of the last update."""
         if not self.is_running:
             return
         self.end_s = now_s
-        if frame.paper.clears != self._clears:  # the paper is cleared before the turtles move on
+        if frame.paper.clears != self._clears:  # the paper is cleared before the turtles move
             self._clears, self.background = frame.paper.clears, frame.paper.background
             self.wipes.append(now_s - STEP_S)
         for name, track in list(self._open.items()):
@@ -116,7 +116,7 @@ class Tape:
             self.is_running, self.is_full = False, True
 
     def lines(self) -> Iterator[Line]:
-        """What was drawn while the tape ran, turtle by turtle."""
+        """Yield the lines drawn while the tape ran, turtle by turtle."""
         for track in self.tracks:
             yield from self._lines(track)
 
@@ -138,9 +138,9 @@ class Tape:
             yield line
 
     def replay(self, **options: Any) -> Any:
-        """The drawing as it grew, to be played: a still picture with text form, and a player in a page.
+        """Return a player of the drawing in a page, and a still picture with text form elsewhere.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             title=None: a caption under the player, and the first words of its text form
 
         Raises `TurtleError` if there was no turtle.

@@ -1,9 +1,9 @@
-"""One turtle: where it is, how it moves, and its pen. No node, no topic and no clock in it.
+"""A turtle: its pose, its motion, and its pen. Contains no node, topic or clock.
 
-The window is 500 pixels wide and a metre is 45 pixels, the height of ROS's pictures of turtles; the middle of the last
-pixel is the border: 499 / 45 = 11.088889 m. Positions are kept in metres from the top left with y down, as the window
-has them; messages have y up from the bottom left. Both are computed as turtlesim 0.10.2 (ROS Noetic) does, with single
-precision where it has that (https://github.com/ros/ros_tutorials, branch noetic-devel).
+The window is 500 pixels wide and a metre is 45 pixels, the height of ROS's turtle images; the centre of the last
+pixel is the border: 499 / 45 = 11.088889 m. Positions are stored in metres from the top left with y down, as in the
+window; messages have y up from the bottom left. Both are computed as in turtlesim 0.10.2 (ROS Noetic), with single
+precision where it has it (https://github.com/ros/ros_tutorials, branch noetic-devel).
 """
 
 from __future__ import annotations
@@ -16,32 +16,32 @@ from rosmini.core.errors import RosminiError
 from .paper import SIZE, Paper, Pen
 
 METRE = 45.0
-"""How many pixels a metre has."""
+"""Pixels per metre."""
 
 STEP_S = 0.016
-"""The period of the simulation [s], 62.5 Hz: each update moves a turtle on by this."""
+"""The period of the simulation [s], 62.5 Hz: each update advances a turtle by this time."""
 
 TIMEOUT_S = 1.0
-"""How long a velocity command holds [s]."""
+"""Duration of a velocity command [s]."""
 
 PI = 3.14159265
-"""As turtlesim has it: angles are in [-PI, PI)."""
+"""Pi as in turtlesim: angles are in [-PI, PI)."""
 
 FASTEST = 1e38
-"""No command may be faster [m/s, rad/s]: the messages' float32 ends there."""
+"""Maximum velocity in a command [m/s, rad/s]: the range of a message's float32."""
 
 
 class TurtleError(RosminiError):
-    """A turtle cannot do what was asked; the message says why. The simulation goes on."""
+    """A request to a turtle cannot be fulfilled; the message says why. The simulation continues."""
 
 
 def single(value: float) -> float:
-    """A number in single precision, as the float32 of a message holds it."""
+    """Round a number to single precision, as in the float32 of a message."""
     return float(struct.unpack("f", struct.pack("f", value))[0])
 
 
 LIMIT = single((SIZE - 1) / METRE)
-"""The largest x and y [m]: 11.088889."""
+"""Maximum x and y [m]: 11.088889."""
 
 START = (single(LIMIT / 2), single(LIMIT / 2), 0.0)
 """The pose of the first turtle, in the middle of the window: 5.544445 m, 5.544445 m, 0 rad."""
@@ -56,7 +56,7 @@ def finite(name: str, **numbers: float) -> None:
 
 
 class Turtle:
-    """A turtle on a paper.
+    """A turtle on paper.
 
     Args:
         name: its name, the namespace of its topics.
@@ -86,7 +86,7 @@ class Turtle:
         self.pen = Pen()
         self.pen_on = True
         self.holonomic = True
-        """Whether `linear.y` of a command moves it sideways."""
+        """True if `linear.y` of a command moves it sideways."""
         self._command: tuple[float, float, float] | None = None
         self._last_command_s = -math.inf
         self._teleports: list[tuple[float, ...]] = []
@@ -107,20 +107,20 @@ class Turtle:
 
     @property
     def pixel(self) -> tuple[float, float]:
-        """Where it is in the window [px], from the top left."""
+        """Its position in the window [px], from the top left."""
         return self._x * METRE, self._y * METRE
 
     @property
     def linear_velocity(self) -> float:
-        """How fast it is [m/s], never negative, as its pose says it."""
+        """The speed in its pose message [m/s], never negative."""
         return math.hypot(self.forward, self.sideways)
 
-    # -- what it is told -----------------------------------------------------------------------------------------
+    # -- commands ------------------------------------------------------------------------------------------------
 
     def command(self, forward: float, sideways: float, angular: float) -> None:
-        """Take velocities [m/s, m/s, rad/s] at the next update; they hold for a second.
+        """Set the velocities [m/s, m/s, rad/s] from the next update on; they hold for a second.
 
-        Raises `TurtleError` if one is not finite, or beyond what a message holds.
+        Raises `TurtleError` if one is not finite, or beyond a message's range.
         """
         if not (abs(forward) <= FASTEST and abs(sideways) <= FASTEST and abs(angular) <= FASTEST):
             raise TurtleError(
@@ -130,31 +130,31 @@ class Turtle:
         self._command = forward, sideways if self.holonomic else 0.0, angular
 
     def set_pen(self, r: int, g: int, b: int, width: int, off: int) -> None:
-        """Set the pen, or, with `off`, lift it and leave it as it is. Width 0 is Qt's default, 1 px."""
+        """Set the pen, or, with `off`, lift it and leave it unchanged. Width 0 is Qt's default, 1 px."""
         self.pen_on = not off
         if not off:
             self.pen = Pen((r, g, b), width or 1)
 
     def teleport_absolute(self, x: float, y: float, theta: float) -> None:
-        """Be somewhere else at the next update, with a line to there if the pen is down.
+        """Move to another pose at the next update, drawing a line if the pen is down.
 
-        Outside of the window is the border: the next update puts it there. Raises `TurtleError` if a number is not
+        Outside the window the update after that moves it to the border. Raises `TurtleError` if a number is not
         finite.
         """
         finite(f"{self.name}/teleport_absolute", x=x, y=y, theta=theta)
         self._teleports.append((x, y, theta))
 
     def teleport_relative(self, linear: float, angular: float) -> None:
-        """Turn [rad] and go ahead [m], both at the next update. Raises `TurtleError` if a number is not finite."""
+        """Turn [rad] and move ahead [m], both at the next update. Raises `TurtleError` if a number is not finite."""
         finite(f"{self.name}/teleport_relative", linear=linear, angular=angular)
         self._teleports.append((linear, angular))
 
     # -- a step of the simulation --------------------------------------------------------------------------------
 
     def move(self, now_s: float, paper: Paper) -> tuple[float, float] | None:
-        """Do what was asked for and go on for `STEP_S`; the line of the way is drawn by `draw`.
+        """Execute the requests and advance by `STEP_S`; `draw` draws the line of this motion.
 
-        Returns where it would be if there were no wall, x and y down [m], or None if it did not run against one.
+        Returns the position without a wall, x and y (down) [m], or None if it did not hit one.
         """
         if self._command is not None:
             self.forward, self.sideways, self.angular_velocity = self._command
@@ -173,7 +173,7 @@ class Turtle:
         return None if (self._x, self._y) == (x, y) else (x, y)
 
     def draw(self, paper: Paper) -> None:
-        """Draw the line of the last move, if the pen is down and it moved."""
+        """Draw the line of the last move if the pen is down and the turtle moved."""
         if self.pen_on and self._left_from != (self._x, self._y):
             self._line(self._left_from, paper)
 
@@ -196,6 +196,6 @@ class Turtle:
 
 
 def _wrapped(angle: float) -> float:
-    """An angle in [-PI, PI), by turtlesim's formula; of one so large that this fails, the remainder."""
+    """Return an angle in [-PI, PI) by turtlesim's formula, or the remainder of an angle too large for it."""
     angle -= 2 * PI * math.floor((angle + PI) / (2 * PI))
     return angle if abs(angle) <= PI + 1e-6 else math.remainder(angle, 2 * PI)

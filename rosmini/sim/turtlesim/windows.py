@@ -1,4 +1,4 @@
-"""The windows of turtlesim that run in a graph."""
+"""Finds the windows of turtlesim in a graph."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from .turtle import TurtleError
 
 
 def windows(graph: Graph | None = None) -> dict[str, TurtleSim]:
-    """The turtlesims of a graph (the default one if not given) by the names of their nodes."""
+    """Return the turtlesims of a graph (the default one if not given) by the names of their nodes."""
     nodes = (running_graph() if graph is None else graph).nodes
     return {name: node.program for name, node in sorted(nodes.items()) if isinstance(node.program, TurtleSim)}
 
 
 def window(name: str | None = None, graph: Graph | None = None) -> TurtleSim:
-    """The turtlesim whose node has this name, or the only one that there is.
+    """Return the turtlesim whose node has this name, or the only one.
 
     >>> from rosmini import Graph, rosrun
     >>> graph = Graph()
@@ -27,7 +27,7 @@ def window(name: str | None = None, graph: Graph | None = None) -> TurtleSim:
     >>> window(graph=graph)
     <TurtleSim /turtlesim: turtle1>
 
-    Raises `TurtleError` if there is none of this name, none at all, or more than one.
+    Raises `TurtleError` if there is no turtlesim of this name, none at all, or more than one.
     """
     found = windows(graph)
     if not found:

@@ -1,4 +1,4 @@
-"""URDF: robots by their description (http://wiki.ros.org/urdf)."""
+"""URDF: descriptions of robots (http://wiki.ros.org/urdf)."""
 
 from __future__ import annotations
 

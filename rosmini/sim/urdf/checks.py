@@ -1,4 +1,4 @@
-"""What links and joints must be to be a robot: one tree, mimics that end, inertias of bodies that can exist."""
+"""Checks of links and joints: a single tree, mimic chains that end, and physically possible inertias."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from rosmini.core.markup import Element
 from .model import Inertial, Joint, Link
 
 SLACK = 1e-6
-"""By how much, relative to the largest, moments of inertia may break the laws: files round."""
+"""Tolerance for moments of inertia, relative to the largest, because files round them."""
 
 LONGEST_MIMIC = 50
-"""How many joints a chain may have in which each mimics the next."""
+"""Maximum length of a chain of joints in which each mimics the next."""
 
 
 def check_tree(
     robot: Element, links: Mapping[str, Link], joints: Mapping[str, Joint], elements: Mapping[str, Element]
 ) -> str:
-    """The root of the tree that joints make of links. `elements` are where the joints were written.
+    """Return the root of the tree of links and joints. `elements` contains the joints' elements.
 
-    Raises `UrdfError`: a joint names a link or joint that is not there, a link is the child of two joints, joints
-    form a circle, or there are several trees.
+    Raises `UrdfError` if a joint names a link that does not exist, a link is the child of two joints, joints
+    form a cycle, or there are several trees.
     """
     above: dict[str, Joint] = {}
     for joint in joints.values():
@@ -55,7 +55,7 @@ def check_tree(
 
 
 def _check_circles(robot: Element, links: Mapping[str, Link], above: Mapping[str, Joint]) -> None:
-    """Every link must lead to the root."""
+    """Raise `UrdfError` unless every link is connected to the root."""
     good: set[str] = set()
     for name in links:
         path: dict[str, None] = {}
@@ -72,7 +72,7 @@ def _check_circles(robot: Element, links: Mapping[str, Link], above: Mapping[str
 
 
 def mimic_problem(joint: Joint, joints: Mapping[str, Joint]) -> str:
-    """Return why a joint cannot mimic what it names; empty if it can, or mimics nothing."""
+    """Describe why a joint cannot mimic another; empty if it can, or if it is not a mimic."""
     way = [joint.name]
     at = joint
     while at.mimic is not None:
@@ -94,7 +94,7 @@ def mimic_problem(joint: Joint, joints: Mapping[str, Joint]) -> str:
 
 
 def inertia_notes(inertial: Inertial) -> Iterator[str]:
-    """Why no body has this inertia: principal moments are not negative, and none is larger than the sum of the others.
+    """Yield the reasons why an inertia is impossible: a negative moment, or one above the sum of the others.
 
     (Each is an integral of two squared distances over the mass; see Featherstone, Rigid Body Dynamics Algorithms,
     2008.)

@@ -1,7 +1,7 @@
-"""What a xacro file may do: compute (see `rosmini.core.expressions`), read files of packages, and expand within bounds.
+"""Limits of xacro: it may compute (see `rosmini.core.expressions`), read files of packages, and expand within bounds.
 
-xacro hands ``${...}`` and ``$(eval ...)`` to Python's ``eval``, out of which a description can break. These functions
-replace xacro's own, under the names by which its modules look them up.
+xacro passes ``${...}`` and ``$(eval ...)`` to Python's ``eval``, which a description can escape. These functions
+replace xacro's own, under the names that its modules use.
 """
 
 from __future__ import annotations
@@ -31,25 +31,25 @@ from rosmini.core.yaml_text import Loader, documents
 from .errors import UrdfError
 
 STEPS = 1_000_000
-"""What the expressions and the expanding of a file may cost, and more by its length; see `Budget`."""
+"""Step budget of a file's expressions and expansion, increased by its length; see `Budget`."""
 
 OF_A_TEXT = 5
-"""So many steps a text costs in which something may be replaced, such as the default of a parameter."""
+"""Cost in steps of a text that may contain substitutions, such as the default of a parameter."""
 
 MOST_PARAMETERS, LONGEST_PARAMETERS = 1000, 100_000
-"""How many parameters a macro may have, and how many characters."""
+"""Maximum number of a macro's parameters, and of their characters."""
 
 OF_AN_ELEMENT = 100
-"""So many steps an element costs that is expanded: a small file may have 10,000."""
+"""Cost in steps of expanding an element: a small file may have 10,000."""
 
 OF_A_FILE = 5_000
-"""So many steps a file costs that is included, and may be empty: there may be 1,000."""
+"""Cost in steps of an included file, which may be empty: there may be 1,000."""
 
 DEEPEST = 40
-"""How many files may be open, each included by the one before."""
+"""Maximum nesting of includes."""
 
 LARGEST = 4_000_000
-"""Bytes of a YAML file."""
+"""Maximum size of a YAML file [bytes]."""
 
 GLOBALS = (
     "list",
@@ -66,12 +66,12 @@ GLOBALS = (
     "sorted",
     "range",
 )
-"""Python's functions that need no ``python.`` before them."""
+"""Python's functions that do not need the prefix ``python.``."""
 
 MACRO_ARGUMENT = re.compile(
     r"""^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?(\$\{.*?\}|\$\(.*?\)|(?:'[^']*'|"[^"]*"|[^\s'"])+|)(?:\s+|$)(.*)"""
 )
-"""A macro parameter with its default, as in xacro, without the quotes that make backtracking try every combination."""
+"""A macro parameter with its default, as in xacro, without the quotes that cause exponential backtracking."""
 
 UNITS: dict[str, float] = {
     "!radians": 1.0,
@@ -81,11 +81,11 @@ UNITS: dict[str, float] = {
     "!foot": 0.3048,
     "!inches": 0.0254,
 }
-"""What tags of YAML files mean (https://github.com/ros/xacro/wiki)."""
+"""Values of units in YAML tags (https://github.com/ros/xacro/wiki)."""
 
 
 class Confined:
-    """The functions that xacro is lent for one file."""
+    """The functions that replace xacro's for one file."""
 
     def __init__(self, xacro: Any, substitution: Any, file: Path, find: Callable[[str], str]) -> None:
         self._xacro, self._substitution, self._find = xacro, substitution, find
@@ -95,7 +95,7 @@ class Confined:
         self._eval_extension, self._grab_macro = xacro.eval_extension, xacro.grab_macro
 
     def for_xacro(self) -> dict[str, Any]:
-        """What stands for names in the module `xacro`."""
+        """Return the replacements for names in the module `xacro`."""
         return {
             "_global_symbols": self._symbols(),
             "eval_all": self._count_element,
@@ -108,11 +108,11 @@ class Confined:
         }
 
     def for_substitution(self) -> dict[str, Any]:
-        """What stands for names in the module `xacro.substitution_args`."""
+        """Return the replacements for names in the module `xacro.substitution_args`."""
         return {"_eval": self._evaluate_substitution}
 
     def opened(self, filename: str) -> None:
-        """Count an included file. Raises `NotAllowed` for too many, or for files that include one another endlessly."""
+        """Count an included file. Raises `NotAllowed` for too many, or for files that include each other endlessly."""
         self._budget.spend(OF_A_FILE)
         self._budget.earn(Path(filename).stat().st_size)
         above = [Path(name).name for name in self._xacro.filestack]
@@ -129,7 +129,7 @@ class Confined:
         return Expression(text, functions={}, fields=self._field).evaluate(names, self._budget)
 
     def _evaluate_substitution(self, text: str, context: dict[str, Any]) -> str:
-        """``$(eval ...)``."""
+        """Evaluate ``$(eval ...)``."""
         substitution, given = self._substitution, context.get("arg", {})
         names = {name: substitution.convert_value(value, "auto") for name, value in given.items()}
         functions: dict[str, Callable[..., Any]] = {
@@ -145,7 +145,7 @@ class Confined:
         return str(Expression(text, functions={}, fields=self._field).evaluate(every, self._budget))
 
     def _field(self, value: Any, name: str) -> Any:
-        """The entry of a dictionary from YAML, or the property of an included file that has a namespace."""
+        """Return an entry of a dictionary from YAML, or a property of an included file with a namespace."""
         if not isinstance(value, self._xacro.YamlDictWrapper | self._xacro.NameSpace):
             return no_fields(value, name)
         if name not in value:
@@ -154,7 +154,7 @@ class Confined:
         return value[name]
 
     def _symbols(self) -> dict[str, Any]:
-        """What every expression knows."""
+        """Return the names available in every expression."""
         own: dict[str, Callable[..., Any]] = {
             "abs_filename": self._xacro.abs_filename_spec,
             "arg": lambda name: self._xacro.substitution_args_context["arg"][name],
@@ -189,7 +189,7 @@ class Confined:
         raise RosminiError(" ".join(str(self._budget.made(each)) for each in said))
 
     def _load_yaml(self, name: str) -> Any:
-        """The values of a YAML file of a package, or of one beside the description."""
+        """Return the values of a YAML file in a package, or beside the description."""
         path = Path(self._xacro.abs_filename_spec(name)).resolve()
         if self._folder not in path.parents and not any(
             (each / "package.xml").is_file() for each in path.parents
@@ -233,7 +233,7 @@ class _Yaml(Loader):
         self.budget = Budget(STEPS_OF_A_FILE)
 
     def measure(self, node: Any) -> float:
-        """A number, or an expression, in the unit of its tag."""
+        """Return the value of a number, or an expression, in the unit of its tag."""
         symbols = {**MATH, "math": Namespace("math", MATH)}
         text = str(self.construct_scalar(node))
         self.budget.earn(len(text))

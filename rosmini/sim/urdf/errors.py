@@ -1,4 +1,4 @@
-"""What is wrong with a robot's description."""
+"""Errors of robot descriptions."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from rosmini.core.markup import MarkupError
 
 
 class UrdfError(MarkupError):
-    """A URDF or xacro file is broken at ``file``, line ``line``."""
+    """A URDF or xacro file is invalid at ``file``, line ``line``."""
 
 
 class UnknownJoint(RosminiError, KeyError):

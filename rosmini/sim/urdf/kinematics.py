@@ -1,4 +1,4 @@
-"""The transforms that joints make. Plain numbers and arrays in, arrays out."""
+"""Transforms of joints, as plain numbers and arrays."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 
 def rotation(rpy: Sequence[float]) -> Floats:
-    """The rotation (3, 3) of roll, pitch and yaw [rad] about the fixed axes x, y and z, in this order (REP 103)."""
+    """Return the rotation (3, 3) by roll, pitch and yaw [rad] about the fixed axes x, y and z in order (REP 103)."""
     (cr, cp, cy), (sr, sp, sy) = ([f(angle) for angle in rpy] for f in (math.cos, math.sin))
     return np.array(
         [
@@ -26,7 +26,7 @@ def rotation(rpy: Sequence[float]) -> Floats:
 
 
 def turn(axis: Sequence[float], angle: float) -> Floats:
-    """The rotation (3, 3) by `angle` [rad] about an axis of length 1 (Rodrigues' formula)."""
+    """Return the rotation (3, 3) by `angle` [rad] about an axis of length 1 (Rodrigues' formula)."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     result: Floats = (
@@ -36,7 +36,7 @@ def turn(axis: Sequence[float], angle: float) -> Floats:
 
 
 def origin(xyz: Sequence[float], rpy: Sequence[float]) -> Floats:
-    """The transform (4, 4) that URDF's ``<origin xyz= rpy=>`` means."""
+    """Return the transform (4, 4) of URDF's ``<origin xyz= rpy=>``."""
     result = np.eye(4)
     result[:3, :3] = rotation(rpy)
     result[:3, 3] = xyz
@@ -44,7 +44,7 @@ def origin(xyz: Sequence[float], rpy: Sequence[float]) -> Floats:
 
 
 def motion(axis: Sequence[float], position: float, *, slides: bool) -> Floats:
-    """What a joint adds to its origin (4, 4): rotation about its axis by `position` [rad], or a shift along it [m]."""
+    """Return a joint's motion (4, 4): rotation about its axis by `position` [rad], or translation along it [m]."""
     result = np.eye(4)
     if slides:
         result[:3, 3] = np.asarray(axis) * position

@@ -1,7 +1,7 @@
-"""A robot by its description: links, and the joints between them (http://wiki.ros.org/urdf/XML).
+"""A robot's description: links, and the joints between them (http://wiki.ros.org/urdf/XML).
 
-Units and axes are REP 103's: metres, radians, kilograms, seconds; fixed-axis roll, pitch, yaw. `rosmini.sim.urdf.load`
-makes a `Robot` of a file; nothing here reads or writes.
+Units and axes follow REP 103: metres, radians, kilograms, seconds; fixed-axis roll, pitch, yaw. `rosmini.sim.urdf.load`
+makes a `Robot` from a file; nothing here reads or writes.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ JointType = Literal["revolute", "continuous", "prismatic", "fixed", "floating", 
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a frame stands in another."""
+    """The pose of a frame in another."""
 
     xyz: Vector = (0.0, 0.0, 0.0)
     rpy: Vector = (0.0, 0.0, 0.0)
 
     @cached_property
     def matrix(self) -> Floats:
-        """The transform (4, 4)."""
+        """Return the transform (4, 4)."""
         return kinematics.origin(self.xyz, self.rpy)
 
 
@@ -52,7 +52,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Cylinder:
-    """A cylinder around its origin, its axis z."""
+    """A cylinder around its origin, with the axis z."""
 
     radius: float
     length: float
@@ -70,10 +70,10 @@ class Mesh:
     """A shape from a file."""
 
     filename: str
-    """As written: ``package://...``, ``file://...`` or a path."""
+    """As in the file: ``package://...``, ``file://...`` or a path."""
     scale: Vector = (1.0, 1.0, 1.0)
     path: Path | None = None
-    """The file; None if it was not looked for (`load(..., meshes=False)`)."""
+    """The file; None if it was not searched for (`load(..., meshes=False)`)."""
 
 
 Geometry = Box | Cylinder | Sphere | Mesh
@@ -81,7 +81,7 @@ Geometry = Box | Cylinder | Sphere | Mesh
 
 @dataclass(frozen=True)
 class Material:
-    """A colour, or a picture, with a name."""
+    """A named colour or texture."""
 
     name: str = ""
     colour: Colour | None = None
@@ -115,7 +115,7 @@ class Inertial:
 
 @dataclass(frozen=True)
 class Visual:
-    """What one sees of a link."""
+    """A visible shape of a link."""
 
     geometry: Geometry
     origin: Origin = Origin()
@@ -125,7 +125,7 @@ class Visual:
 
 @dataclass(frozen=True)
 class Collision:
-    """What of a link touches others."""
+    """A shape of a link for contacts."""
 
     geometry: Geometry
     origin: Origin = Origin()
@@ -134,7 +134,7 @@ class Collision:
 
 @dataclass(frozen=True)
 class Link:
-    """A rigid body with a frame of its name."""
+    """A rigid body; its frame has the same name."""
 
     name: str
     inertial: Inertial | None = None
@@ -145,7 +145,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Limit:
-    """How far, how hard and how fast a joint moves: radians or metres, N m or N, rad/s or m/s."""
+    """Range, maximum effort and maximum speed of a joint: radians or metres, N m or N, rad/s or m/s."""
 
     lower: float = 0.0
     upper: float = 0.0
@@ -172,7 +172,7 @@ class Dynamics:
 
 @dataclass(frozen=True)
 class Joint:
-    """How a child link is connected to its parent: `origin` is the child's frame in the parent's at position 0."""
+    """The connection of a child link to its parent: `origin` is the child's frame in the parent's at position 0."""
 
     name: str
     type: JointType
@@ -180,7 +180,7 @@ class Joint:
     child: str
     origin: Origin = Origin()
     axis: Vector = (1.0, 0.0, 0.0)
-    """Of turning, of sliding, or the normal of the plane, in the child's frame; of length 1."""
+    """Axis of rotation or translation, or normal of the plane, in the child's frame; of length 1."""
     limit: Limit | None = None
     mimic: Mimic | None = None
     dynamics: Dynamics | None = None
@@ -188,18 +188,18 @@ class Joint:
 
     @property
     def moves(self) -> bool:
-        """True if one number says where it is: revolute, continuous and prismatic joints."""
+        """True if its position is a single number: for revolute, continuous and prismatic joints."""
         return self.type in {"revolute", "continuous", "prismatic"}
 
     @property
     def rest(self) -> float:
-        """Its default position: 0, or the middle of its limits if 0 is outside (as joint_state_publisher has it)."""
+        """Its default position: 0, or the middle of its limits if these exclude 0 (as in joint_state_publisher)."""
         if self.type == "continuous" or self.limit is None or self.limit.lower <= 0 <= self.limit.upper:
             return 0.0
         return (self.limit.lower + self.limit.upper) / 2
 
     def transform(self, position: float = 0.0) -> Floats:
-        """The child's frame in the parent's (4, 4) at `position` [rad or m]; floating and planar joints stay at 0."""
+        """Return the child's frame in the parent's (4, 4) at `position` [rad or m]; 0 if floating or planar."""
         if not self.moves:
             return self.origin.matrix
         return matrix_product(
@@ -209,7 +209,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class Extension:
-    """A ``<gazebo>`` element, raw, about the link or joint `reference`; about the whole robot where that is empty."""
+    """A raw ``<gazebo>`` element about the link or joint `reference`, or about the whole robot if that is empty."""
 
     reference: str
     element: Element
@@ -217,32 +217,32 @@ class Extension:
 
 @dataclass(frozen=True)
 class Robot:
-    """A tree of links. `links` and `joints` are in the order in which they were written."""
+    """A tree of links. `links` and `joints` are in the order of the file."""
 
     name: str
     links: Mapping[str, Link]
     joints: Mapping[str, Joint]
     root: str
-    """The link that is nobody's child."""
+    """The root of the tree."""
     materials: Mapping[str, Material] = field(default_factory=dict)
     extensions: tuple[Extension, ...] = ()
     notes: tuple[str, ...] = ()
-    """What is doubtful, or left out, each with file and line: an inertia that no body has, a missing mesh..."""
+    """Problems and omissions, each with file and line: an impossible inertia, a missing mesh..."""
     left_out: Mapping[str, Sequence[str]] = field(default_factory=dict)
-    """What is left out, by its kind ("a visual"): those of the notes that say so."""
+    """The notes about omissions, by the kind of what was left out ("a visual")."""
     path: str = ""
 
     def __repr__(self) -> str:
         return f"Robot({self.name!r}, {len(self.links)} links, {len(self.joints)} joints)"
 
     def link(self, name: str) -> Link:
-        """The link of this name. Raises `UnknownJoint`."""
+        """Return the link of this name. Raises `UnknownJoint`."""
         if name not in self.links:
             raise UnknownJoint(self._unknown("link", name, list(self.links)))
         return self.links[name]
 
     def joint(self, name: str) -> Joint:
-        """The joint of this name. Raises `UnknownJoint`."""
+        """Return the joint of this name. Raises `UnknownJoint`."""
         if name not in self.joints:
             raise UnknownJoint(self._unknown("joint", name, list(self.joints)))
         return self.joints[name]
@@ -253,12 +253,12 @@ class Robot:
 
     @cached_property
     def above(self) -> dict[str, Joint]:
-        """From the name of each link but the root to the joint of which it is the child."""
+        """For the name of each link except the root, the joint above it."""
         return {joint.child: joint for joint in self.joints.values()}
 
     @cached_property
     def order(self) -> tuple[Joint, ...]:
-        """The joints from the root outwards: each after the joint of its parent."""
+        """The joints from the root outwards: each after its parent's joint."""
         below: dict[str, list[Joint]] = {}
         for joint in self.joints.values():
             below.setdefault(joint.parent, []).append(joint)
@@ -271,18 +271,18 @@ class Robot:
         return tuple(found)
 
     def children(self, link: str) -> list[str]:
-        """The child links of a link, in the order in which their joints were written."""
+        """Return the child links of a link, in the order of their joints in the file."""
         return [joint.child for joint in self.joints.values() if joint.parent == link]
 
     @property
     def mass(self) -> float:
-        """Of all links together [kg]."""
+        """Total mass of all links [kg]."""
         return sum(link.inertial.mass for link in self.links.values() if link.inertial)
 
     def positions(self, joints: Mapping[str, float] | None = None) -> dict[str, float]:
-        """The positions of all joints that move [rad or m]: as given, or at rest; one that mimics another follows it.
+        """Return the positions of all moving joints [rad or m]: as given, or at rest; a mimic joint follows its joint.
 
-        Raises `UnknownJoint` for a joint that the robot does not have, and for one that does not move.
+        Raises `UnknownJoint` for a joint that does not exist, and for one that does not move.
         """
         given = dict(joints or {})
         for name in given:
@@ -292,7 +292,7 @@ class Robot:
                 )
         found: dict[str, float] = {}
 
-        def position(joint: Joint) -> float:  # chains of mimics end: the reader made sure of it
+        def position(joint: Joint) -> float:  # chains of mimics end, as the reader has checked
             if joint.name not in found:
                 if joint.mimic is not None:
                     followed = position(self.joints[joint.mimic.joint])
@@ -304,7 +304,7 @@ class Robot:
         return {joint.name: position(joint) for joint in self.joints.values() if joint.moves}
 
     def transforms(self, joints: Mapping[str, float] | None = None) -> dict[str, Floats]:
-        """Where every link's frame is in the root's (4, 4), by the positions of joints [rad or m]; see `positions`.
+        """Return every link's frame in the root's (4, 4) for positions of joints [rad or m]; see `positions`.
 
         Raises `UnknownJoint`.
         """
@@ -315,21 +315,21 @@ class Robot:
         return found
 
     def show(self, **options: Any) -> Any:
-        """A picture of the tree of links and joints.
+        """Return a picture of the tree of links and joints.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             title=None: a caption under the picture, and the first words of its text form
         """
         return show("robot", self, **options)
 
     def show3d(self, joints: Mapping[str, float] | None = None, **options: Any) -> Any:
-        """The robot in three dimensions, its joints at these positions [rad or m] or at rest.
+        """Return a view of the robot in three dimensions, with joints at these positions [rad or m] or at rest.
 
-        Options, with what they are unless given:
-            collisions=False: show the shapes that touch others in place of those that one sees
-            distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: where the camera is [deg]: 0 towards x, 90 towards y; None: what shows it well
-            elevation=None: how high above the horizon it is [deg]; None: what shows it well
+        Options and their defaults:
+            collisions=False: show collision shapes instead of visuals
+            distance=None: of the camera from its target [m]; None: chosen automatically
+            azimuth=None: direction of the camera [deg]: 0 towards x, 90 towards y; None: chosen automatically
+            elevation=None: elevation of the camera above the horizon [deg]; None: chosen automatically
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
         """

@@ -1,4 +1,4 @@
-"""xacro files of an older style: `<macro>` and `<property>` without the prefix `xacro:`.
+"""xacro files in the old style: `<macro>` and `<property>` without the prefix `xacro:`.
 
 ROS accepted them until Melodic, with a warning. Since Noetic such tags are ordinary XML.
 """
@@ -23,7 +23,7 @@ TAGS = {
 
 
 class OldStyle:
-    """Adds the prefix where it is missing, and warns of it once."""
+    """Adds missing prefixes, and warns once."""
 
     def __init__(self, xacro: Any) -> None:
         self._xacro, self._handle_macro_call = xacro, xacro.handle_macro_call
@@ -53,7 +53,7 @@ class OldStyle:
             )
 
     def handle_macro_call(self, node: Any, macros: Any, symbols: Any) -> Any:
-        """Expand a macro call, which may lack the prefix if a macro of that name was read."""
+        """Expand a macro call, which may lack the prefix if a macro of this name was read."""
         if self._has_warned and node.tagName in self._names:
             _add_prefix(node)
         return self._handle_macro_call(node, macros, symbols)

@@ -1,4 +1,4 @@
-"""Reads URDF (http://wiki.ros.org/urdf/XML), from text or a file, with errors that name file, line and element."""
+"""Reads URDF (http://wiki.ros.org/urdf/XML) from text or a file; errors contain file, line and element."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ from .model import (
 T = TypeVar("T")
 
 KNOWN = frozenset({"link", "joint", "material", "gazebo", "transmission", "sensor", "model_state", "contact"})
-"""What may stand in a robot; other tags get a note, for extensions of others are free to add some."""
+"""Known elements of a robot; other tags get a note, because extensions may add some."""
 
 NEEDS_LIMIT = ("revolute", "prismatic")
 
@@ -55,15 +55,15 @@ def load(
     path: str | PathLike[str] | None = None,
     confined: bool = True,
 ) -> Robot:
-    """The robot of a URDF text (what begins with ``<``), of a ``.urdf`` file, or of a ``.xacro`` file.
+    """Return the robot of a URDF text (which begins with ``<``), of a ``.urdf`` file, or of a ``.xacro`` file.
 
     Args:
         source: the text, or the path of the file; ``package://`` paths too.
-        packages: where packages of ``package://`` addresses and of ``$(find ...)`` are; by default `PackageIndex()`.
+        packages: the index of packages for ``package://`` addresses and ``$(find ...)``; by default `PackageIndex()`.
         mappings: arguments for a ``.xacro`` file.
-        meshes: whether the files of meshes are looked for. Without, `Mesh.path` is None.
-        path: what errors about a text call its file.
-        confined: False lets expressions of a ``.xacro`` file do whatever Python can (see
+        meshes: False skips the search for mesh files; `Mesh.path` is then None.
+        path: the name of the file in errors about a text.
+        confined: False lets expressions in a ``.xacro`` file do anything that Python can (see
         `rosmini.sim.urdf.xacro.expand`).
 
     Raises:
@@ -96,7 +96,7 @@ def _file(name: str, index: PackageIndex) -> Path:
 
 
 class _Reader:
-    """One file on its way to a robot."""
+    """Reads one file."""
 
     def __init__(self, root: Element, index: PackageIndex | None) -> None:
         self.root, self.index = root, index
@@ -154,9 +154,9 @@ class _Reader:
         self.notes.append(str(element.error(what)))
 
     def spare(self, element: Element, kind: str, make: Callable[[Element], T]) -> T | None:
-        """Make a part that a robot can do without; None, with a note, if it is wrong.
+        """Make an optional part of a robot; return None, with a note, if it is invalid.
 
-        As ROS's parser does, which then passes over the rest of the link, too.
+        ROS's parser does the same, but then ignores the rest of the link as well.
         """
         try:
             return make(element)
@@ -167,7 +167,7 @@ class _Reader:
             return None
 
     def named(self, tag: str, make: Callable[[Element], T]) -> dict[str, T]:
-        """All elements of a kind by their names, of which no two may be alike."""
+        """Return all elements of a kind by their names, which must be unique."""
         found: dict[str, T] = {}
         lines: dict[str, int] = {}
         for each in self.root.all(tag):
@@ -256,7 +256,7 @@ class _Reader:
         return Mesh(filename, (scale[0], scale[1], scale[2]), path)
 
     def mesh_file(self, element: Element, filename: str, index: PackageIndex) -> Path:
-        """The file of a mesh. A plain path is looked for beside the URDF."""
+        """Return the file of a mesh. A plain path is relative to the URDF's folder."""
         if filename.startswith(SCHEME):
             try:
                 return index.resolve(filename)
@@ -278,7 +278,7 @@ class _Reader:
     # ---- materials ----
 
     def define(self, element: Element) -> None:
-        """A material that stands beside the links, for them to name."""
+        """Define a material beside the links, which they can name."""
         name = element.attribute("name")
         if name in self.materials:
             raise element.error(f"there are two materials {name!r}")
@@ -307,7 +307,7 @@ class _Reader:
             r, g, b, a = (min(max(part, 0.0), 1.0) for part in (r, g, b, a))
             rgba = (r, g, b, a)
         made = Material(name, rgba, "" if texture is None else texture.attribute("filename"))
-        if name:  # one that is defined inside a visual can be named by later ones
+        if name:  # later visuals can use a material that is defined inside one
             self.materials.setdefault(name, made)
         return made
 

@@ -1,8 +1,8 @@
-"""xacro: macros of robot descriptions (http://wiki.ros.org/xacro), by ROS's own program of that name from PyPI.
+"""xacro: macros of robot descriptions (http://wiki.ros.org/xacro), expanded by ROS's own xacro from PyPI.
 
-That package finds packages as ROS 2 does; here ``$(find ...)`` asks our `PackageIndex`. Each file is first read by
-`rosmini.core.markup`, which reports bad XML with its line and refuses hostile XML. Expressions are confined (see
-`rosmini.sim.urdf.confined`) unless the caller says otherwise.
+That package finds packages as ROS 2 does; here ``$(find ...)`` uses our `PackageIndex`. Each file is first read by
+`rosmini.core.markup`, which reports invalid XML with its line and refuses hostile XML. Expressions are confined (see
+`rosmini.sim.urdf.confined`) unless the caller disables it.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ UNCONFINED = (
 )
 
 MOST_MACROS = 5
-"""So many macros, one in another, an error names."""
+"""Maximum number of nested macros in an error message."""
 
 SHOWN = 1000
-"""How many characters of the beginning and of the end of xacro's message an error has."""
+"""Number of characters at the beginning and at the end of xacro's message in an error."""
 
 _one_at_a_time = threading.Lock()
-"""xacro keeps what it works on in its module."""
+"""Needed because xacro keeps its state in its module."""
 
 
 def expand(
@@ -51,13 +51,13 @@ def expand(
     packages: PackageIndex | None = None,
     confined: bool = True,
 ) -> str:
-    """The URDF that a xacro file means.
+    """Return the URDF that a xacro file expands to.
 
     Args:
-        path: the file; also ``package://...``.
-        mappings: arguments by name, as ``name:=value`` on the command line.
-        packages: where packages of ``$(find ...)`` are; by default `PackageIndex()`.
-        confined: False hands expressions to Python's ``eval``, as ROS does: they can do whatever you can do here.
+        path: the file; ``package://...`` is possible too.
+        mappings: arguments by name, like ``name:=value`` on the command line.
+        packages: the index of packages for ``$(find ...)``; by default `PackageIndex()`.
+        confined: False passes expressions to Python's ``eval``, as ROS does: they can do anything that you can.
 
     Raises:
         UrdfError: a file cannot be read or is not XML; a macro, property, argument or package is unknown; an expression
@@ -78,14 +78,14 @@ def expand(
 
 
 def _written(value: Any) -> str:
-    """An argument as launch files write it."""
+    """Format an argument as in launch files."""
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _process(
     file: Path, mappings: dict[str, str], index: PackageIndex, *, confined: bool
 ) -> xml.dom.minidom.Document:
-    """What xacro makes of a file, with our eyes for packages and for XML."""
+    """Return xacro's expansion of a file, with our search for packages and our checks of XML."""
     import xacro
     from xacro import substitution_args
 
@@ -93,7 +93,7 @@ def _process(
     with _lent(xacro, substitution_args, file if confined else None, index, known):
         try:
             document: xml.dom.minidom.Document = xacro.process_file(str(file), mappings=dict(mappings))
-        # Expressions are Python: whatever they raise, the description is broken.
+        # Expressions are Python: whatever they raise, the description is invalid.
         except Exception as error:
             cause = _cause(error)
             if isinstance(cause, UrdfError) and (cause.file in (None, str(file)) or exists(str(cause.file))):
@@ -117,9 +117,9 @@ def _process(
 def _lent(
     xacro: Any, substitution: Any, confined: Path | None, index: PackageIndex, known: list[str]
 ) -> Iterator[None]:
-    """Inside, xacro finds packages by our index, reads files as we do, and is confined; its globals are restored after.
+    """Make xacro use our package index, our file reading and our limits; restore its globals afterwards.
 
-    `confined` is the expanded file, or None if it may do whatever it likes.
+    `confined` is the expanded file, or None for no limits.
     """
 
     def find(name: str) -> str:
@@ -133,7 +133,7 @@ def _lent(
             source = text if isinstance(text, str | bytes) else text.read()
             parse(source, "<text>", UrdfError)
             return xml.dom.minidom.parseString(source)  # noqa: S318 (found harmless in the line above)
-        if not exists(filename):  # xacro lets it pass where an include is optional
+        if not exists(filename):  # xacro accepts this for an optional include
             xacro.filestack.pop()
             missing = OSError(f"{filename}: cannot be read: No such file or directory")
             raise xacro.XacroException(exc=missing)
@@ -174,7 +174,7 @@ def _lent(
 
 @contextmanager
 def _set(module: Any, **values: Any) -> Iterator[None]:
-    """While it lasts, names in a module stand for other things."""
+    """Set names in a module for the duration of a block."""
     before = {name: getattr(module, name) for name in values}
     for name, value in values.items():
         setattr(module, name, value)
@@ -186,14 +186,14 @@ def _set(module: Any, **values: Any) -> Iterator[None]:
 
 
 def _cause(error: BaseException) -> BaseException:
-    """What xacro wrapped."""
+    """Return the error wrapped by xacro."""
     while getattr(error, "exc", None) is not None:
-        error = error.exc  # type: ignore[attr-defined]  # as was just asked
+        error = error.exc  # type: ignore[attr-defined]  # checked in the line above
     return error
 
 
 def _is_refused(error: BaseException | None) -> bool:
-    """Tell whether something was not allowed, at the bottom of it all."""
+    """Return True if the root cause is an operation that is not allowed."""
     while error is not None:
         if isinstance(error, NotAllowed):
             return True
@@ -202,7 +202,7 @@ def _is_refused(error: BaseException | None) -> bool:
 
 
 def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]) -> str:
-    """What xacro says, with what helps."""
+    """Return xacro's message, with advice."""
     said = " ".join(_ends(str(error)).split()) or repr(error)
     unknown = re.search(r"unknown macro name: xacro:(\S+)", said)
     if unknown:
@@ -227,7 +227,7 @@ def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]
 
 
 def _ends(text: str) -> str:
-    """The beginning and the end of a text: expressions may be long, and patterns take the square of their length."""
+    """Return the beginning and the end of a text, because the cost of the patterns is quadratic in its length."""
     return text if len(text) <= 2 * SHOWN else f"{text[:SHOWN]} ... {text[-SHOWN:]}"
 
 
@@ -236,7 +236,7 @@ def _text(files: Sequence[str]) -> str:
 
 
 def _line(error: Exception, files: Sequence[str]) -> tuple[str, int] | None:
-    """File and line of what xacro complains about: it does not say, but what it quotes is found in one of the files."""
+    """Return file and line of xacro's error: it contains neither, but the text it quotes is in one of the files."""
     said = _ends(str(error))
     patterns = (
         (r"when evaluating expression '(.+)'", "{}"),
@@ -268,7 +268,7 @@ def _line(error: Exception, files: Sequence[str]) -> tuple[str, int] | None:
 
 
 def _call(message: str, macros: Sequence[str], files: Sequence[str]) -> tuple[str, int] | None:
-    """File and line of the call of a macro that lacks parameters, or that has one too many."""
+    """Return file and line of a macro call that lacks a parameter, or that has an unknown one."""
     lacking = re.search(r"Undefined parameters \[(.+?)\]", message)
     wrong = re.search(r'Invalid parameter "(.+?)"', message)
     if not macros or not (lacking or wrong):
@@ -281,7 +281,7 @@ def _call(message: str, macros: Sequence[str], files: Sequence[str]) -> tuple[st
 
 
 def _element(files: Sequence[str], tag: str, wanted: Callable[[Element], bool]) -> tuple[str, int] | None:
-    """File and line of the first element of this tag that is as wanted."""
+    """Return file and line of the first matching element of this tag."""
     for name in dict.fromkeys(files):
         for found in parse_file(name, UrdfError).walk():
             if found.tag == tag and wanted(found):
@@ -290,9 +290,9 @@ def _element(files: Sequence[str], tag: str, wanted: Callable[[Element], bool]) 
 
 
 def main(arguments: Sequence[str]) -> int:
-    """`rosrun xacro xacro FILE name:=value ...`: print the URDF or write it to the file after `-o`; the exit status.
+    """Run `rosrun xacro xacro FILE name:=value ...`: print the URDF or write it to the file after `-o`; return status.
 
-    Obsolete options (`--inorder`, `-i`) are ignored, as there.
+    Obsolete options (`--inorder`, `-i`) are ignored, as in ROS.
     """
     mappings: dict[str, str] = {}
     files: list[str] = []

@@ -1,4 +1,4 @@
-"""`yocs_velocity_smoother`: commands that a robot can follow."""
+"""`yocs_velocity_smoother`: limits commands to velocities that a robot can follow."""
 
 from .smoother import Limits, VelocitySmoother, limited, towards
 

@@ -1,8 +1,8 @@
 """`yocs_velocity_smoother/velocity_smoother`, a nodelet in ROS (http://wiki.ros.org/yocs_velocity_smoother).
 
-It takes commands on `~raw_cmd_vel` and publishes what the robot can follow on `~smooth_cmd_vel`; with `robot_feedback`
-1 it listens to `~odometry`, with 2 to `~robot_cmd_vel`. Its limits can be changed while it runs (dynamic_reconfigure).
-All topics are private: a launch file remaps them, as in ROS.
+It subscribes to commands on `~raw_cmd_vel` and publishes smoothed ones on `~smooth_cmd_vel`; with `robot_feedback`
+1 it subscribes to `~odometry`, with 2 to `~robot_cmd_vel`. Its limits can be changed at run time
+(dynamic_reconfigure). All topics are private: a launch file remaps them, as in ROS.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SmootherLimits(Parameters):
-    """The parameters that can be changed while it runs."""
+    """The parameters that can be changed at run time."""
 
     dynamic = True
 
@@ -51,7 +51,7 @@ class SmootherParameters(SmootherLimits):
 
 
 class VelocitySmootherNode:
-    """Smooth commands, as a node of a graph."""
+    """The velocity smoother as a node."""
 
     def __init__(self, node: Node) -> None:
         parameters = SmootherParameters.read(node)

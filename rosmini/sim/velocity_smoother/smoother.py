@@ -1,14 +1,14 @@
-"""A velocity smoother: commands that a robot can follow, out of commands that jump.
+"""A velocity smoother: converts commands with jumps to commands that a robot can follow.
 
-Between two outputs, T seconds apart, the speed ahead v and the turn w change by at most a T, with a limit a of each. If
-the wanted change (dv, dw) is larger than that, it is shortened to
+Between two outputs, T seconds apart, the speed ahead v and the turn w change by at most a T, with a limit a each. If
+the desired change (dv, dw) is larger, it is shortened to
 
     s (dv, dw)   with   s = min(1, a_v T / |dv|, a_w T / |dw|),
 
-so that both come to their targets along a straight line of the (v, w) plane, and the way that the robot draws keeps its
-shape. Where a change takes a speed away from its target's sign, towards 0, the limit is a times the deceleration
-factor. This is what `yocs_velocity_smoother` does (http://wiki.ros.org/yocs_velocity_smoother), with its parameters and
-its rules of when an input has ended.
+so that both approach their targets along a straight line in the (v, w) plane, and the robot's path keeps its
+shape. If a change moves a speed away from its target's sign, towards 0, the limit is a times the deceleration
+factor. This is the algorithm of `yocs_velocity_smoother` (http://wiki.ros.org/yocs_velocity_smoother), with its
+parameters and its rules for the end of an input.
 """
 
 from __future__ import annotations
@@ -24,39 +24,39 @@ Velocity = tuple[float, float]
 """The speed ahead [m/s] and the turn to the left [rad/s]."""
 
 RECORD = 5
-"""The typical time between two commands is the median of so many."""
+"""Number of intervals whose median is the typical time between two commands."""
 
 PATIENCE, LONGEST = 3.0, 0.5
-"""An input has ended after so many of these times, and after so many seconds at the latest."""
+"""An input has ended after this many typical intervals, and after this many seconds at the latest."""
 
 TRUST = (0.2, 2.0)
-"""If the robot's speeds differ more than this from the last output [m/s, rad/s], it starts again from the robot's."""
+"""Maximum difference between robot speed and last output [m/s, rad/s]; beyond it, restart from the robot's speed."""
 
 FEEDBACK = ("none", "odometry", "commands")
-"""Where the robot's speeds are from: nowhere, its odometry, or the commands that it gets in the end.
+"""Source of the robot's speeds: none, its odometry, or the commands that it finally receives.
 
-Their places are the numbers in ROS.
+The indices are the numbers in ROS.
 """
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a robot can follow; the defaults are those of `yocs_velocity_smoother`."""
+    """Limits of a robot; the defaults are those of `yocs_velocity_smoother`."""
 
     speed_v: float = 1.0
-    """[m/s]"""
+    """Maximum speed [m/s]."""
     speed_w: float = 5.0
-    """[rad/s]"""
+    """Maximum rate of turn [rad/s]."""
     accel_v: float = 0.5
-    """[m/s2]"""
+    """Maximum acceleration [m/s2]."""
     accel_w: float = 2.5
-    """[rad/s2]"""
+    """Maximum angular acceleration [rad/s2]."""
     decel_factor: float = 1.0
-    """By this factor it brakes harder than it accelerates."""
+    """Ratio of maximum deceleration to acceleration."""
 
 
 def limited(velocity: Velocity, limits: Limits) -> Velocity:
-    """A velocity with each part cut to its limit."""
+    """Limit each part of a velocity."""
     v, w = velocity
     return (
         max(-limits.speed_v, min(limits.speed_v, v)),
@@ -67,9 +67,9 @@ def limited(velocity: Velocity, limits: Limits) -> Velocity:
 def towards(
     last: Velocity, target: Velocity, limits: Limits, dt: float, actual: Velocity | None = None
 ) -> Velocity:
-    """The velocity after `last` on the way to `target`, `dt` seconds later.
+    """Return the velocity `dt` seconds after `last` on the way to `target`.
 
-    With `actual`, the robot's own velocity by its odometry, a robot that still goes the other way is braked.
+    With `actual`, the robot's velocity by its odometry, a robot that still moves in the opposite direction is braked.
     """
     allowed = 1.0
     for now, wanted, accel, real in zip(
@@ -86,12 +86,12 @@ def towards(
 
 
 class VelocitySmoother:
-    """The smoother's memory. Times are seconds of whatever clock, the same for all calls.
+    """The state of the smoother. Times are seconds of any clock, the same one for all calls.
 
     Args:
-        limits: what the robot can follow.
-        period: from one output to the next [s].
-        feedback: where the velocities of `measured` are from, one of `FEEDBACK`.
+        limits: the robot's limits.
+        period: time between two outputs [s].
+        feedback: the source of the velocities in `measured`, one of `FEEDBACK`.
 
     """
 
@@ -107,16 +107,16 @@ class VelocitySmoother:
         self.feedback = feedback
         self.target: Velocity = (0.0, 0.0)
         self.output: Velocity = (0.0, 0.0)
-        """What was told last."""
+        """The last output."""
         self.measured: Velocity = (0.0, 0.0)
-        """How fast the robot goes, by the feedback."""
+        """The robot's velocity according to the feedback."""
         self.active = False
-        """Whether commands are coming in."""
+        """True while commands arrive."""
         self._heard = 0.0
         self._record: deque[float] = deque(maxlen=RECORD)
 
     def command(self, v: float, w: float, now: float) -> None:
-        """Take a command. Raises `RosminiError` for what is no finite number."""
+        """Set the target. Raises `RosminiError` for a number that is not finite."""
         if not (math.isfinite(v) and math.isfinite(w)):
             raise RosminiError(
                 f"a velocity of {v} m/s and {w} rad/s cannot be smoothed: both have to be finite"
@@ -128,13 +128,13 @@ class VelocitySmoother:
 
     @property
     def _typical(self) -> float:
-        """The time between two commands [s]; a tenth until it is known."""
+        """The typical time between two commands [s]; a tenth of a second until it is known."""
         return median(self._record) if len(self._record) > RECORD // 2 else 0.1
 
     def step(self, now: float) -> Velocity | None:
-        """What is to be told the robot now; None if nothing comes in and it stands as it should.
+        """Return the next command for the robot; None if there is no input and the output has reached its target.
 
-        To be called every `period`.
+        Call it every `period`.
         """
         silence, typical = now - self._heard, self._typical
         if self.active and typical > 0 and silence > min(PATIENCE * typical, LONGEST):

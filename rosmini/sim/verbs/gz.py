@@ -2,7 +2,7 @@
 
 `sdf` works on files. The others act on a running server through the ROS services of /gazebo: in a terminal that of the
 Master at ROS_MASTER_URI, in Python that of a graph. `topic`, and `world` with the options for which gazebo_ros has no
-service, act on the server itself, which has to run in the same process. In a terminal it is named after a `+`, as in
+service, act on the server itself, which must run in the same process. In a terminal it is named after a `+`, as in
 `rosmini gz topic -l + gazebo_ros/gzserver worlds/empty.world`. In Python:
 
     gz = Gz(graph)
@@ -74,7 +74,7 @@ def _master(call: Call) -> GazeboMaster:
 
 @dataclass(frozen=True)
 class _Services:
-    """The ROS services of a running server; ``name`` is that of its node."""
+    """The ROS services of a running server; ``name`` is the name of its node."""
 
     node: Node
     name: str
@@ -291,7 +291,7 @@ def world(given: Namespace, call: Call) -> Result:
     ]
     if not (services or steps or given.reset_time):
         raise _say_what(_WORLD)
-    master = _master(call) if steps or given.reset_time else None  # for these gazebo_ros has no service
+    master = _master(call) if steps or given.reset_time else None  # gazebo_ros has no service for these
     if services:
         with _services(call) as server:
             for name in services:
@@ -366,7 +366,7 @@ _SDF = _parser("sdf", "Check SDF and URDF files, and print them as SDF", _sdf_op
 
 @TOOL.verb("check SDF and URDF files, and print them as SDF", name="sdf", parser=_SDF, only_asks=True)
 def sdf_(given: Namespace, _call: Call) -> Lines:
-    """Check a file, or convert it to SDF. Raises what the readers of files raise."""
+    """Check a file, or convert it to SDF. Raises the errors of the file's reader."""
     name = given.check or given.print
     if not name:
         raise _say_what(_SDF)

@@ -1,4 +1,4 @@
-"""`rosmini logo`: programs in Logo, for turtles of turtlesim, for robots, and on paper. ROS has no such command."""
+"""`rosmini logo`: runs Logo programs for turtles of turtlesim, for robots, and on paper. ROS has no such command."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TOOL = Tool(
 )
 
 PROMPT, MORE = "? ", "> "
-"""What UCBLogo writes where a line is typed, and where it is to be continued."""
+"""UCBLogo's prompts for a new line and for a continued one."""
 
 
 def _parser() -> Parser:
@@ -44,7 +44,7 @@ def _parser() -> Parser:
 
 @TOOL.verb("run a program", parser=_parser, only_asks=lambda given: bool(given.paper))
 def run(given: Values, call: Call) -> Result:
-    """Run a program, or what is typed."""
+    """Run a program, or typed lines."""
     file, *names = given.words or [""]
     program = source(file) if file else None
     if given.paper:
@@ -67,7 +67,7 @@ def _draw(logo: Logo, program: str | None, given: Values, call: Call) -> Result:
 
 
 def _converse(logo: Logo, call: Call) -> None:
-    """Read lines and run them, until `bye` or the end of what is typed; an error, or Ctrl-C, ends a program only."""
+    """Read lines and run them, until `bye` or the end of input; an error or Ctrl-C ends only the program."""
     if call.read_line is None:
         raise RosminiError("nobody can type here: name a file, or use %%logo in a notebook")
     text = ""
@@ -89,12 +89,12 @@ def _converse(logo: Logo, call: Call) -> None:
 
 
 def programs() -> list[str]:
-    """The names of the programs that rosmini brings."""
+    """Return the names of the programs included in rosmini."""
     return sorted(path.stem for path in _folder().glob("*.logo"))
 
 
 def source(name: str) -> str:
-    """The text of a file, or of a program that rosmini brings. Raises ``RosminiError`` if there is neither."""
+    """Return the text of a file or of an included program. Raises ``RosminiError`` if there is neither."""
     path = Path(name)
     if not path.is_file() and name in programs():
         path = _folder() / f"{name}.logo"

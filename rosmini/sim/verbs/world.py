@@ -1,4 +1,4 @@
-"""`rosmini world`: list the worlds that rosmini brings, and check files of worlds, maps and robots."""
+"""`rosmini world`: list the worlds included in rosmini, and check files of worlds, maps and robots."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LONG = 1e6
 
 @dataclass(frozen=True, kw_only=True)
 class Worlds(Result):
-    """The worlds that rosmini brings: names and titles."""
+    """The names and titles of the worlds included in rosmini."""
 
     titles: dict[str, str]
 
@@ -45,7 +45,7 @@ def _list_parser() -> ArgumentParser:
 
 @TOOL.verb("list the worlds that rosmini brings", name="list", parser=_list_parser)
 def list_(_given: argparse.Namespace, _call: Call) -> Worlds:
-    """Return the worlds that rosmini brings."""
+    """Return the worlds included in rosmini."""
     from rosmini.sim.worlds import names, title
 
     return Worlds(titles={name: title(name) for name in names()})
@@ -53,13 +53,13 @@ def list_(_given: argparse.Namespace, _call: Call) -> Worlds:
 
 @dataclass(frozen=True)
 class FileCheck:
-    """What a file that can be read holds, what of it is left out, and what is doubtful in it."""
+    """The contents of a readable file, the omissions, and the notes about it."""
 
     file: str
     what: str
     notes: tuple[str, ...] = ()
     left_out: Mapping[str, int] = field(default_factory=dict)
-    """What rosmini leaves out, in a few words each, and how often."""
+    """Short descriptions of what rosmini leaves out, with their counts."""
 
     def __str__(self) -> str:
         missing = [each if count == 1 else f"{each} ({count} times)" for each, count in self.left_out.items()]
@@ -69,7 +69,7 @@ class FileCheck:
 
 @dataclass(frozen=True, kw_only=True)
 class Checked(Result):
-    """The files that can be read; what is wrong with the others are complaints."""
+    """The readable files; the errors of the others are complaints."""
 
     sound: tuple[FileCheck, ...]
 
@@ -111,7 +111,7 @@ def check(given: argparse.Namespace, _call: Call) -> Checked:
 
 
 def _checked(file: str, *, confined: bool) -> FileCheck:
-    """Check one file. Raises what its reader raises."""
+    """Check one file. Raises the errors of its reader."""
     from rosmini.sim.worlds import kind_of, names, source, world
 
     path: Path | None
@@ -136,7 +136,7 @@ def _resolved(file: str) -> Path:
 
 
 def _placed(file: str, message: str) -> str:
-    """A message with the file in front, unless it is there already."""
+    """Return a message that begins with the file, unless it contains the file already."""
     return f"error: {message}" if Path(file).name in message else f"error: {file}: {message}"
 
 
@@ -189,7 +189,7 @@ def _urdf(path: Path, *, confined: bool) -> FileCheck:
     from rosmini.sim.urdf import UrdfError, load
 
     written = parse_file(path, UrdfError)
-    if path.suffix == ".xacro" and not written.get("name"):  # no robot, but what others include
+    if path.suffix == ".xacro" and not written.get("name"):  # not a robot, but included by others
         from rosmini.sim.urdf.xacro import expand
 
         expand(path, {}, confined=confined)
@@ -223,7 +223,7 @@ def _metres(length: float) -> str:
 
 
 def _occupied(world: World, place: str) -> list[str]:
-    """Starts at which a small robot has no room."""
+    """Return notes about starts at which a small robot has no room."""
     found = []
     for i, start in enumerate(world.starts, 1):
         blocked = world.blocked(start, 0.1, height=0.2)

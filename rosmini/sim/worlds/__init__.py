@@ -1,4 +1,4 @@
-"""Worlds by name: those that rosmini brings, Gazebo's and Stage's world files, and ROS maps."""
+"""Worlds by name: rosmini's own, Gazebo's and Stage's world files, and ROS maps."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ _FILES: Mapping[str, tuple[str, str]] = MappingProxyType(
         "pillars": ("turtlebot3_gazebo/worlds/turtlebot3_world.world", "Nine pillars in a hexagonal fence"),
     }
 )
-"""Worlds in files, which `assets/generate` makes: the path below the packages that rosmini brings, and the title."""
+"""Worlds in files made by `assets/generate`: the path in rosmini's packages, and the title."""
 
 _FLOOR_STARTS: tuple[Pose, ...] = (
     (0.0, 0.0, 0.0),
@@ -60,30 +60,30 @@ _FLOOR_STARTS: tuple[Pose, ...] = (
     (1.4, -2.2, math.pi / 2),
     (6.0, -2.6, 0.0),
 )
-"""A map has no place for them, as an SDF file has."""
+"""Starts on the floor, because a map cannot contain them."""
 
 
 def names() -> list[str]:
-    """The names of the worlds that rosmini brings, sorted."""
+    """Return the names of rosmini's worlds, sorted."""
     return sorted((*_MAKERS, *_FILES))
 
 
 def source(name: str) -> Path | None:
-    """The file of a world that rosmini brings; None if it is made in Python."""
+    """Return the file of one of rosmini's worlds; None if it is made in Python."""
     return assets_dir() / "ros" / _FILES[name][0] if name in _FILES else None
 
 
 def title(name: str) -> str:
-    """What a world that rosmini brings is, in a few words."""
+    """Return a short description of one of rosmini's worlds."""
     return _FILES[name][1] if name in _FILES else _MAKERS[name]().title
 
 
 def world(name: str | os.PathLike[str]) -> World:
-    """The world of this name or file, which is given by its path or `package://` address.
+    """Return the world of this name or file, which is given by its path or `package://` address.
 
-    A file is a Gazebo world (SDF), a Stage world or a ROS map (YAML), as its content shows; a relative path starts
+    A file is a Gazebo world (SDF), a Stage world or a ROS map (YAML), depending on its content; a relative path starts
     at the working directory. Raises `WorldError` for an unknown name, with the nearest one; `SdfError`, `StageError` or
-    `MapError` for a broken file; `UnknownPackage` or `RosminiError` for an address that leads nowhere.
+    `MapError` for an invalid file; `UnknownPackage` or `RosminiError` for an address that does not exist.
     """
     if not isinstance(name, (str, os.PathLike)):
         raise WorldError(

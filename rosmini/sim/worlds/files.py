@@ -1,4 +1,4 @@
-"""Worlds in files, of whatever kind."""
+"""Worlds in files of all supported kinds."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ SCHEME = "package://"
 
 
 def kind_of(path: str | os.PathLike[str]) -> Kind:
-    """What a file is, by its content: XML by its first element, a map by its suffix or fields, else a Stage world.
+    """Return a file's kind by its content: XML by its first element, a map by its suffix or fields, else a Stage world.
 
-    Where the content says nothing, the suffix decides. The file is given by its path or `package://` address. Raises
-    `UnknownPackage` or `RosminiError` for an address that leads nowhere.
+    The suffix decides if the content is not conclusive. The file is given by its path or `package://` address. Raises
+    `UnknownPackage` or `RosminiError` for an address that does not exist.
     """
     text = os.fspath(path)
     path = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else Path(text)
@@ -55,7 +55,7 @@ def kind_of(path: str | os.PathLike[str]) -> Kind:
 
 
 def world_from_file(path: str | os.PathLike[str]) -> World:
-    """The world in a file. Raises what the reader of its kind raises, and `SdfError` for XML that is no SDF."""
+    """Return the world in a file. Raises the errors of its kind's reader, and `SdfError` for XML that is not SDF."""
     kind = kind_of(path)
     if kind == "stage":
         from rosmini.sim import stage
@@ -67,9 +67,9 @@ def world_from_file(path: str | os.PathLike[str]) -> World:
 
 
 def world_from_sdf(path: str | os.PathLike[str], *, name: str = "", title: str = "") -> World:
-    """The first world in an SDF file; see `sdf_world` for what was left out.
+    """Return the first world in an SDF file; see `sdf_world` for what was left out.
 
-    One warning lists missing models and meshes, and whatever else in the file was wrong and was replaced. Raises
+    One warning lists missing models and meshes, and other faults of the file that were corrected. Raises
     `SdfError`.
     """
     made, notes = sdf_world(path, name=name, title=title)
@@ -82,9 +82,9 @@ def world_from_sdf(path: str | os.PathLike[str], *, name: str = "", title: str =
 def sdf_world(
     path: str | os.PathLike[str], *, name: str = "", title: str = ""
 ) -> tuple[World, tuple[Note, ...]]:
-    """The first world in an SDF file, and notes about what of the file is not in it. Raises `SdfError`.
+    """Return the first world in an SDF file, and notes about what was left out. Raises `SdfError`.
 
-    A world that is called `default`, as most are, gets the name of its file.
+    A world with the common name `default` gets the name of its file.
     """
     document = load(path)
     if not document.worlds:

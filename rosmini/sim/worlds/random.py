@@ -1,7 +1,7 @@
-"""Random worlds: rooms with doors and things in them, always connected, the same for the same seed.
+"""Random worlds: rooms with doors and obstacles, always connected, the same for the same seed.
 
-A rectangle is split again and again by a wall with a door in it, so every room can be reached. Things are placed so far
-from the walls and from one another that a robot gets around each: they take patches that do not touch from the floor.
+A rectangle is split repeatedly by a wall with a door in it, so every room can be reached. Obstacles are placed far
+enough from the walls and each other for a robot to pass around each of them.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from rosmini.sim.world import Obstacle, Pose, World, WorldError
 from .walls import wall
 
 PASSAGE = 0.7
-"""A robot of this diameter gets everywhere [m]."""
+"""Maximum diameter of a robot that can reach every place [m]."""
 DOOR = 1.0
 THICKNESS = 0.12
 NARROWEST = 2.0
-"""What a room measures at least, either way [m]."""
+"""Minimum length and width of a room [m]."""
 HEIGHT = 0.6
 COLOURS = ("blue", "orange", "green", "vermilion", "sky")
 TRIES = 400
 MOST = 10_000
-"""How many of a kind there may be, and how long the floor may be [m]."""
+"""Maximum number of objects of a kind, and maximum size of the floor [m]."""
 
 
 def random_world(
@@ -44,12 +44,12 @@ def random_world(
     walkers: int = 0,
     starts: int = 3,
 ) -> World:
-    """A walled floor of `size` [m] around the origin, split into furnished rooms; the same for the same arguments.
+    """Return a walled floor of `size` [m] around the origin, split into furnished rooms; equal for equal arguments.
 
-    A robot narrower than 0.7 m can go from every start to every room and around every thing. `movable` more things can
-    be pushed, and `walkers` people walk up and down. There are fewer rooms, things and walkers than asked for where
-    there is no space for more. Raises `WorldError` if there is no space for all `starts`, for a floor narrower than
-    2 m, and for impossible numbers.
+    A robot narrower than 0.7 m can go from every start to every room and around every obstacle. In addition, `movable`
+    obstacles can be pushed, and `walkers` people walk up and down. There are fewer rooms, obstacles and walkers than
+    requested if there is no space for more. Raises `WorldError` if there is no space for all `starts`, for a floor
+    narrower than 2 m, and for invalid numbers.
     """
     _check(size, seed=seed, rooms=rooms, obstacles=obstacles, movable=movable, walkers=walkers, starts=starts)
     plan = _Plan(np.random.default_rng(seed), (-size[0] / 2, -size[1] / 2, size[0] / 2, size[1] / 2))
@@ -93,18 +93,18 @@ Rectangle = tuple[float, float, float, float]
 
 @dataclass
 class _Plan:
-    """A floor that fills."""
+    """A floor to which walls and obstacles are added."""
 
     rng: np.random.Generator
     floor: Rectangle
     walls: list[Obstacle] = field(default_factory=list)
     things: list[Obstacle] = field(default_factory=list)
     discs: list[tuple[float, float, float]] = field(default_factory=list)
-    """Around the things: x, y, radius."""
+    """Circles around the obstacles: x, y, radius."""
     routes: list[tuple[float, float, float, float]] = field(default_factory=list)
-    """Of the walkers."""
+    """Paths of the walkers."""
     doors: list[tuple[bool, float, float, float]] = field(default_factory=list)
-    """In a wall along x or not, at which y or x, from where to where."""
+    """Doors: True in a wall along x; the wall's y or x; the ends of the door."""
 
     def __post_init__(self) -> None:
         x0, y0, x1, y1 = self.floor
@@ -133,7 +133,7 @@ class _Plan:
                 return
 
     def _parts(self, room: Rectangle) -> list[Rectangle]:
-        """Two rooms in the place of one, and a wall with a door between them; none if the room is too small."""
+        """Return two rooms that replace one, and add a wall with a door between them; none if the room is too small."""
         x0, y0, x1, y1 = room
         for upright in (x1 - x0 >= y1 - y0, x1 - x0 < y1 - y0):  # across the longer side first
             low, high = (x0, x1) if upright else (y0, y1)
@@ -152,7 +152,7 @@ class _Plan:
         return []
 
     def _meets_door(self, at: float, begin: float, end: float, *, upright: bool) -> bool:
-        """Return whether a wall at x (upright) or y would end in, or beside, a door."""
+        """Return True if a wall at x (upright) or y would end in, or beside, a door."""
         return any(
             along == upright and min(abs(where - begin), abs(where - end)) < 0.01 and a - 0.3 < at < b + 0.3
             for along, where, a, b in self.doors
@@ -168,11 +168,11 @@ class _Plan:
 
     @cached_property
     def sides(self) -> Floats:
-        """Of the walls (n, 4), once there are all."""
+        """Sides of all walls (n, 4); used after the walls are complete."""
         return np.vstack([polygons.sides_of(each.outline()) for each in self.walls])
 
     def place_thing(self, number: int, *, pushed: bool) -> None:
-        """Put a thing where it leaves a passage all around; nowhere if there is no such place."""
+        """Add an obstacle at a place with a passage all around; do nothing if there is no such place."""
         shape, reach = self._shape(pushed=pushed)
         place = self._place(reach + PASSAGE, reach)
         if place is None:
@@ -202,7 +202,7 @@ class _Plan:
         return Box(length, width), math.hypot(length, width) / 2
 
     def _place(self, from_walls: float, reach: float) -> tuple[float, float] | None:
-        """A place so far from walls, and a passage from things and the ways of walkers."""
+        """Return a position at this distance from walls, and a passage from obstacles and the paths of walkers."""
         x0, y0, x1, y1 = self.floor
         for _ in range(TRIES):
             x, y = (round(float(v), 3) for v in self.rng.uniform((x0, y0), (x1, y1)))
@@ -211,7 +211,7 @@ class _Plan:
         return None
 
     def _clear(self, way: tuple[float, float, float, float], from_walls: float, from_things: float) -> bool:
-        """Return whether a straight path, or a position, keeps away from walls, things and the paths of walkers."""
+        """Return True if a straight path, or a position, keeps away from walls, obstacles and the paths of walkers."""
         begin_end = np.array(way).reshape(2, 2)
         if _apart(np.array(way), self.sides) < from_walls:
             return False
@@ -225,7 +225,7 @@ class _Plan:
         )
 
     def place_walker(self, number: int) -> None:
-        """Let somebody walk up and down where nothing is in the way; nobody if there is no such way."""
+        """Add a walker on a free path; do nothing if there is no such path."""
         for _ in range(TRIES):
             begin = self._place(0.5, 0.0)
             if begin is None:
@@ -243,7 +243,7 @@ class _Plan:
                 return
 
     def free_places(self, count: int) -> list[Pose]:
-        """Places where a robot can start, a passage from one another."""
+        """Return free starts for robots, with a passage between them."""
         found: list[Pose] = []
         x0, y0, x1, y1 = self.floor
         for _ in range(count * TRIES):
@@ -257,7 +257,7 @@ class _Plan:
 
 
 def _apart(way: Floats, sides: Floats) -> float:
-    """How far a straight way (4,) is from the nearest of `sides` (n, 4); 0 if it crosses one."""
+    """Return the distance of a straight path (4,) from the nearest of `sides` (n, 4); 0 if it crosses one."""
     ends = sides.reshape(-1, 2)
     gap = min(polygons.distances(ends, way[None]).min(), polygons.distances(way.reshape(2, 2), sides).min())
     a, b, c, d = way[:2], way[2:], sides[:, :2], sides[:, 2:]
@@ -266,7 +266,7 @@ def _apart(way: Floats, sides: Floats) -> float:
 
 
 def _side(a: Floats, b: Floats, c: Floats) -> Floats:
-    """On which side of the line from a to b c is, by the sign."""
+    """Return the side of the line from a to b on which c is, as a sign."""
     area: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (
         c[..., 0] - a[..., 0]
     )

@@ -1,4 +1,4 @@
-"""The worlds that are made in Python: a furnished room, a bare arena, and nothing at all."""
+"""The worlds made in Python: a furnished room, an empty arena, and an empty world."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import math
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
 
 WALL_THICKNESS = 0.08
-"""[m]"""
+"""Thickness of walls [m]."""
 WALL_HEIGHT = 0.3
-"""Above the laser of every TurtleBot3, and low enough to look over [m]."""
+"""Height of walls [m]: above the laser of every TurtleBot3, and low enough to look over."""
 
 
 def walled(left: float, bottom: float, right: float, top: float) -> tuple[Obstacle, ...]:
-    """Four walls around a rectangle, which is what stays free between them [m]."""
+    """Return four walls around a rectangle, whose inside stays free [m]."""
     t = WALL_THICKNESS
     middle_x, middle_y = (left + right) / 2, (bottom + top) / 2
     lying = Box(right - left + 2 * t, t)
@@ -31,12 +31,12 @@ def walled(left: float, bottom: float, right: float, top: float) -> tuple[Obstac
 
 
 def empty() -> World:
-    """Nothing, in every direction."""
+    """Return an empty, unbounded world."""
     return World("empty", title="Nothing but the ground")
 
 
 def arena() -> World:
-    """Four walls around a square of 4 m by 4 m, with its centre in the origin and nothing in it."""
+    """Return four walls around an empty square of 4 m by 4 m, with its centre at the origin."""
     return World(
         "arena",
         walled(-2.0, -2.0, 2.0, 2.0),
@@ -47,10 +47,10 @@ def arena() -> World:
 
 
 def room() -> World:
-    """A furnished room of 4.0 m by 3.5 m with a corridor along its east side.
+    """Return a furnished room of 4.0 m by 3.5 m with a corridor along its east side.
 
-    A robot starts in the origin, looking along x. The straight line to the east wall is free for 3 m, and so is the
-    square with a corner in the origin and 1 m to a side. The way through the corridor and back is a loop.
+    A robot starts at the origin, facing along x. The straight line to the east wall is free for 3 m, and so is the
+    square with a corner at the origin and a side of 1 m. The corridor and back is a loop.
     """
     legs = [(0.24, 1.80), (0.74, 1.80), (0.74, 2.16), (0.24, 2.16)]
     hexagon = tuple((0.15 * math.cos(i * math.pi / 3), 0.15 * math.sin(i * math.pi / 3)) for i in range(6))

@@ -1,4 +1,4 @@
-"""Worlds whose walls are traced from a ROS map, as Stage makes its floor plans from an image."""
+"""Worlds with walls traced from a ROS map, as in Stage's floor plans from an image."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 ROOM = 0.25
-"""What has to be free around a start, to each side [m]."""
+"""Required free space around a start, to each side [m]."""
 ENOUGH = 1.0
-"""A place with more room around it is no better [m]."""
+"""Free space beyond which a place is not considered better [m]."""
 
 
 def world_from_map(
     yaml_path: str | os.PathLike[str], *, title: str = "", starts: tuple[Pose, ...] | None = None
 ) -> World:
-    """The world that a map shows: its walls are the outlines of the occupied cells, in the frame of the map.
+    """Return the world of a map: its walls are the outlines of the occupied cells, in the frame of the map.
 
-    Unknown cells count as free. Without `starts` a robot starts at the origin of the map's frame, where the robot that
-    made the map usually began, or where there is most space if the origin is not free. Raises `MapError` as `load_map`.
+    Unknown cells count as free. Without `starts` a robot starts at the origin of the map's frame, usually the start of
+    the robot that made the map, or in the largest free space if the origin is not free. Raises `load_map`'s errors.
     """
     grid = load_map(yaml_path)
     return World(
@@ -60,7 +60,7 @@ def _start(grid: GridMap) -> Pose:
 
 
 def _roomiest(free: NDArray[np.bool_], most: int) -> NDArray[np.bool_]:
-    """The free cells that are furthest from all others, in steps to the sides; from `most` steps on all are alike."""
+    """Return the free cells farthest from all others, in steps to the sides; at most `most` steps are considered."""
     left = free
     for _ in range(most):
         padded = np.pad(left, 1)

@@ -1,4 +1,4 @@
-"""Straight walls with gaps for doors, which our own worlds and the random ones are built of. Lengths in metres."""
+"""Straight walls with gaps for doors, used by rosmini's worlds and the random ones. Lengths in metres."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from rosmini.sim.shapes import Box
 from rosmini.sim.world import Obstacle
 
 WALL_HEIGHT = 1.2
-"""High enough that no sensor of a TurtleBot3 sees over it, low enough to look into the rooms from above [m]."""
+"""High enough to block the view of a TurtleBot3's sensors, low enough to look into the rooms from above [m]."""
 
 
 def wall(
@@ -19,7 +19,7 @@ def wall(
     doors: Sequence[tuple[float, float]] = (),
     height: float = WALL_HEIGHT,
 ) -> list[Obstacle]:
-    """A wall along x or y between two points on its centre line; each door is a gap (from, to) along that axis."""
+    """Return a wall along x or y between two points on its centre line; each door is a gap (from, to) on that axis."""
     along_x = begin[1] == end[1]
     at = begin[1] if along_x else begin[0]
     low, high = sorted((begin[0], end[0]) if along_x else (begin[1], end[1]))

@@ -1,4 +1,4 @@
-"""The map of a world: the cells of a grid in which a laser would see something."""
+"""The map of a world: the grid cells in which a laser would see something."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from rosmini.sim.shapes import ROUND, Simple, outline_at
 from rosmini.sim.world import Pose, World, WorldError
 
 MARGIN = 5
-"""How many cells a map shows beyond the bounds of its world."""
+"""Number of cells that a map extends beyond the bounds of its world."""
 MOST = 100_000_000
-"""The largest number of cells."""
+"""Maximum number of cells."""
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 
 def to_map(world: World, resolution: float = 0.05, *, height: float = 0.15) -> GridMap:
-    """The map of a world that a perfect mapper with a laser at a height [m] would make, with cells of `resolution` [m].
+    """Return the map that a perfect mapper with a laser at `height` [m] would make, with cells of `resolution` [m].
 
-    A cell is occupied if it overlaps with something fixed at that height, exactly where `World.blocked` says so of a
-    square of its size; free if free neighbours lead there from a start; else unknown. Thin walls also occupy the cells
-    they touch, so that none leaks; the insides of solid ones are occupied. Raises `WorldError` for a resolution that is
-    not positive, or so fine that there would be more than 100 million cells.
+    A cell is occupied if it overlaps a fixed object at that height, exactly where `World.blocked` reports one for a
+    square of its size; free if it is connected to a start through free neighbours; otherwise unknown. Thin walls also
+    occupy the cells they touch, so that none leaks; the insides of solid ones are occupied. Raises `WorldError` for a
+    resolution that is not positive, or so fine that there would be more than 100 million cells.
     """
     if not (np.isfinite(resolution) and resolution > 0):
         raise WorldError(f"the resolution of a map is {resolution!r}; it has to be a finite number above 0")
@@ -56,7 +56,7 @@ def to_map(world: World, resolution: float = 0.05, *, height: float = 0.15) -> G
 
 
 class _Grid:
-    """Cells, and which of them are taken."""
+    """Cells of a grid, and which of them are occupied."""
 
     def __init__(self, taken: Bools, resolution: float, corner: tuple[float, float]) -> None:
         self.taken = taken
@@ -64,7 +64,7 @@ class _Grid:
         self.corner = corner
 
     def _window(self, low: Floats, high: Floats) -> tuple[slice, slice, Floats]:
-        """The cells that a rectangle may touch, and their centres (n, 2)."""
+        """Return the cells that a rectangle may touch, and their centres (n, 2)."""
         first = np.maximum(np.floor((low - self.corner) / self.resolution).astype(int) - 1, 0)
         last = np.minimum(
             np.ceil((high - self.corner) / self.resolution).astype(int) + 1, self.taken.shape[::-1]
@@ -80,11 +80,11 @@ class _Grid:
 
     @property
     def _half(self) -> float:
-        """Half the side of a cell, less what counts as touching."""
+        """Half the side of a cell, minus the tolerance for touching."""
         return self.resolution / 2 - polygons.TOUCH
 
     def fill(self, shape: Simple, pose: Pose) -> None:
-        """Take the cells that a shape overlaps with."""
+        """Mark the cells that a shape overlaps as occupied."""
         if isinstance(shape, ROUND):
             centre, r = np.array(pose[:2]), shape.radius
             rows, columns, cells = self._window(centre - r, centre + r)
@@ -97,7 +97,7 @@ class _Grid:
         self._take(rows, columns, polygons.inside(cells, sides) | within(cells, self._half, sides))
 
     def walls(self, walls: Floats, *, solid: bool) -> None:
-        """Take the cells that walls pass through, and those inside of solid ones."""
+        """Mark the cells that walls pass through, and those inside solid ones, as occupied."""
         half = self.resolution / 2 + (-polygons.TOUCH if solid else polygons.TOUCH)
         for wall in walls:
             ends = wall.reshape(2, 2)
@@ -113,7 +113,7 @@ class _Grid:
             self._take(rows, columns, hit)
 
     def reached(self, starts: tuple[Pose, ...]) -> Bools:
-        """The cells to which a way leads from a start."""
+        """Return the cells that are connected to a start."""
         rows, columns = self.taken.shape
         open_ = np.pad(~self.taken, 1)
         width = columns + 2

@@ -1,4 +1,4 @@
-"""Meshes of robots: surfaces, and the files they are read from."""
+"""Meshes of robots: surfaces, and readers of mesh files."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""Reads COLLADA 1.4.1 (https://www.khronos.org/files/collada_spec_1_4.pdf) as far as meshes with plain colours need it.
+"""Reads COLLADA 1.4.1 (https://www.khronos.org/files/collada_spec_1_4.pdf) as needed for meshes in plain colours.
 
 That is triangles, polylists and polygons below the nodes of the scene, with their transforms, the unit, and the diffuse
 colours of their materials. Textures are ignored, and so is `up_axis`, as in Gazebo
 (https://github.com/gazebosim/gazebo-classic/issues/1305) and RViz (which drops the rotation that assimp puts on the
-root of the scene): robots and worlds made for these stand as the numbers in their files say.
+root of the scene): so robots and worlds made for these have the orientation of the numbers in their files.
 """
 
 from __future__ import annotations
@@ -25,27 +25,27 @@ Floats = NDArray[np.float64]
 Colour = tuple[float, float, float, float]
 
 DEEPEST = 50
-"""How deep nodes may hold one another."""
+"""Maximum nesting of nodes."""
 
 MOST_NODES = 10_000
-"""How many nodes a scene may have, each counted as often as it is shown."""
+"""Maximum number of nodes of a scene, counting each at every use."""
 
 MOST_CORNERS = 6_000_000
-"""How many corners all triangles may have together."""
+"""Maximum number of corners of all triangles together."""
 
 MOST_OFFSETS = 100
-"""How many numbers may belong to one corner."""
+"""Maximum number of indices per corner."""
 
 
 def read(root: Element, part: str = "") -> Iterator[Surface]:
-    """The surfaces of a file, or of its nodes called `part`, in metres. Raises the file's kind of `MarkupError`."""
+    """Yield surfaces of a file, or of its nodes called `part`, in metres. Raises the file's kind of `MarkupError`."""
     if root.tag != "COLLADA":
         raise root.error(f"a COLLADA file begins with <COLLADA>, this one with <{root.tag}>")
     yield from _Reader(root).surfaces(part)
 
 
 class _Reader:
-    """Reads one file. What several elements refer to is worked out once."""
+    """Reads one file; shared elements are evaluated once."""
 
     def __init__(self, root: Element) -> None:
         self.root = root
@@ -63,7 +63,7 @@ class _Reader:
         self.points: dict[Element, Floats] = {}
 
     def target(self, element: Element, attribute: str) -> Element:
-        """What a reference `#id` is to."""
+        """Return the target of a reference `#id`."""
         name = element.attribute(attribute).removeprefix("#")
         if name not in self.by_id:
             raise element.error(f"there is nothing with the id {name!r} in this file")
@@ -144,7 +144,7 @@ class _Reader:
                 yield replace(found.moved(place), colour=bound.get(piece.get("material")))
 
     def piece(self, piece: Element) -> tuple[Surface | None, int]:
-        """The surface of a piece, and how many vertices its polygons have."""
+        """Return the surface of a piece, and the number of vertices of its polygons."""
         inputs = piece.all("input")
         stride = 1 + max((_offset(each) for each in inputs), default=0)
         streams = {each.get("semantic"): each for each in inputs}
@@ -200,7 +200,7 @@ def _offset(stream: Element) -> int:
 
 
 def _indices(piece: Element, stride: int) -> tuple[NDArray[np.int64], list[int]]:
-    """The indices (corners, stride), and how many corners each polygon has."""
+    """Return the indices (corners, stride), and the number of corners of each polygon."""
     lists = []
     for each in piece.all("p"):
         try:
@@ -225,7 +225,7 @@ def _indices(piece: Element, stride: int) -> tuple[NDArray[np.int64], list[int]]
 
 
 def _fans(sizes: list[int]) -> NDArray[np.int64]:
-    """Triangles of polygons with these numbers of corners, which follow one another."""
+    """Return the triangles of consecutive polygons with these numbers of corners."""
     faces = []
     first = 0
     for size in sizes:
@@ -235,7 +235,7 @@ def _fans(sizes: list[int]) -> NDArray[np.int64]:
 
 
 def _welded(points: Floats, normals: Floats | None, faces: NDArray[np.int64]) -> Surface:
-    """Corners that are alike in position and normal become one vertex: between flat faces, edges stay sharp."""
+    """Merge corners with equal position and normal into one vertex: edges between flat faces stay sharp."""
     rows = points if normals is None else np.hstack([points, normals])
     places: dict[bytes, int] = {}
     firsts: list[int] = []
@@ -250,7 +250,7 @@ def _welded(points: Floats, normals: Floats | None, faces: NDArray[np.int64]) ->
 
 
 def _transform(node: Element) -> Floats:
-    """Where a node stands in the one above it: its transforms in the order in which they are written."""
+    """Return the pose of a node in its parent: its transforms in the order of the file."""
     result = np.eye(4)
     for child in node:
         own = np.eye(4)

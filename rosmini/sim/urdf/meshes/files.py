@@ -1,4 +1,4 @@
-"""Read meshes: STL (text and binary), COLLADA and Wavefront OBJ, as surfaces in the file's own coordinates."""
+"""Reads meshes: STL (text and binary), COLLADA and Wavefront OBJ, as surfaces in the file's own coordinates."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ from .surface import Surface
 Floats = NDArray[np.float64]
 
 LONGEST_INDEX = 9
-"""How many digits the number of a corner may have."""
+"""Maximum number of digits of a vertex index."""
 
 
 class MeshError(MarkupError):
-    """A mesh file is broken, or of a kind that is not read."""
+    """A mesh file is invalid, or of an unsupported kind."""
 
 
 def read(path: str | PathLike[str], part: str = "") -> tuple[Surface, ...]:
-    """The surfaces of a ``.stl``, ``.dae`` or ``.obj`` file. STL and OBJ have no colours here.
+    """Return the surfaces of a ``.stl``, ``.dae`` or ``.obj`` file. STL and OBJ have no colours here.
 
-    With `part`, only those of the COLLADA nodes, or of the OBJ objects and groups, that have this name.
+    With `part`, return only those of the COLLADA nodes, or of the OBJ objects and groups, of this name.
 
-    Raises `MeshError`, with the line where there are lines, also for a file without triangles.
+    Raises `MeshError`, with the line in a text file, also for a file without triangles.
     """
     file = Path(path)
     try:
@@ -66,7 +66,7 @@ def _bytes(file: Path) -> bytes:
 
 
 def _flat(triangles: Floats) -> Surface:
-    """Triangles (m, 3, 3) that share no corners."""
+    """Return a surface of triangles (m, 3, 3) that share no corners."""
     return Surface(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
 
 

@@ -1,4 +1,4 @@
-"""What a mesh consists of: triangles of one colour, in metres."""
+"""The parts of a mesh: triangles of one colour, in metres."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class Surface:
     """Triangles of one colour."""
 
     vertices: Floats
-    """(n, 3) [m]"""
+    """Vertices (n, 3) [m]."""
     faces: Ints
     """(m, 3): indices of vertices, counter-clockwise seen from outside."""
     colour: tuple[float, float, float, float] | None = None
-    """Red, green, blue, opacity from 0 to 1; None where the file has none."""
+    """Red, green, blue, opacity from 0 to 1; None if the file has none."""
     name: str = ""
 
     @property
@@ -33,12 +33,12 @@ class Surface:
 
     @property
     def bounds(self) -> tuple[Floats, Floats]:
-        """The least and the greatest coordinates (3,) of its vertices."""
+        """The minimum and maximum coordinates (3,) of its vertices."""
         corners = self.vertices[self.faces.ravel()]
         return corners.min(axis=0), corners.max(axis=0)
 
     def moved(self, transform: Floats) -> Self:
-        """The surface after a transform (4, 4), which may also stretch and mirror."""
+        """Return the surface after a transform (4, 4), which may also scale and mirror."""
         linear = transform[:3, :3]
         faces = self.faces if determinant(linear) > 0 else self.faces[:, ::-1]
         return replace(self, vertices=matrix_product(self.vertices, linear.T) + transform[:3, 3], faces=faces)

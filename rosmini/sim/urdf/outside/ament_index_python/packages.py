@@ -1,4 +1,4 @@
-"""Packages by their names."""
+"""Look-up of packages by name."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ __all__ = ["PackageNotFoundError", "get_package_share_directory"]
 
 
 class PackageNotFoundError(KeyError):
-    """There is no package of this name."""
+    """No package has this name."""
 
     # KeyError shows the repr of its argument, which would put quotes and "\n" into our sentences.
     __str__ = Exception.__str__
 
 
 def get_package_share_directory(package_name: str) -> str:
-    """The folder of a package. Raises `PackageNotFoundError`, which tells where was searched."""
+    """Return the folder of a package. Raises `PackageNotFoundError`, with the searched folders."""
     from rosmini.core.errors import UnknownPackage
     from rosmini.core.packages import PackageIndex
 
