@@ -1,7 +1,7 @@
-"""The loops of navigation that are machine code: compiled on first use, and all at once before tests run in parallel.
+"""The compiled loops of navigation: each is compiled on first use, or all at once before tests run in parallel.
 
-Each is plain Python in its own module, which is what runs without numba. There are few, since each first user pays for
-compiling them; numba's cache keeps them afterwards.
+Each is plain Python in its module, and runs uncompiled without numba. There are few, because every new user pays for
+compiling them once; afterwards numba caches them.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ KERNELS: tuple[str, ...] = (
     "rosmini.navigation.gmapping.matching:compiled_match",
     "rosmini.navigation.hector_mapping.matching:compiled_climb",
 )
-"""`module:function` of the functions that return a kernel: compiled, or without numba as it is."""
+"""`module:function` of each function that returns a kernel: compiled, or the plain function without numba."""
 
 
 @cache
 def kernel(name: str) -> Callable[..., Any]:
-    """A kernel of `KERNELS`, by its name."""
+    """Return the kernel with this entry of `KERNELS`."""
     module, _, function = name.partition(":")
     made: Callable[..., Any] = getattr(import_module(module), function)()
     return made
 
 
 def compile_all() -> list[str]:
-    """Compile every kernel, or take it from numba's cache; returns their names."""
+    """Compile every kernel, or load it from numba's cache; return the names."""
     for name in KERNELS:
         kernel(name)
     return list(KERNELS)

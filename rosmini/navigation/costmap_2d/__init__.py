@@ -1,4 +1,4 @@
-"""Costs of where a robot's centre may be (http://wiki.ros.org/costmap_2d)."""
+"""Costmaps: the cost of each position of the robot's centre (http://wiki.ros.org/costmap_2d)."""
 
 from __future__ import annotations
 

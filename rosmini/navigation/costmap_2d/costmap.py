@@ -1,11 +1,11 @@
-"""A grid of costs: arrays, and where they lie in the world.
+"""A grid of costs and its position in the world.
 
-| cost | name | what it means for the robot's centre |
+| cost | name | meaning for the robot's centre |
 |---|---|---|
-| 0 | `FREE_SPACE` | as good as can be |
-| 1 to 252 | | nearer to something, and for some headings in collision, if the footprint is not round |
-| 253 | `INSCRIBED_INFLATED_OBSTACLE` | in collision whatever the heading |
-| 254 | `LETHAL_OBSTACLE` | in an obstacle |
+| 0 | `FREE_SPACE` | free |
+| 1 to 252 | | near an obstacle; in collision at some headings if the footprint is not round |
+| 253 | `INSCRIBED_INFLATED_OBSTACLE` | in collision at any heading |
+| 254 | `LETHAL_OBSTACLE` | inside an obstacle |
 | 255 | `NO_INFORMATION` | unknown |
 
 The values are those of http://wiki.ros.org/costmap_2d#Inflation.
@@ -30,15 +30,15 @@ Costs = NDArray[np.uint8]
 Ints = NDArray[np.int64]
 
 LARGEST = 100_000_000
-"""Cells of a costmap: a map of 10,000 x 10,000."""
+"""Maximum number of cells in a costmap, such as a map of 10,000 x 10,000."""
 
 
 class CostmapError(RosminiError, ValueError):
-    """A costmap cannot be made as asked for; the message names the number or the parameter at fault."""
+    """Raised for invalid costmap dimensions or parameters; the message names the invalid value."""
 
 
 def shifted(cells: NDArray[Any], dx: int, dy: int, default: int) -> NDArray[Any]:
-    """Cells (h, w) seen through a window that has moved by whole cells; what comes into it is `default`."""
+    """Return the cells (h, w) of a window moved by (dx, dy) whole cells; cells that enter it are `default`."""
     moved = np.full_like(cells, default)
     height, width = cells.shape
     if abs(dx) < width and abs(dy) < height:
@@ -49,7 +49,7 @@ def shifted(cells: NDArray[Any], dx: int, dy: int, default: int) -> NDArray[Any]
 
 
 class Costmap2D:
-    """Costs (h, w) of square cells; row 0 is at the bottom, column 0 at the left.
+    """A grid (h, w) of costs in square cells; row 0 is at the bottom, column 0 on the left.
 
     `origin` (x, y) [m] is the lower left corner of cell (0, 0) in the costmap's frame. Cells are named (mx, my), column
     first, as in ROS; arrays are indexed [my, mx].
@@ -63,7 +63,7 @@ class Costmap2D:
         origin: tuple[float, float] = (0.0, 0.0),
         default: int = FREE_SPACE,
     ) -> None:
-        """Make one with all cells at cost `default`. Raises `CostmapError` for numbers that make no grid."""
+        """Create a grid with all cells at cost `default`. Raises `CostmapError` for invalid dimensions."""
         if not (math.isfinite(resolution) and resolution > 0):
             raise CostmapError(
                 f"the resolution is {resolution}: it has to be the side of a cell in metres, above 0"
@@ -86,7 +86,7 @@ class Costmap2D:
     def of(
         cls, costs: ArrayLike, resolution: float = 1.0, origin: tuple[float, float] = (0.0, 0.0)
     ) -> Costmap2D:
-        """One with these costs (h, w), which are copied."""
+        """Create a costmap from a copy of these costs (h, w)."""
         array = np.array(costs, dtype=np.uint8, order="C")
         if array.ndim != 2:
             raise CostmapError(f"costs have the shape {array.shape}: they have to be a table (rows, columns)")
@@ -95,9 +95,9 @@ class Costmap2D:
         return made
 
     def resize(self, width: int, height: int, resolution: float, origin: tuple[float, float]) -> None:
-        """Give it another size [cells], resolution and origin [m], with all costs at the default.
+        """Change the size [cells], resolution and origin [m], and set all costs to the default.
 
-        Raises as the constructor.
+        Raises `CostmapError` like the constructor.
         """
         made = Costmap2D(width, height, resolution, origin, self.default)
         self.costs, self.resolution, self.origin = made.costs, made.resolution, made.origin
@@ -107,12 +107,12 @@ class Costmap2D:
 
     @property
     def width(self) -> int:
-        """Columns."""
+        """Number of columns."""
         return int(self.costs.shape[1])
 
     @property
     def height(self) -> int:
-        """Rows."""
+        """Number of rows."""
         return int(self.costs.shape[0])
 
     @property
@@ -121,31 +121,31 @@ class Costmap2D:
         return self.width * self.resolution, self.height * self.resolution
 
     def world_to_map(self, x: float, y: float) -> tuple[int, int] | None:
-        """The cell (mx, my) of a point [m], or None if it is outside."""
+        """Return the cell (mx, my) that contains a point [m], or None if the point is outside the grid."""
         mx, my = self.world_to_map_no_bounds(x, y)
         return (mx, my) if 0 <= mx < self.width and 0 <= my < self.height else None
 
     def world_to_map_no_bounds(self, x: float, y: float) -> tuple[int, int]:
-        """The cell (mx, my) of a point [m], in the lattice that goes on beyond the grid."""
+        """Return the cell (mx, my) that contains a point [m], as if the grid continued in all directions."""
         return (
             math.floor((x - self.origin[0]) / self.resolution),
             math.floor((y - self.origin[1]) / self.resolution),
         )
 
     def world_to_map_clamped(self, x: float, y: float) -> tuple[int, int]:
-        """The cell (mx, my) of a point [m], or the nearest cell of the grid."""
+        """Return the cell (mx, my) that contains a point [m], or the nearest cell of the grid."""
         mx, my = self.world_to_map_no_bounds(x, y)
         return min(max(mx, 0), self.width - 1), min(max(my, 0), self.height - 1)
 
     def map_to_world(self, mx: float, my: float) -> tuple[float, float]:
-        """The middle of a cell [m]."""
+        """Return the centre of a cell [m]."""
         return (
             self.origin[0] + (mx + 0.5) * self.resolution,
             self.origin[1] + (my + 0.5) * self.resolution,
         )
 
     def cost(self, mx: int, my: int) -> int:
-        """The cost of a cell. Raises `IndexError` outside."""
+        """Return the cost of a cell. Raises `IndexError` if it is outside the grid."""
         if not (0 <= mx < self.width and 0 <= my < self.height):
             raise IndexError(
                 f"the cell ({mx}, {my}) is outside a costmap of {self.width} x {self.height} cells"
@@ -153,9 +153,9 @@ class Costmap2D:
         return int(self.costs[my, mx])
 
     def move_origin(self, x: float, y: float) -> tuple[int, int]:
-        """Move the grid over its lattice so that its corner is as near (x, y) as whole cells allow; costs stay put.
+        """Move the grid by whole cells so that its origin is near (x, y); costs keep their position in the world.
 
-        What comes into the grid has the default cost. Returns by how many cells it moved, (columns, rows).
+        Cells that enter the grid get the default cost. Returns the number of cells moved, (columns, rows).
         """
         dx = math.floor((x - self.origin[0]) / self.resolution)
         dy = math.floor((y - self.origin[1]) / self.resolution)
@@ -166,31 +166,31 @@ class Costmap2D:
         return dx, dy
 
     def show(self, **options: Any) -> Any:
-        """A picture of the costs from above.
+        """Draw the costs as seen from above.
 
-        Options, with what they are unless given:
-            robot=None: its pose x [m], y [m], heading [rad]
-            footprint=None: the robot's outline (n, 2) [m] in its base frame
+        Options and their defaults:
+            robot=None: the robot's pose: x [m], y [m], heading [rad]
+            footprint=None: the robot's footprint (n, 2) [m] in its base frame
             plan=None: a path (n, 2) [m]
-            goal=None: a point or pose [m]
-            window=None: only these cells are shown: first column, first row, and those behind the last
-            scheme="costmap": or "safe", in colours that the colour-blind can tell
-            name="costmap": of what it is, for the text form
-            title=None: a caption under the picture, and the first words of its text form
+            goal=None: a point or a pose [m]
+            window=None: show only these cells: first column, first row, and the column and row after the last
+            scheme="costmap": or "safe", whose colours colour-blind readers can distinguish
+            name="costmap": the name of the costmap in the text form
+            title=None: a caption below the picture and at the start of the text form
         """
         from rosmini.core.graph.show import show
 
         return show("costmap", self, **options)
 
     def show_inflation(self, **options: Any) -> Any:
-        """Show the obstacles and inflation around them, with sliders for its three numbers in the page.
+        """Draw the obstacles and their inflation, with sliders for its three parameters.
 
-        Options, with what they are unless given:
-            inscribed_radius=0.105: of the robot [m]
-            inflation_radius=0.55: up to which distance there are costs [m]
-            cost_scaling_factor=10.0: how steeply they fall [1/m]
-            window=None: only these cells are shown: first column, first row, and those behind the last
-            title=None: a caption, and the first words of its text form
+        Options and their defaults:
+            inscribed_radius=0.105: the robot's inscribed radius [m]
+            inflation_radius=0.55: distance up to which obstacles add costs [m]
+            cost_scaling_factor=10.0: how fast the costs fall with distance [1/m]
+            window=None: show only these cells: first column, first row, and the column and row after the last
+            title=None: a caption, also shown at the start of the text form
         """
         from rosmini.core.graph.show import show
 

@@ -1,6 +1,6 @@
-"""A costmap of a node: `Costmap2DROS`, as `move_base` has two of (http://wiki.ros.org/costmap_2d).
+"""`Costmap2DROS`: a costmap with parameters and topics; `move_base` has two (http://wiki.ros.org/costmap_2d).
 
-Its parameters are those of the node under its name, `~global_costmap/...`; its topics are there, too.
+Both its parameters and its topics are in the node's private namespace under the costmap's name, `~global_costmap/...`.
 """
 
 from __future__ import annotations
@@ -39,18 +39,18 @@ if TYPE_CHECKING:
     from rosmini.core.tf import Buffer
 
 PATIENCE = 5.0
-"""After so many seconds without the robot's transform it is said what is missing [s]."""
+"""Interval between warnings while the robot's transform is missing [s]."""
 NAMES = tuple(each.name for each in fields(CostmapConfig))
-"""Of what may change while it runs."""
+"""Names of the parameters that can change while the costmap runs."""
 BLOCKED = 0.01
-"""How often it is looked whether a first update has been made [s]."""
+"""Interval between checks for the first update [s]."""
 
 
 class Costmap2DROS:
-    """A costmap, kept up to date by what its layers hear.
+    """A costmap that its layers keep up to date.
 
-    Blocks until the robot's pose in the global frame is known, and, with a static layer, until there is a map. Raises
-    `ParameterError` for a wrong parameter and `PluginError` for a layer that is not there.
+    The constructor blocks until the robot's pose in the global frame is known and, with a static layer, until a map has
+    arrived. Raises `ParameterError` for an invalid parameter and `PluginError` for an unknown layer type.
     """
 
     def __init__(self, name: str, buffer: Buffer, node: Node) -> None:
@@ -94,7 +94,7 @@ class Costmap2DROS:
     # -- at the start --------------------------------------------------------------------------------------------
 
     def _read(self) -> None:
-        """Bring the parameters into their form of today, and read them."""
+        """Convert old parameter forms to the current one, and read the parameters."""
         node, namespace = self.node, self.namespace
         migrate_sizes(node, namespace)
         tracks_unknown = node.get_param(namespace + "track_unknown_space", False, expect=bool)
@@ -116,7 +116,7 @@ class Costmap2DROS:
         return frame.lstrip("/")
 
     def _wait_for_robot(self) -> None:
-        """Wait until the robot's pose is known."""
+        """Block until the robot's pose is known."""
         while not self.buffer.wait_for_transform(self.global_frame, self.base_frame, timeout=PATIENCE):
             why = self.buffer.tree.why_not(self.global_frame, self.base_frame)
             self.node.logwarn(
@@ -135,7 +135,7 @@ class Costmap2DROS:
             )
 
     def _publish_footprint(self) -> None:
-        """Subscribe to other footprints, publish where the robot's is, and take the one of the parameters."""
+        """Subscribe to footprints, advertise the placed footprint, and set the footprint given by parameters."""
         settings, node = self._settings, self.node
         node.subscriber(
             self._private(settings.footprint_topic),
@@ -156,11 +156,11 @@ class Costmap2DROS:
         return topic if topic.startswith(("/", "~")) else self.namespace + topic
 
     def _reconfigure(self, config: Any, _: int) -> Any:
-        """Take parameters that may change at any time."""
+        """Apply the parameters that can change at any time."""
         new = CostmapConfig(**{name: config[name] for name in NAMES})
         self._tolerance_ns = round(new.transform_tolerance * 1e9)
         if not self.layered.is_size_locked and new.resolution > 0:
-            # As the original: truncated, and a window of 0.15 m at 0.05 m is three cells.
+            # As in the original: truncated, so a window of 0.15 m at 0.05 m is three cells wide.
             width, height = (int(side / new.resolution + 1e-9) for side in (new.width, new.height))
             size = (width, height, new.resolution, (new.origin_x, new.origin_y))
             if self.layered.is_rolling and _geometry(self.grid) == size[:3]:
@@ -176,7 +176,7 @@ class Costmap2DROS:
         return config
 
     def _reconfigure_footprint(self, new: CostmapConfig) -> None:
-        """Take another footprint or radius, if one of them has changed: else one from a topic stays."""
+        """Apply the new footprint or radius if either has changed; otherwise keep one that came from a topic."""
         if (new.footprint, new.robot_radius) == (self._old.footprint, self._old.robot_radius) and len(
             self._unpadded
         ):
@@ -191,7 +191,7 @@ class Costmap2DROS:
             self.node.logerr(f"Invalid footprint string from dynamic reconfigure: {error}")
 
     def _restart(self, update_frequency: float, publish_frequency: float) -> None:
-        """Update and publish at these rates from now on, beginning at once."""
+        """Start updating and publishing at these rates, with one update immediately."""
         if self._timer is not None:
             self._timer.shutdown()
             self._timer = None
@@ -204,49 +204,49 @@ class Costmap2DROS:
 
     @property
     def grid(self) -> Costmap2D:
-        """The master grid, the same object for life."""
+        """The master grid; the same object for the lifetime of the costmap."""
         return self.layered.grid
 
     @property
     def layers(self) -> list[Layer]:
-        """From below."""
+        """The layers, lowest first."""
         return self.layered.layers
 
     @property
     def footprint(self) -> NDArray[np.float64]:
-        """The vertices (n, 2) [m] in the base frame, padded."""
+        """The padded footprint's vertices (n, 2) [m] in the base frame."""
         return self.layered.footprint
 
     @property
     def unpadded_footprint(self) -> NDArray[np.float64]:
-        """The same without padding."""
+        """The footprint's vertices (n, 2) [m] without padding."""
         return self._unpadded
 
     @property
     def inscribed_radius(self) -> float:
-        """The distance [m] from the robot's centre to the nearest point of the padded outline."""
+        """The distance [m] from the robot's centre to the nearest point of the padded footprint."""
         return self.layered.inscribed_radius
 
     @property
     def circumscribed_radius(self) -> float:
-        """The distance [m] to the farthest."""
+        """The distance [m] from the robot's centre to the farthest point of the padded footprint."""
         return self.layered.circumscribed_radius
 
     @property
     def is_current(self) -> bool:
-        """Whether every layer has heard of the world within the time that it expects."""
+        """True if every layer has received sensor data within its expected period."""
         return self.layered.is_current
 
     def robot_pose(self) -> Any:
-        """The robot's newest `PoseStamped` in the global frame.
+        """Return the robot's latest pose in the global frame (`PoseStamped`).
 
-        Raises `TransformMissing` if it is unknown, or older than `transform_tolerance`.
+        Raises `TransformMissing` if the pose is unknown or older than `transform_tolerance`.
         """
         pose, stamp_ns = self._robot()
         return pose_stamped(self.global_frame, Time.from_nsec(stamp_ns), pose)
 
     def to_global(self, pose: Any) -> Any:
-        """A `PoseStamped` in the global frame, by the newest transform. Raises `TransformMissing`."""
+        """Transform a `PoseStamped` into the global frame with the latest transform. Raises `TransformMissing`."""
         frame = pose.header.frame_id.lstrip("/")
         if frame == self.global_frame:
             return pose
@@ -264,12 +264,12 @@ class Costmap2DROS:
         )
 
     def explain(self, mx: int, my: int) -> CellCosts:
-        """What each layer gives to a cell: a cost, or None. Its text says it in words. Raises `IndexError` outside."""
+        """Return the cost that each layer gives a cell, or None, with reasons. Raises `IndexError` outside the grid."""
         said = {layer.name: layer.explain(mx, my) for layer in self.layers if layer.is_enabled}
         return CellCosts(self.grid, mx, my, said)
 
     def show(self, **options: Any) -> Any:
-        """A picture of the costs with the robot on it: see `Costmap2D.show` for the options."""
+        """Draw the costs and the robot; see `Costmap2D.show` for the options."""
         with suppress(TransformMissing):
             options.setdefault("robot", self._robot()[0])
         options.setdefault("footprint", self.footprint)
@@ -277,7 +277,7 @@ class Costmap2DROS:
         return self.grid.show(**options)
 
     def show_inflation(self, **options: Any) -> Any:
-        """Show the costs for several values of the three numbers of inflation, at first those of this costmap.
+        """Draw the costs with sliders for the three inflation parameters, which start at this costmap's values.
 
         See `Costmap2D.show_inflation` for the options.
         """
@@ -291,19 +291,19 @@ class Costmap2DROS:
     # -- what may be done to it ----------------------------------------------------------------------------------
 
     def set_footprint(self, footprint: ArrayLike) -> None:
-        """Take another footprint (n, 2) [m], without padding."""
+        """Set an unpadded footprint (n, 2) [m]."""
         self._unpadded = np.asarray(footprint, dtype=np.float64).reshape(-1, 2)
         self.layered.set_footprint(outlines.padded(self._unpadded, self._padding))
 
     def set_costs(self, polygon: ArrayLike, cost: int) -> bool:
-        """Give a cost to all cells of a convex polygon (n, 2) [m] in the global frame, until the next update of them.
+        """Set the cost of all cells in a convex polygon (n, 2) [m] in the global frame, until they are next updated.
 
-        If a vertex is outside nothing changes, and the answer is False.
+        Returns False, and changes nothing, if a vertex is outside the grid.
         """
         return fill(self.grid, polygon, cost)
 
     def update(self) -> bool:
-        """Make one update now; whether there was one: not while paused, and not without the robot's pose."""
+        """Update once now; return False while the costmap is paused or the robot's pose is unknown."""
         if self._paused:
             return False
         try:
@@ -317,7 +317,7 @@ class Costmap2DROS:
         return True
 
     def start(self) -> None:
-        """Go on after `stop` or `pause`; blocks until an update has been made."""
+        """Resume after `stop` or `pause`, and block until an update has completed."""
         if self.stopped:
             for layer in self.layers:
                 layer.activate()
@@ -325,19 +325,19 @@ class Costmap2DROS:
         self.resume()
 
     def stop(self) -> None:
-        """Make no updates, and leave the topics of the layers."""
+        """Stop updating, and unsubscribe the layers from their topics."""
         self.pause()
         for layer in self.layers:
             layer.deactivate()
         self.stopped = True
 
     def pause(self) -> None:
-        """Make no updates."""
+        """Stop updating."""
         self._paused = True
         self._initialized = False
 
     def resume(self) -> None:
-        """Make updates again; blocks until one has been made."""
+        """Start updating again, and block until an update has completed."""
         self._paused = False
         if self._timer is not None and not self._initialized:
             self.update()
@@ -345,11 +345,11 @@ class Costmap2DROS:
             self.node.sleep(BLOCKED)
 
     def reset_layers(self) -> None:
-        """Forget all costs, in the layers too."""
+        """Clear all costs, including those in the layers."""
         self.layered.reset()
 
     def shutdown(self) -> None:
-        """End the updates."""
+        """Stop updating permanently."""
         self.pause()
         if self._timer is not None:
             self._timer.shutdown()
@@ -364,18 +364,18 @@ class Costmap2DROS:
         if not self._publish_ns or not self.layered.is_initialized:
             return
         now = self.node.clock.now_ns()
-        # In simulated time the moments are exact: at equal rates each update is published, not every other one.
+        # Simulated times are exact: at equal rates every update is published, not every other one.
         if self._last_publish is None or not 0 <= now - self._last_publish < self._publish_ns:
             self._last_publish = now
             self._publisher.publish()
 
     def _robot(self) -> tuple[Pose, int]:
-        """The robot's pose in the global frame, and from when [ns] it is."""
+        """Return the robot's pose in the global frame and the time of that pose [ns]."""
         now = self.node.clock.now_ns()
         tree = self.buffer.tree
         try:
             found = tree.lookup(self.global_frame, self.base_frame)
-            if found.stamp_ns > now:  # a transform may be dated ahead, the robot may not
+            if found.stamp_ns > now:  # a transform may be dated in the future, but the robot's pose may not
                 found = tree.lookup(self.global_frame, self.base_frame, now)
         except TransformException as error:
             raise TransformMissing(
@@ -424,7 +424,7 @@ def _geometry(grid: Costmap2D) -> tuple[int, int, float]:
 
 
 def migrate_sizes(node: Node, namespace: str) -> None:
-    """Make whole metres of the width and height of a window, as roscpp does of a parameter that has to be an int."""
+    """Round width and height of the window to whole metres, because roscpp reads these parameters as integers."""
     for name in ("width", "height"):
         value = node.get_param(namespace + name, None)
         if isinstance(value, float) and math.isfinite(value):
@@ -438,9 +438,9 @@ def migrate_sizes(node: Node, namespace: str) -> None:
 
 
 def footprint_of_parameters(node: Node, namespace: str) -> NDArray[np.float64]:
-    """The footprint that `footprint` or `robot_radius` give, in this namespace or above; none (0, 2) if neither is set.
+    """Return the footprint from `footprint` or `robot_radius`, here or in a parent namespace; (0, 2) if neither is set.
 
-    What is found is written into the namespace, from where dynamic_reconfigure takes it. Raises `ParameterError`.
+    The value is copied into this namespace, where dynamic_reconfigure reads it. Raises `ParameterError`.
     """
     found = set_above(node, namespace, "footprint")
     if found is not None:

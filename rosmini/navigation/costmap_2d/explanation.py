@@ -1,4 +1,4 @@
-"""Why a cell costs what it costs, layer by layer."""
+"""The cost of a cell, explained layer by layer."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ MEANINGS = {
 
 
 class CellCosts(dict[str, int | None]):
-    """The cost that each layer gives to a cell, by the layer's name, from below; None where it has nothing to say.
+    """The cost of a cell in each layer, keyed by layer name, lowest first; None if the layer sets no cost.
 
-    As a text it is a line for the cell and one for each layer.
+    As text, one line describes the cell and one line each layer.
     """
 
     def __init__(self, grid: Costmap2D, mx: int, my: int, said: Mapping[str, tuple[int | None, str]]) -> None:
         super().__init__({name: cost for name, (cost, _) in said.items()})
         self.cost = grid.cost(mx, my)
-        """Of the master grid."""
+        """The cell's cost in the master grid."""
         self.cell = (mx, my)
         self.point = grid.map_to_world(mx, my)
         self._words = {name: words for name, (_, words) in said.items()}

@@ -1,4 +1,4 @@
-"""Footprints: the outline of a robot seen from above, as vertices (n, 2) [m] in its base frame."""
+"""Footprints: the robot's outline seen from above, as vertices (n, 2) [m] in its base frame."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from rosmini.core.geometry.poses import Pose, transform_points
 Footprint = NDArray[np.float64]
 
 CORNERS = 16
-"""Of the polygon that stands for a round robot."""
+"""Number of vertices in the polygon that approximates a round robot."""
 
 EXAMPLE = "[[x1, y1], [x2, y2], [x3, y3], ...] in metres, at least three points"
 
 
 def footprint_from_radius(radius: float) -> Footprint:
-    """A regular polygon of 16 vertices on a circle [m]: its inscribed radius is 0.98 of that."""
+    """Return a regular polygon with 16 vertices on a circle of this radius [m]; its inscribed radius is 0.98 of it."""
     angles = np.arange(CORNERS) * math.tau / CORNERS
     return np.stack([np.cos(angles) * radius, np.sin(angles) * radius], axis=-1)
 
 
 def footprint_from_list(points: Any, name: str) -> Footprint:
-    """A list of pairs of numbers. `name` is that of the parameter, for errors.
+    """Convert a list of pairs of numbers to a footprint; `name` is the parameter's name in error messages.
 
     Raises `ParameterError` for anything else, for fewer than three points and for numbers that are not finite.
     """
@@ -53,17 +53,17 @@ def footprint_from_list(points: Any, name: str) -> Footprint:
 
 
 def _is_finite(value: Any) -> bool:
-    """Whether this is a number that a coordinate can be."""
+    """True if the value is a finite number."""
     try:
         return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    except OverflowError:  # a whole number beyond all floats
+    except OverflowError:  # an integer too large for a float
         return False
 
 
 def footprint_from_text(text: str, name: str) -> Footprint:
-    """The text of such a list, `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`, as costmap_2d reads it.
+    """Parse the text of such a list, `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`, as costmap_2d does.
 
-    Commas and spaces both separate, and `.5`, `1.` and `+1` are numbers. Raises `ParameterError`.
+    Commas and spaces are both separators, and `.5`, `1.` and `+1` are valid numbers. Raises `ParameterError`.
     """
     points: list[list[float]] = []
     point: list[float] = []
@@ -100,20 +100,20 @@ def _no_footprint(text: str, name: str, problem: str) -> ParameterError:
 
 
 def footprint_text(footprint: Footprint) -> str:
-    """A footprint as the parameter holds it."""
+    """Format a footprint as a parameter value."""
     return "[" + ",".join(f"[{x:g},{y:g}]" for x, y in footprint) + "]"
 
 
 def padded(footprint: Footprint, padding: float) -> Footprint:
-    """Every vertex moved away from both axes by `padding` [m], those on an axis along it only."""
+    """Move every vertex away from both axes by `padding` [m]; a coordinate of 0 stays 0."""
     grown: Footprint = footprint + np.sign(footprint) * padding
     return grown
 
 
 def radii(footprint: Footprint) -> tuple[float, float]:
-    """The inscribed and the circumscribed radius [m]: how near and how far from the origin the outline is.
+    """Return the inscribed and the circumscribed radius [m].
 
-    With fewer than three vertices no circle is inscribed: infinity and 0.
+    These are the smallest and largest distance from the origin to the outline; with fewer than three vertices inf and 0.
     """
     if len(footprint) < 3:
         return math.inf, 0.0
@@ -129,12 +129,12 @@ def radii(footprint: Footprint) -> tuple[float, float]:
 
 
 def placed(footprint: Footprint, pose: Pose) -> Footprint:
-    """The footprint of a robot at a pose, in the frame of the pose."""
+    """Return the footprint of a robot at a pose, in the frame of the pose."""
     return transform_points(pose, footprint)
 
 
 def crossing(footprint: Footprint) -> tuple[int, int] | None:
-    """Two edges that cross each other, by the indices of their first vertices; None if the outline is simple."""
+    """Return the indices of the first vertices of two edges that cross, or None if the outline is simple."""
     count = len(footprint)
     for i in range(count):
         for j in range(i + 2, count):
@@ -154,5 +154,5 @@ def _side(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
 
 
 def points_of(polygon: Any) -> Footprint:
-    """The vertices of a `geometry_msgs/Polygon`."""
+    """Return the vertices of a `geometry_msgs/Polygon`."""
     return np.array([(point.x, point.y) for point in polygon.points], dtype=np.float64).reshape(-1, 2)

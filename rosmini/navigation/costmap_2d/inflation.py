@@ -1,15 +1,15 @@
-"""Inflation: the nearer to an obstacle, the dearer (http://wiki.ros.org/costmap_2d#Inflation).
+"""Inflation: costs that rise towards obstacles (http://wiki.ros.org/costmap_2d#Inflation).
 
-The costs by distance d from the nearest lethal cell, both measured between the middles of cells:
+The cost as a function of the distance d to the nearest lethal cell, measured between cell centres:
 
 | d | cost |
 |---|---|
 | 0 | 254 |
-| up to the inscribed radius | 253 |
-| farther, up to the inflation radius | 252 exp(-cost_scaling_factor (d - inscribed radius)), truncated |
+| at most the inscribed radius | 253 |
+| at most the inflation radius | 252 exp(-cost_scaling_factor (d - inscribed radius)), truncated |
 
-The inflation radius is rounded up to whole cells. The distances are exact; the brush fire of costmap_2d is off by a
-fraction of a cell in a few places. All by numpy, which is as fast here as machine code.
+The inflation radius is rounded up to whole cells. The distances are exact; those of costmap_2d's propagation are off by
+a fraction of a cell in a few places. Everything is vectorised with numpy, which is as fast here as compiled code.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ from .costmap import INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATIO
 from .layer import Window
 
 AT_ONCE = 300_000
-"""So many cells are computed with at a time."""
+"""Number of cells processed at a time."""
 
 
 def cell_distance(distance: float, resolution: float) -> int:
-    """A distance [m] in cells, rounded up."""
+    """Convert a distance [m] to cells, rounded up."""
     return max(0, math.ceil(distance / resolution))
 
 
 def cost_at(distance: float, inscribed_radius: float, cost_scaling_factor: float) -> int:
-    """The cost at a distance [m] from the nearest lethal cell, inside the inflation radius."""
+    """Return the cost at a distance [m] from the nearest lethal cell, at most the inflation radius."""
     if distance == 0:
         return LETHAL_OBSTACLE
     if distance <= inscribed_radius:
@@ -44,7 +44,7 @@ def cost_at(distance: float, inscribed_radius: float, cost_scaling_factor: float
 
 
 def cost_table(radius: int, resolution: float, inscribed_radius: float, cost_scaling_factor: float) -> Costs:
-    """The cost by squared distance in cells, up to `radius` cells; one more entry, 0, stands for farther away."""
+    """Return the cost by squared distance [cells] up to `radius`, followed by a 0 for all greater distances."""
     costs = [
         cost_at(math.sqrt(squared) * resolution, inscribed_radius, cost_scaling_factor)
         for squared in range(radius * radius + 1)
@@ -53,13 +53,13 @@ def cost_table(radius: int, resolution: float, inscribed_radius: float, cost_sca
 
 
 def squared_distances(lethal: NDArray[np.bool_], radius: int) -> NDArray[Any]:
-    """The squared distance [cells] of each cell (h, w) from the nearest lethal one; beyond `radius` it is radius² + 1.
+    """Return each cell's squared distance [cells] (h, w) to the nearest lethal cell, or radius² + 1 beyond `radius`.
 
-    Exact: first along the rows, by steps of 1, 2, 4 ... cells, whose sums are all distances up to `radius`; then, for
-    each distance between rows, the least sum of two squares.
+    The result is exact. The first pass works along the rows in steps of 1, 2, 4 ... cells, which add up to any distance
+    up to `radius`; the second takes, over all row offsets, the smallest sum of the two squares.
     """
     far = radius * radius + 1
-    # Sums go up to radius² + far: the smallest numbers that hold them are the fastest.
+    # Sums reach radius² + far: the smallest integer type that can hold them is the fastest.
     kind = np.uint8 if far + radius * radius <= 255 else np.uint16 if radius < 181 else np.uint32
     along: NDArray[Any] = np.where(lethal, kind(0), kind(radius + 1))
     reach = 0
@@ -82,7 +82,7 @@ def squared_distances(lethal: NDArray[np.bool_], radius: int) -> NDArray[Any]:
 def inflated(
     grid: Costmap2D, *, inscribed_radius: float, inflation_radius: float, cost_scaling_factor: float
 ) -> Costmap2D:
-    """Return a copy of a costmap with the costs of inflation by these parameters [m, m, 1/m]."""
+    """Return a copy of a costmap inflated with these parameters [m, m, 1/m]."""
     found = Costmap2D.of(grid.costs, grid.resolution, grid.origin)
     reach = cell_distance(inflation_radius, grid.resolution)
     table = cost_table(reach, grid.resolution, inscribed_radius, cost_scaling_factor)
@@ -93,10 +93,10 @@ def inflated(
 def inflate(
     costs: Costs, window: Window, radius: int, table: Costs, *, inflate_unknown: bool = False
 ) -> None:
-    """Write the costs of inflation into the window of a grid (h, w), in place.
+    """Write the inflation costs into a window of a grid (h, w), in place.
 
-    Lethal cells up to `radius` cells outside the window count, too. A cell keeps its cost if that is greater; an
-    unknown one is overwritten by 253 and 254 only, or with `inflate_unknown` by anything above 0.
+    Lethal cells up to `radius` cells outside the window are included. A cell keeps its cost if that is greater; an
+    unknown cell is overwritten only by 253 and 254, or with `inflate_unknown` by any cost above 0.
     """
     if radius <= 0 or window.is_empty:
         return
@@ -107,7 +107,7 @@ def inflate(
 
 
 def _inflate_band(costs: Costs, window: Window, radius: int, table: Costs, inflate_unknown: bool) -> None:
-    """The same for a few rows, which fit into a cache. It makes no cell lethal, so one band can follow another."""
+    """Inflate a band of rows that fits into the cache. No cell becomes lethal, so bands can follow one another."""
     height, width = costs.shape
     x0, y0 = max(window.x0 - radius, 0), max(window.y0 - radius, 0)
     lethal = (

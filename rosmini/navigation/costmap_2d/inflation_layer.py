@@ -1,4 +1,4 @@
-"""`costmap_2d::InflationLayer`: costs around obstacles (http://wiki.ros.org/costmap_2d/hydro/inflation)."""
+"""`costmap_2d::InflationLayer`: adds costs around obstacles (http://wiki.ros.org/costmap_2d/hydro/inflation)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .parameters import InflationConfig
 
 
 class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
-    """Makes the cells near obstacles of the layers below dear."""
+    """Raises the costs of cells near obstacles in the layers below."""
 
     def __init__(self) -> None:
         self.radius = 0.0
@@ -42,7 +42,7 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
         return config
 
     def on_footprint_changed(self) -> None:
-        """Compute the costs by distance."""
+        """Recompute the table of costs by distance."""
         resolution = self.layered.grid.resolution
         self._cells = cell_distance(self.radius, resolution)
         self._table = cost_table(
@@ -51,11 +51,11 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
         self._again = True
 
     def match_size(self) -> None:
-        """Learn the resolution."""
+        """Recompute the costs for the new resolution."""
         self.on_footprint_changed()
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """What the layers below change changes costs as far around it as they are inflated, now and next time."""
+        """Widen the bounds by the inflation radius around all changes in this update and the previous one."""
         del robot
         last, self._last = self._last, bounds.copy()
         if self._again:
@@ -65,17 +65,17 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
         bounds.min_x, bounds.max_x = min(bounds.min_x, last.min_x), max(bounds.max_x, last.max_x)
         bounds.min_y, bounds.max_y = min(bounds.min_y, last.min_y), max(bounds.max_y, last.max_y)
         if not bounds.is_empty:
-            # Half a cell more: a point on the edge between two cells belongs to both.
+            # Half a cell more, because a point on the edge between two cells belongs to both.
             margin = (self._cells + 0.5) * self.layered.grid.resolution
             bounds.touch(bounds.min_x - margin, bounds.min_y - margin)
             bounds.touch(bounds.max_x + margin, bounds.max_y + margin)
 
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
-        """Inflate what the layers below have written."""
+        """Inflate the obstacles that the layers below have written."""
         inflate(grid.costs, window, self._cells, self._table, inflate_unknown=self._inflate_unknown)
 
     def explain(self, mx: int, my: int) -> tuple[int | None, str]:
-        """The distance to the nearest obstacle of the master grid, and the cost that the formula gives for it."""
+        """Return the cost from the distance to the nearest obstacle in the master grid, and the formula as text."""
         grid, reach = self.layered.grid, self._cells
         x0, y0 = max(mx - reach, 0), max(my - reach, 0)
         rows, columns = np.nonzero(grid.costs[y0 : my + reach + 1, x0 : mx + reach + 1] == LETHAL_OBSTACLE)

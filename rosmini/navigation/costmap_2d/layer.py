@@ -1,6 +1,6 @@
-"""Layers of a costmap, each of which adds what it knows (http://wiki.ros.org/costmap_2d#Layer_Specifications).
+"""The interface of costmap layers (http://wiki.ros.org/costmap_2d#Layer_Specifications).
 
-A layer of one's own is a class with a name, and the parameter `plugins` of a costmap lists it:
+To write a layer, derive a class with a plugin name and add it to the costmap's parameter `plugins`:
 
     class Puddles(Layer, plugin="my_pkg::Puddles"):
         def update_bounds(self, robot, bounds):
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from rosmini.core.tf import Buffer
 
 FAR = 1e30
-"""The bounds of nothing, and of everything."""
+"""Coordinate of empty (inverted) and unlimited bounds."""
 
 
 class Window(NamedTuple):
@@ -43,24 +43,24 @@ class Window(NamedTuple):
 
     @property
     def is_empty(self) -> bool:
-        """Whether no cell is in it."""
+        """True if the window contains no cell."""
         return self.xn <= self.x0 or self.yn <= self.y0
 
     def has(self, mx: int, my: int) -> bool:
-        """Whether a cell is in it."""
+        """True if the window contains this cell."""
         return self.x0 <= mx < self.xn and self.y0 <= my < self.yn
 
     def fits(self, grid: Costmap2D) -> bool:
-        """Whether all of it is in a grid."""
+        """True if the window lies completely inside a grid."""
         return self.x0 >= 0 and self.y0 >= 0 and self.xn <= grid.width and self.yn <= grid.height
 
     def of(self, costs: Costs) -> Costs:
-        """The part of a grid (h, w) that is in it, as a view."""
+        """Return the window's part of a grid (h, w), as a view."""
         return costs[self.y0 : self.yn, self.x0 : self.xn]
 
 
 class Bounds:
-    """The rectangle [m] of the costmap's frame in which costs may have changed; empty at first."""
+    """The rectangle [m] in the costmap's frame where costs may have changed; initially empty."""
 
     def __init__(self) -> None:
         self.min_x = self.min_y = FAR
@@ -71,27 +71,27 @@ class Bounds:
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing has changed."""
+        """True if nothing has changed."""
         return self.max_x < self.min_x or self.max_y < self.min_y
 
     def touch(self, x: float, y: float) -> None:
-        """Let a point [m] be in it."""
+        """Extend the bounds to include a point [m]."""
         self.min_x, self.max_x = min(self.min_x, x), max(self.max_x, x)
         self.min_y, self.max_y = min(self.min_y, y), max(self.max_y, y)
 
     def touch_cells(self, grid: Costmap2D, window: Window) -> None:
-        """Let cells be in it."""
+        """Extend the bounds to include the cells of a window."""
         if not window.is_empty:
             self.touch(*grid.map_to_world(window.x0, window.y0))
             self.touch(*grid.map_to_world(window.xn - 1, window.yn - 1))
 
     def touch_all(self) -> None:
-        """Let everything be in it."""
+        """Extend the bounds to include everything."""
         self.touch(-FAR, -FAR)
         self.touch(FAR, FAR)
 
     def contains(self, other: Bounds) -> bool:
-        """Whether all of another rectangle is in it."""
+        """True if another rectangle lies completely inside these bounds."""
         return other.is_empty or (
             self.min_x <= other.min_x
             and self.min_y <= other.min_y
@@ -100,51 +100,51 @@ class Bounds:
         )
 
     def copy(self) -> Bounds:
-        """The same rectangle."""
+        """Return a copy."""
         made = Bounds()
         made.min_x, made.min_y, made.max_x, made.max_y = self.min_x, self.min_y, self.max_x, self.max_y
         return made
 
 
 class Master(Protocol):
-    """What a layer knows of the costmap that it is in: a `LayeredCostmap`."""
+    """The attributes of a `LayeredCostmap` that its layers use."""
 
     grid: Costmap2D
     """The master grid."""
     global_frame: str
     is_rolling: bool
-    """Whether the grid moves with the robot."""
+    """True if the grid moves with the robot."""
     is_tracking_unknown: bool
-    """Whether a cell that no layer knows is unknown, not free."""
+    """True if cells that no layer knows are unknown, not free."""
     footprint: Footprint
-    """The robot's vertices (n, 2) [m], padded."""
+    """The padded footprint's vertices (n, 2) [m]."""
     inscribed_radius: float
     circumscribed_radius: float
 
     def resize(
         self, width: int, height: int, resolution: float, origin: tuple[float, float], *, lock: bool = False
     ) -> None:
-        """Give the master grid and its layers another size [cells], resolution and origin [m]."""
+        """Change the size [cells], resolution and origin [m] of the master grid and its layers."""
 
 
 class Layer(Plugin, ABC):
-    """The interface of layers."""
+    """The base class of all layers."""
 
     name: str
-    """As the costmap's `plugins` call it."""
+    """The layer's name in the costmap's `plugins`."""
     namespace: str
-    """Of its parameters and topics, with `/` at its end: `~global_costmap/static_layer/`."""
+    """The namespace of its parameters and topics, with a trailing `/`: `~global_costmap/static_layer/`."""
     layered: Master
-    """The costmap that it is a layer of."""
+    """The costmap that the layer belongs to."""
     node: Node
     buffer: Buffer
     is_enabled = True
-    """A layer that is not enabled is not asked for anything."""
+    """A disabled layer takes no part in updates."""
     is_current = True
-    """Whether what it knows is recent enough to drive by."""
+    """True if the layer's data is recent enough for safe driving."""
 
     def initialize(self, layered: Master, name: str, namespace: str, node: Node, buffer: Buffer) -> None:
-        """Learn what it belongs to; called once."""
+        """Attach the layer to its costmap; called once."""
         self.layered, self.name, self.namespace, self.node, self.buffer = (
             layered,
             name,
@@ -155,44 +155,44 @@ class Layer(Plugin, ABC):
         self.on_initialize()
 
     def on_initialize(self) -> None:
-        """Read parameters, subscribe to topics."""
+        """Read parameters and subscribe to topics."""
 
     @property
     def topics(self) -> tuple[str, ...]:
-        """The topics, with their full names, from which it learns of the world."""
+        """The resolved names of the topics that the layer subscribes to."""
         return ()
 
     @abstractmethod
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """Let every cell that it will change be in `bounds`. `robot`: its pose in the costmap's frame."""
+        """Extend `bounds` to every cell that the layer will change; `robot` is the pose in the costmap's frame."""
 
     @abstractmethod
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
-        """Write costs into the master grid, in this window only."""
+        """Write costs into the master grid, inside this window only."""
 
     def match_size(self) -> None:
-        """Learn that the master grid has another size, resolution or origin."""
+        """React to a change in the size, resolution or origin of the master grid."""
 
     def on_footprint_changed(self) -> None:
-        """Learn that the robot has another footprint."""
+        """React to a new robot footprint."""
 
     def activate(self) -> None:
-        """Hear of the world again."""
+        """Subscribe to the layer's topics again."""
 
     def deactivate(self) -> None:
-        """Hear of the world no more."""
+        """Unsubscribe from the layer's topics."""
 
     def reset(self) -> None:
-        """Forget what was learnt of the world."""
+        """Discard all data received so far."""
 
     def explain(self, mx: int, my: int) -> tuple[int | None, str]:
-        """The cost that it gives to a cell of the master grid (None: it has nothing to say), and why, in words."""
+        """Return the cost that the layer gives a cell of the master grid, or None, and the reason as text."""
         del mx, my
         return None, ""
 
 
 class CostmapLayer(Layer):
-    """A layer with costs of its own, in `grid`."""
+    """A layer that stores costs, in `grid`."""
 
     def __init__(self) -> None:
         self.grid = Costmap2D(0, 0, 1.0, default=NO_INFORMATION)
@@ -200,22 +200,22 @@ class CostmapLayer(Layer):
 
     @property
     def costs(self) -> Costs:
-        """Its costs (h, w)."""
+        """The layer's costs (h, w)."""
         return self.grid.costs
 
     def match_size(self) -> None:
-        """Take over size, resolution and origin of the master grid; the costs are lost."""
+        """Adopt the size, resolution and origin of the master grid; the costs are lost."""
         master = self.layered.grid
         self.grid.resize(master.width, master.height, master.resolution, master.origin)
 
     def add_extra_bounds(self, min_x: float, min_y: float, max_x: float, max_y: float) -> None:
-        """Let the next update take in a rectangle [m] in which something else has changed this layer's costs."""
+        """Include in the next update a rectangle [m] in which other code has changed this layer's costs."""
         self._extra = self._extra or Bounds()
         self._extra.touch(min_x, min_y)
         self._extra.touch(max_x, max_y)
 
     def use_extra_bounds(self, bounds: Bounds) -> bool:
-        """Take what was added into `bounds`; whether there was anything."""
+        """Move the extra bounds, if there are any, into `bounds`; return True if there were any."""
         extra, self._extra = self._extra, None
         if extra is None:
             return False
@@ -224,7 +224,7 @@ class CostmapLayer(Layer):
         return True
 
     def clear_area(self, x0: int, y0: int, x1: int, y1: int, inside: bool = False) -> None:
-        """Forget the cells strictly between columns `x0`, `x1` and rows `y0`, `y1` (`inside`), or all the others."""
+        """Set to unknown all cells strictly between columns `x0`, `x1` and rows `y0`, `y1` (`inside`), or all others."""
         window = Window(max(x0 + 1, 0), max(y0 + 1, 0), min(x1, self.grid.width), min(y1, self.grid.height))
         if inside:
             if not window.is_empty:
@@ -242,23 +242,23 @@ class CostmapLayer(Layer):
     # -- ways to write its costs into the master grid -------------------------------------------------------------
 
     def update_with_max(self, grid: Costmap2D, window: Window) -> None:
-        """Write the greater cost, where this layer knows one."""
+        """Write the greater of both costs where this layer's cost is known."""
         mine, master = window.of(self.costs), window.of(grid.costs)
-        # Shifted by one the unknown, 255, is 0, and below everything.
+        # Adding 1 turns unknown, 255, into 0, which is less than every known cost.
         one = np.uint8(1)
         np.subtract(np.maximum(mine + one, master + one), one, out=master)
 
     def update_with_overwrite(self, grid: Costmap2D, window: Window) -> None:
-        """Write its costs, where it knows one."""
+        """Write this layer's costs where they are known."""
         mine = window.of(self.costs)
         np.copyto(window.of(grid.costs), mine, where=mine != NO_INFORMATION)
 
     def update_with_true_overwrite(self, grid: Costmap2D, window: Window) -> None:
-        """Write all its costs, unknown ones too."""
+        """Write all of this layer's costs, including unknown ones."""
         np.copyto(window.of(grid.costs), window.of(self.costs))
 
     def explain(self, mx: int, my: int) -> tuple[int | None, str]:
-        """Its own cost at a cell of the master grid; None where it knows nothing."""
+        """Return the layer's cost at a cell of the master grid, or None where it is unknown, and a description."""
         cell = self.grid.world_to_map(*self.layered.grid.map_to_world(mx, my))
         if cell is None:
             return None, "the cell is outside of what it covers"

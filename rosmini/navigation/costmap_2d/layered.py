@@ -1,4 +1,4 @@
-"""A costmap in layers (http://wiki.ros.org/costmap_2d): what changed is found, reset, and written layer by layer."""
+"""A costmap made of layers (http://wiki.ros.org/costmap_2d): each update resets the changed area and rewrites it."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from .layer import Bounds, Layer, Window
 
 
 class LayeredCostmap:
-    """The master grid and its layers, which are asked in order.
+    """The master grid and its layers, which update it in order.
 
-    `report(layer, error)` is told of a layer that fails: the others go on, and the costmap is not current.
+    If a layer fails, `report(layer, error)` is called, the other layers go on, and the costmap is not current.
     """
 
     def __init__(
@@ -36,32 +36,32 @@ class LayeredCostmap:
         self.grid = Costmap2D(0, 0, 1.0, default=NO_INFORMATION if track_unknown_space else FREE_SPACE)
         self.layers: list[Layer] = []
         self.footprint: Footprint = np.zeros((0, 2))
-        """The vertices (n, 2) [m] in the robot's base frame, padded."""
+        """The padded footprint's vertices (n, 2) [m] in the robot's base frame."""
         self.inscribed_radius, self.circumscribed_radius = radii(self.footprint)
         self.is_size_locked = False
-        """Whether a map has set the size, which parameters then do not change."""
+        """True once a map has set the size; parameters can then no longer change it."""
         self.is_initialized = False
-        """Whether an update has been made."""
+        """True once an update has completed."""
         self.window = Window(0, 0, 0, 0)
-        """The cells that the last update computed."""
+        """The cells computed in the last update."""
         self._report = report
         self._failed: set[Layer] = set()
         self._enabled: list[Layer] = []
         self._whole = True
 
     def add(self, layer: Layer) -> None:
-        """Take a layer on top of the others."""
+        """Add a layer on top of the others."""
         self.layers.append(layer)
 
     @property
     def is_current(self) -> bool:
-        """Whether every layer that is enabled knows enough to drive by."""
+        """True if the data of every enabled layer is recent enough for safe driving."""
         return not self._failed and all(layer.is_current for layer in self.layers if layer.is_enabled)
 
     def resize(
         self, width: int, height: int, resolution: float, origin: tuple[float, float], *, lock: bool = False
     ) -> None:
-        """Give the master grid and its layers another size [cells], resolution and origin [m]; costs are lost."""
+        """Change the size [cells], resolution and origin [m] of the master grid and its layers; costs are lost."""
         self.is_size_locked = self.is_size_locked or lock
         self.grid.resize(width, height, resolution, origin)
         self._whole = True
@@ -69,24 +69,24 @@ class LayeredCostmap:
             layer.match_size()
 
     def set_footprint(self, footprint: ArrayLike) -> None:
-        """Take the robot's footprint (n, 2) [m], padded already."""
+        """Set the robot's padded footprint (n, 2) [m]."""
         self.footprint = np.asarray(footprint, dtype=np.float64).reshape(-1, 2)
         self.inscribed_radius, self.circumscribed_radius = radii(self.footprint)
         for layer in self.layers:
             layer.on_footprint_changed()
 
     def reset(self) -> None:
-        """Forget all costs, in the layers too."""
+        """Clear all costs, including those in the layers."""
         self.grid.costs[...] = self.grid.default
         self._whole = True
         for layer in self.layers:
             layer.reset()
 
     def update_map(self, robot: Pose) -> Window:
-        """Bring the master grid up to date for a robot at this pose; returns the cells that were computed.
+        """Update the master grid for a robot at this pose, and return the window of cells that were computed.
 
-        Where a rolling window has moved, where layers were switched on or off and after a reset it is all of them: else
-        inflation from what was outside, or is no longer there, would be wrong at the edges.
+        All cells are computed when a rolling window has moved, when a layer was switched on or off, and after a reset;
+        otherwise the inflation at the edges would miss obstacles that appeared, or keep those that are gone.
         """
         if self.is_rolling and self._roll(robot) != (0, 0):
             self._whole = True
@@ -134,7 +134,7 @@ class LayeredCostmap:
             self._report(layer, error)
 
     def _cells(self, bounds: Bounds) -> Window:
-        """The cells of the master grid that have a point in the bounds."""
+        """Return the window of cells in the master grid that the bounds touch."""
         grid = self.grid
         if bounds.is_empty or not grid.costs.size:
             return Window(0, 0, 0, 0)

@@ -1,6 +1,6 @@
-"""Parameter files from before layers: they are read, and moved to where the layers look for them.
+"""Converts parameter files from before the introduction of layers (ROS Hydro).
 
-ROBOTIS's and navigation_stage's files are of this form: no `plugins`, but `static_map`, `map_type` and flat parameters.
+The files of ROBOTIS and navigation_stage have this form: `static_map`, `map_type` and flat parameters, no `plugins`.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ INHERITED = {
     "costmap_2d::ObstacleLayer": (*OBSTACLE, "track_unknown_space"),
     "costmap_2d::InflationLayer": INFLATION,
 }
-"""What a layer takes over from the costmap's own namespace, where it is set there."""
+"""Parameters that a layer inherits from the costmap's namespace if they are set there."""
 
 OLD = ("static_map", "map_type")
-"""What has no meaning any more once there are `plugins`."""
+"""Parameters that are ignored once `plugins` is set."""
 
 
 def migrate(node: Node, namespace: str, name: str) -> None:
-    """Move the old form in `namespace` (`~global_costmap/`) into layers; where `plugins` is set, say what is unused."""
+    """Move old parameters in `namespace` (`~global_costmap/`) to layers; if `plugins` is set, warn of unused ones."""
     if node.has_param(namespace + "plugins"):
         for old in OLD:
             if node.has_param(namespace + old):
@@ -57,12 +57,12 @@ def migrate(node: Node, namespace: str, name: str) -> None:
 
 
 def inherit(node: Node, namespace: str, layer: str, kind: str) -> None:
-    """Copy what a layer of this type takes over from the costmap."""
+    """Copy the parameters that a layer of this type inherits from the costmap."""
     move(node, namespace, layer, INHERITED.get(kind.replace("/", "::"), ()), delete=False)
 
 
 def move(node: Node, namespace: str, layer: str, names: tuple[str, ...], *, delete: bool = True) -> None:
-    """Move or copy parameters of a namespace, those that are set, into the namespace of a layer in it."""
+    """Move or copy those of the named parameters that are set into the namespace of a layer."""
     for name in names:
         if node.has_param(namespace + name):
             node.set_param(f"{namespace}{layer}/{name}", node.get_param(namespace + name))

@@ -1,10 +1,10 @@
-"""The nodes of the package: a costmap alone, and what shows its voxels.
+"""The nodes of the package: a stand-alone costmap, and two that display its voxels.
 
 | node | topics |
 |---|---|
-| `costmap_2d/costmap_2d_node` | those of a costmap, under `~costmap/`; its parameters are there, too |
-| `costmap_2d/costmap_2d_markers` | `voxel_grid` to cubes on `visualization_marker` |
-| `costmap_2d/costmap_2d_cloud` | `voxel_grid` to points on `voxel_marked_cloud` and `voxel_unknown_cloud` |
+| `costmap_2d/costmap_2d_node` | those of a costmap, in `~costmap/`, where its parameters are, too |
+| `costmap_2d/costmap_2d_markers` | converts `voxel_grid` to cubes on `visualization_marker` |
+| `costmap_2d/costmap_2d_cloud` | converts `voxel_grid` to points on `voxel_marked_cloud` and `voxel_unknown_cloud` |
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 CUBE_LIST = 6
-"""The type of the marker."""
+"""The marker type of the cubes."""
 
 
 class Costmap2DNode:
@@ -37,7 +37,7 @@ class Costmap2DNode:
 
 
 def voxel_points(grid: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The middles (n, 3) [m] of the marked and of the unknown voxels of a `costmap_2d/VoxelGrid`."""
+    """Return the centres (n, 3) [m] of the marked and of the unknown voxels in a `costmap_2d/VoxelGrid`."""
     columns = np.asarray(grid.data, dtype=np.int64).reshape(grid.size_y, grid.size_x)
     heights = np.arange(grid.size_z)[:, None, None]
     known, marked = columns >> heights & 1, columns >> heights + BITS & 1
@@ -52,7 +52,7 @@ def voxel_points(grid: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 class VoxelMarkers:
-    """Shows the marked voxels as cubes."""
+    """Publishes the marked voxels as cubes."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -74,7 +74,7 @@ class VoxelMarkers:
 
 
 class VoxelCloud:
-    """Shows the marked voxels and the unknown ones as clouds of points."""
+    """Publishes the marked and the unknown voxels as point clouds."""
 
     def __init__(self, node: Node) -> None:
         kind = message_class("sensor_msgs/PointCloud")

@@ -1,4 +1,4 @@
-"""What sensors saw of late, as points: the pure part of observation sources (http://wiki.ros.org/costmap_2d/hydro/obstacles)."""
+"""Recent sensor observations as points, without ROS (http://wiki.ros.org/costmap_2d/hydro/obstacles)."""
 
 from __future__ import annotations
 
@@ -14,30 +14,30 @@ from rosmini.core.errors import RosminiError
 Floats = NDArray[np.float64]
 
 EPSILON = 1e-4
-"""By so much a beam that met nothing ends before the scanner's longest range, where `inf_is_valid` [m]."""
+"""With `inf_is_valid`, a beam without a hit ends this distance before the scanner's maximum range [m]."""
 
 
 class ScanError(RosminiError):
-    """A scan is not one: its numbers contradict one another."""
+    """Raised for a scan whose numbers are invalid."""
 
 
 @dataclass(frozen=True, eq=False)
 class Observation:
-    """What one message of a sensor said."""
+    """The points that one sensor message reports."""
 
     origin: tuple[float, float, float]
-    """Where the sensor was [m], in the costmap's frame."""
+    """The sensor's position [m] in the costmap's frame."""
     points: Floats
-    """What it saw (n, 3) [m], in that frame."""
+    """The observed points (n, 3) [m] in the same frame."""
     stamp_ns: int
     obstacle_range: float
-    """Up to which distance from the sensor points are obstacles [m]."""
+    """Maximum distance from the sensor at which points count as obstacles [m]."""
     raytrace_range: float
-    """Up to which distance rays clear [m]."""
+    """Maximum distance from the sensor up to which rays clear cells [m]."""
 
 
 class ObservationBuffer:
-    """Keeps the observations of one source: the newest, or those of the last `persistence_ns`."""
+    """Stores the observations of one source: the newest one, or those of the last `persistence_ns`."""
 
     def __init__(
         self,
@@ -49,14 +49,14 @@ class ObservationBuffer:
     ) -> None:
         self.persistence_ns = persistence_ns
         self.expected_ns = expected_ns
-        """How often a message is expected; 0 for no expectation."""
+        """Expected period between messages; 0 to expect none."""
         self.min_height, self.max_height = min_height, max_height
         self.updated_ns = 0
-        """When the last one came."""
+        """Arrival time of the latest observation."""
         self._kept: deque[Observation] = deque()
 
     def add(self, observation: Observation, now_ns: int) -> None:
-        """Take one; points below and above the heights are left out."""
+        """Add an observation without the points below `min_height` or above `max_height`."""
         z = observation.points[:, 2]
         with np.errstate(invalid="ignore"):
             wanted = (z >= self.min_height) & (z <= self.max_height)
@@ -74,16 +74,16 @@ class ObservationBuffer:
         self._purge()
 
     def observations(self) -> list[Observation]:
-        """Those that are kept, the newest first."""
+        """Return the stored observations, newest first."""
         self._purge()
         return list(self._kept)
 
     def clear(self) -> None:
-        """Forget them."""
+        """Discard all observations."""
         self._kept.clear()
 
     def late_by(self, now_ns: int) -> int | None:
-        """For how long [ns] nothing came, if that is longer than expected."""
+        """Return the time [ns] since the last observation if it exceeds the expected period, otherwise None."""
         silent = now_ns - self.updated_ns
         return silent if self.expected_ns and silent > self.expected_ns else None
 
@@ -97,10 +97,10 @@ class ObservationBuffer:
 
 
 def scan_cloud(scan: Any, *, inf_is_valid: bool = False) -> Floats:
-    """The points (n, 3) [m] of a `sensor_msgs/LaserScan` in its own frame; beams that met nothing are left out.
+    """Return the points (n, 3) [m] of a `sensor_msgs/LaserScan` in its frame; beams without a hit are omitted.
 
-    With `inf_is_valid` a beam of +inf counts as one that ends just before `range_max`, so that it clears. The robot's
-    motion during the scan is not taken out, as in costmap_2d. Raises `ScanError` for angles that are not finite.
+    With `inf_is_valid` a beam of +inf counts as ending just before `range_max`, so that it clears cells. As in
+    costmap_2d, motion during the scan is not corrected. Raises `ScanError` for angles that are not finite.
     """
     ranges = np.asarray(scan.ranges, dtype=np.float64)
     first, step = float(scan.angle_min), float(scan.angle_increment)
@@ -119,14 +119,14 @@ def scan_cloud(scan: Any, *, inf_is_valid: bool = False) -> Floats:
 
 
 def cloud_points(cloud: Any) -> Floats:
-    """The points (n, 3) [m] of a `sensor_msgs/PointCloud`, those that are finite."""
+    """Return the finite points (n, 3) [m] of a `sensor_msgs/PointCloud`."""
     points = np.array([(p.x, p.y, p.z) for p in cloud.points], dtype=np.float64).reshape(-1, 3)
     kept: Floats = points[np.isfinite(points).all(axis=1)]
     return kept
 
 
 def cloud2_points(cloud: Any) -> Floats:
-    """The same of a `sensor_msgs/PointCloud2`. Raises `TransformException` if it has no x, y and z as floats."""
+    """Return the finite points of a `sensor_msgs/PointCloud2`. Raises `TransformException` without float x, y, z."""
     from rosmini.core.tf.messages import cloud_view
 
     columns = cloud_view(cloud, bytearray(cloud.data))

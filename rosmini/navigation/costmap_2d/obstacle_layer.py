@@ -1,4 +1,4 @@
-"""`costmap_2d::ObstacleLayer`: what sensors see (http://wiki.ros.org/costmap_2d/hydro/obstacles)."""
+"""`costmap_2d::ObstacleLayer`: obstacles that sensors detect (http://wiki.ros.org/costmap_2d/hydro/obstacles)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CLEAR = "rosmini.navigation.costmap_2d.rays:compiled_clear_rays"
 
 
 class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
-    """Clears along the rays of its sources, then marks where they ended."""
+    """Clears the cells along the rays of its sources, then marks the end points."""
 
     config: ClassVar[type[ObstacleConfig]] = ObstacleConfig
     settings_class: ClassVar[type[ObstacleParameters]] = ObstacleParameters
@@ -61,7 +61,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
 
     @property
     def topics(self) -> tuple[str, ...]:
-        """Those of its sources."""
+        """The topics of its sources."""
         return tuple(self.node.resolve(source.topic) for source in self.sources)
 
     def activate(self) -> None:
@@ -72,18 +72,18 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
             source.observations.updated_ns = now
 
     def deactivate(self) -> None:
-        """Leave the topics of the sources."""
+        """Unsubscribe from the topics of the sources."""
         for source in self.sources:
             source.deactivate()
 
     def reset(self) -> None:
-        """Forget all obstacles."""
+        """Clear all obstacles."""
         self.deactivate()
         self.costs[...] = self.grid.default
         self.activate()
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """Take in what the sources have seen."""
+        """Process the latest observations of all sources."""
         if self.layered.is_rolling:
             self.roll(robot)
         self.use_extra_bounds(bounds)
@@ -104,12 +104,12 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
                 bounds.touch(x, y)
 
     def roll(self, robot: Pose) -> tuple[int, int]:
-        """Move its costs with the robot; returns by how many cells."""
+        """Move the layer's grid with the robot; return the number of cells moved."""
         width, height = self.grid.size_m
         return self.grid.move_origin(robot[0] - width / 2, robot[1] - height / 2)
 
     def clear(self, observation: Observation, bounds: Bounds) -> None:
-        """Let the cells between the sensor and what it saw be free."""
+        """Clear the cells between the sensor and the observed points."""
         grid = self.grid
         ox, oy, _ = observation.origin
         if grid.world_to_map(ox, oy) is None:
@@ -122,14 +122,14 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
         bounds.touch_cells(grid, Window(x0, y0, x1 + 1, y1 + 1))
 
     def warn_outside(self, where: str) -> None:
-        """Say that a sensor is not over the costmap."""
+        """Warn that a sensor is outside the costmap."""
         self.node.logwarn(
             f"The origin for the sensor at {where} is out of map bounds. So, the costmap cannot raytrace for it.",
             throttle=1.0,
         )
 
     def mark(self, observation: Observation, bounds: Bounds) -> None:
-        """Let the cells of what the sensor saw be obstacles."""
+        """Mark the cells of the observed points as obstacles."""
         points = self._near(observation)
         cells = np.floor((points[:, :2] - self.grid.origin) / self.grid.resolution).astype(np.int64)
         inside = (cells >= 0).all(axis=1) & (cells < (self.grid.width, self.grid.height)).all(axis=1)
@@ -139,14 +139,14 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
             bounds.touch_cells(self.grid, Window(mx.min(), my.min(), mx.max() + 1, my.max() + 1))
 
     def _near(self, observation: Observation) -> Any:
-        """The points that are near enough to the sensor, and not too high, to be obstacles."""
+        """Return the points that are near enough to the sensor and low enough to count as obstacles."""
         points = observation.points
         away = points - observation.origin
         near = (away * away).sum(axis=1) < observation.obstacle_range**2
         return points[near & (points[:, 2] <= self._max_height)]
 
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
-        """Clear the ground under the robot, and write the costs as `combination_method` says."""
+        """Clear the cells under the robot, and write the costs as `combination_method` specifies."""
         if len(self._footprint):
             fill(self.grid, self._footprint, FREE_SPACE)
         if self._combination == OVERWRITE:

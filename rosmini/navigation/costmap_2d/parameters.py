@@ -1,6 +1,6 @@
-"""The parameters of costmaps and their layers: names, types, defaults and ranges as in costmap_2d.
+"""The parameters of costmaps and their layers, with the names, types, defaults and ranges of costmap_2d.
 
-Those that can be changed while a costmap runs (dynamic_reconfigure) are the classes that end in `Config`.
+Classes whose name ends in `Config` hold the parameters that dynamic_reconfigure can change at run time.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 OVERWRITE, MAXIMUM = 0, 1
-"""Of `combination_method`; with any other value a layer writes nothing."""
+"""Values of `combination_method`; with any other value the layer writes nothing."""
 
 
 @dataclass(frozen=True)
 class CostmapConfig(Parameters):
-    """Of a costmap, `~global_costmap/`, and changed while it runs."""
+    """Parameters of a costmap (`~global_costmap/`) that can change at run time."""
 
     dynamic = True
 
@@ -49,7 +49,7 @@ class CostmapConfig(Parameters):
 
 @dataclass(frozen=True)
 class PluginEntry(Parameters):
-    """One layer in the list `plugins`."""
+    """One layer in the `plugins` list."""
 
     name: str = parameter("", "what the layer is called")
     type: str = parameter("", "its type, such as costmap_2d::StaticLayer")
@@ -57,7 +57,7 @@ class PluginEntry(Parameters):
 
 @dataclass(frozen=True)
 class CostmapParameters(CostmapConfig):
-    """Of a costmap."""
+    """All parameters of a costmap."""
 
     allowed: ClassVar[tuple[str, ...]] = (*OLD, *(name for names in INHERITED.values() for name in names))
 
@@ -77,7 +77,7 @@ class CostmapParameters(CostmapConfig):
 
 @dataclass(frozen=True)
 class LayerConfig(Parameters):
-    """Of any layer, and changed while it runs."""
+    """Parameters of every layer that can change at run time."""
 
     dynamic = True
 
@@ -86,7 +86,7 @@ class LayerConfig(Parameters):
 
 @dataclass(frozen=True)
 class StaticParameters(LayerConfig):
-    """Of `costmap_2d::StaticLayer`."""
+    """Parameters of `costmap_2d::StaticLayer`."""
 
     map_topic: str = parameter("map", "where the map comes from")
     first_map_only: bool = parameter(False, "take the first map and no other")
@@ -102,7 +102,7 @@ class StaticParameters(LayerConfig):
 
 @dataclass(frozen=True)
 class InflationConfig(LayerConfig):
-    """Of `costmap_2d::InflationLayer`: all of them can be changed while it runs."""
+    """Parameters of `costmap_2d::InflationLayer`, all of which can change at run time."""
 
     dynamic = True
 
@@ -117,7 +117,7 @@ class InflationConfig(LayerConfig):
 
 @dataclass(frozen=True)
 class ObstacleConfig(LayerConfig):
-    """Of `costmap_2d::ObstacleLayer`, and changed while it runs."""
+    """Parameters of `costmap_2d::ObstacleLayer` that can change at run time."""
 
     dynamic = True
 
@@ -135,7 +135,7 @@ class ObstacleConfig(LayerConfig):
 
 @dataclass(frozen=True)
 class ObstacleStatics(Parameters):
-    """Further ones of `costmap_2d::ObstacleLayer`."""
+    """Parameters of `costmap_2d::ObstacleLayer` that are read only once."""
 
     observation_sources: str = parameter("", "the names of the sources, separated by spaces")
     transform_tolerance: float = parameter(0.2, "how long a transform may take to come", unit="s")
@@ -152,12 +152,12 @@ class ObstacleStatics(Parameters):
 
 @dataclass(frozen=True)
 class ObstacleParameters(ObstacleStatics, ObstacleConfig):
-    """Of `costmap_2d::ObstacleLayer`."""
+    """All parameters of `costmap_2d::ObstacleLayer`."""
 
 
 @dataclass(frozen=True)
 class VoxelConfig(ObstacleConfig):
-    """Of `costmap_2d::VoxelLayer`, and changed while it runs."""
+    """Parameters of `costmap_2d::VoxelLayer` that can change at run time."""
 
     dynamic = True
 
@@ -172,14 +172,14 @@ class VoxelConfig(ObstacleConfig):
 
 @dataclass(frozen=True)
 class VoxelParameters(ObstacleParameters, VoxelConfig):
-    """Of `costmap_2d::VoxelLayer`."""
+    """All parameters of `costmap_2d::VoxelLayer`."""
 
     publish_voxel_map: bool = parameter(False, "publish the voxels on voxel_grid")
 
 
 @dataclass(frozen=True)
 class SourceParameters(Parameters):
-    """Of one observation source of an obstacle layer, `~global_costmap/obstacle_layer/scan/`."""
+    """Parameters of one observation source of an obstacle layer (`~global_costmap/obstacle_layer/scan/`)."""
 
     topic: str | None = parameter(None, "where it comes from; by default the name of the source")
     sensor_frame: str = parameter("", "where the sensor is; by default the frame that its messages name")
@@ -208,7 +208,7 @@ class SourceParameters(Parameters):
 
 
 def set_above(node: Node, namespace: str, name: str) -> str | None:
-    """The full name of a parameter in this namespace or the nearest one above (`searchParam`), or None."""
+    """Return the full name of a parameter in this namespace or the nearest parent (`searchParam`), or None."""
     place = node.resolve_parameter(namespace).rstrip("/")
     while True:
         if node.has_param(f"{place}/{name}"):
@@ -219,6 +219,6 @@ def set_above(node: Node, namespace: str, name: str) -> str | None:
 
 
 def found_above(node: Node, namespace: str, name: str, kind: type, default: Any) -> Any:
-    """The value of such a parameter, or the default. Raises `ParameterError` for another type."""
+    """Return the value of a parameter found this way, or the default. Raises `ParameterError` for a wrong type."""
     found = set_above(node, namespace, name)
     return default if found is None else node.get_param(found, expect=kind)

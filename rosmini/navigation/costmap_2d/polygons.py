@@ -1,4 +1,4 @@
-"""Convex polygons over a grid of costs."""
+"""Filling convex polygons in a costmap."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ Cell = tuple[int, int]
 
 
 def outline_spans(cells: list[Cell]) -> dict[int, Cell]:
-    """The lowest and the highest row, by column, of the outline of a polygon with its vertices in these cells (mx, my).
+    """Return the lowest and highest row of a polygon's outline, keyed by column; `cells` (mx, my) hold the vertices.
 
-    Its edges are Bresenham's lines, as in `rosmini.navigation.costmap_2d.rays`. Few cells: Python's own numbers are
+    The edges are Bresenham lines, as in `rosmini.navigation.costmap_2d.rays`. For so few cells Python integers are
     faster than arrays.
     """
     spans: dict[int, Cell] = {}
@@ -33,9 +33,9 @@ def outline_spans(cells: list[Cell]) -> dict[int, Cell]:
 
 
 def fill(grid: Costmap2D, polygon: ArrayLike, cost: int) -> bool:
-    """Give a cost to all cells of a convex polygon (n, 2) [m], its outline included.
+    """Set the cost of all cells in a convex polygon (n, 2) [m], including its outline.
 
-    If a vertex is outside of the grid nothing changes, and the answer is False.
+    Returns False, and changes nothing, if a vertex is outside the grid.
     """
     cells = [grid.world_to_map(x, y) for x, y in np.asarray(polygon, dtype=np.float64).tolist()]
     inside = [cell for cell in cells if cell is not None]

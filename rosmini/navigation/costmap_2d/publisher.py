@@ -1,4 +1,4 @@
-"""A grid of costs on a topic: all of it, or what has changed (http://wiki.ros.org/costmap_2d#Published_Topics)."""
+"""Publishes a costmap: the whole grid or only the changes (http://wiki.ros.org/costmap_2d#Published_Topics)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @cache
 def published_values() -> NDArray[np.int8]:
-    """The value (256) in an `OccupancyGrid` by cost: 0 to 252 become 0 to 98, 253 is 99, 254 is 100, 255 is -1."""
+    """Return the `OccupancyGrid` value of each cost (256): 0 to 98 for 0 to 252, then 99, 100, and -1 for 255."""
     costs = np.arange(256)
     table = 1 + 97 * (costs - 1) // 251
     table[0] = 0
@@ -30,7 +30,7 @@ def published_values() -> NDArray[np.int8]:
 
 
 class Costmap2DPublisher:
-    """Publishes a grid on `topic`, and rectangles of it that have changed on `topic`_updates."""
+    """Publishes a grid on `topic`, and its changed rectangles on `topic`_updates."""
 
     def __init__(
         self, node: Node, grid: Costmap2D, global_frame: str, topic: str, *, always_send_full: bool = False
@@ -49,7 +49,7 @@ class Costmap2DPublisher:
             publisher.expect_nobody()
 
     def changed(self, window: Window) -> None:
-        """Learn that cells have changed since the last message."""
+        """Record that the cells of a window have changed since the last message."""
         if not window.is_empty:
             before = self._changed or window
             self._changed = Window(
@@ -60,9 +60,9 @@ class Costmap2DPublisher:
             )
 
     def publish(self) -> None:
-        """Send what has changed; all of it if the grid has another size or origin than in the last message.
+        """Publish the changes, or the whole grid if its size or origin differs from the last message.
 
-        No message is made while nobody listens: who comes gets all of it.
+        No message is created without subscribers; a new subscriber receives the whole grid.
         """
         geometry = self._geometry()
         changed, self._changed = self._changed, None
@@ -74,7 +74,7 @@ class Costmap2DPublisher:
             self._part.publish(self._update(changed))
 
     def _greet(self, subscriber: str) -> None:
-        """A new subscriber gets all of it at once."""
+        """Send the whole grid to a new subscriber."""
         self._whole.publish_to(subscriber, self._message())
 
     def _geometry(self) -> tuple[Any, ...]:

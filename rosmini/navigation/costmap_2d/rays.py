@@ -1,7 +1,7 @@
-"""Rays over a grid: lines of cells, and what a beam clears.
+"""Rays on a grid: the cells of a line, and clearing cells along beams.
 
-Lines are Bresenham's: along the longer axis one cell after the other, along the shorter the cell nearest to the line
-between the middles of both ends.
+Lines are Bresenham lines: one cell per step along the longer axis, and on the shorter axis the cell nearest to the line
+between the centres of the end cells.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Ints = NDArray[np.int64]
 
 
 def line_cells(x0: int, y0: int, x1: int, y1: int) -> tuple[Ints, Ints]:
-    """The columns (n) and rows (n) of the cells of a line, both ends included."""
+    """Return the columns (n) and rows (n) of the cells on a line, including both ends."""
     dx, dy = abs(x1 - x0), abs(y1 - y0)
     longer, shorter = max(dx, dy), min(dx, dy)
     along = np.arange(longer + 1)
@@ -32,7 +32,7 @@ def line_cells(x0: int, y0: int, x1: int, y1: int) -> tuple[Ints, Ints]:
 def clip_end(
     ox: float, oy: float, wx: float, wy: float, x0: float, y0: float, x1: float, y1: float
 ) -> tuple[float, float]:
-    """The end of a ray from (ox, oy) to (wx, wy), moved along it into the rectangle from (x0, y0) to (x1, y1)."""
+    """Return the end of a ray from (ox, oy) to (wx, wy), clipped to the rectangle from (x0, y0) to (x1, y1)."""
     a, b = wx - ox, wy - oy
     if wx < x0:
         wx, wy = x0, oy + b * ((x0 - ox) / a)
@@ -56,21 +56,21 @@ def clear_rays(
     reach: int,
     value: int,
 ) -> tuple[int, int, int, int]:
-    """Write `value` into the cells between a sensor and each point that it saw, and into the point's own.
+    """Write `value` into the cells from a sensor to each observed point, including the point's cell.
 
     Args:
-        costs: the grid (h, w), changed in place.
+        costs: the grid (h, w), modified in place.
         origin_x: the left edge of the grid [m].
-        origin_y: its lower edge [m].
-        resolution: of a cell [m].
-        ox: the sensor, which is over the grid [m].
-        oy: likewise.
-        points: what it saw (n, 3) [m], in the grid's frame.
-        reach: how far a ray clears [cells].
-        value: the cost that is written.
+        origin_y: the lower edge of the grid [m].
+        resolution: the side of a cell [m].
+        ox: the sensor's x [m]; the sensor must be inside the grid.
+        oy: the sensor's y [m].
+        points: the observed points (n, 3) [m], in the grid's frame.
+        reach: maximum length of a cleared ray [cells].
+        value: the cost to write.
 
     Returns:
-        The first column and row that were written, and the last.
+        The first column, first row, last column and last row that were written.
 
     """
     height, width = costs.shape
@@ -113,7 +113,7 @@ def clear_rays(
 
 @cache
 def compiled_clear_rays() -> Callable[..., tuple[int, int, int, int]]:
-    """`clear_rays` as machine code, or without numba as it is."""
+    """Return `clear_rays` compiled by numba, or the plain function if numba is not installed."""
     try:
         import numba
     except ImportError:

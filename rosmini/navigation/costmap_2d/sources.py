@@ -1,4 +1,4 @@
-"""Observation sources: a topic whose messages wait for their transform and become observations."""
+"""Observation sources: topics whose messages become observations once their transforms are available."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from rosmini.core.tf import Buffer
 
 QUEUE = 50
-"""Messages that may wait for their transform."""
+"""Maximum number of messages waiting for their transforms."""
 TOLERANCE = 0.05
-"""A message waits until its transform is known for this much later, too [s]."""
+"""A message also waits until its transform is known this long after its stamp [s]."""
 PROJECTIONS: dict[str, Callable[[Any], Floats]] = {
     "LaserScan": scan_cloud,
     "PointCloud": cloud_points,
@@ -31,7 +31,7 @@ PROJECTIONS: dict[str, Callable[[Any], Floats]] = {
 
 
 class ObservationSource:
-    """One source of an obstacle layer: the parameters in `namespace` say what it is."""
+    """One source of an obstacle layer, described by the parameters in `namespace`."""
 
     def __init__(self, node: Node, buffer: Buffer, namespace: str, name: str, global_frame: str) -> None:
         self.node, self.buffer, self.name = node, buffer, name
@@ -61,7 +61,7 @@ class ObservationSource:
         self.activate()
 
     def activate(self) -> None:
-        """Subscribe."""
+        """Subscribe to the topic."""
         if self._subscriber is not None:
             return
         sensor = self.settings.sensor_frame.lstrip("/")
@@ -81,14 +81,14 @@ class ObservationSource:
         )
 
     def deactivate(self) -> None:
-        """Leave the topic."""
+        """Unsubscribe from the topic."""
         if self._subscriber is not None and self._filter is not None:
             self._subscriber.unregister()
             self._filter.close()
         self._subscriber = self._filter = None
 
     def is_current(self) -> bool:
-        """Whether messages come as often as expected; if not, that is said."""
+        """Return True if messages arrive at the expected rate, otherwise log a warning."""
         late = self.observations.late_by(self.node.clock.now_ns())
         if late is None:
             return True

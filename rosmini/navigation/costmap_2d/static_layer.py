@@ -1,4 +1,4 @@
-"""`costmap_2d::StaticLayer`: the map (http://wiki.ros.org/costmap_2d/hydro/staticmap)."""
+"""`costmap_2d::StaticLayer`: the costs of a map (http://wiki.ros.org/costmap_2d/hydro/staticmap)."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from .layer import Bounds, CostmapLayer, Window
 from .parameters import LayerConfig, StaticParameters
 
 PATIENCE = 5.0
-"""After so many seconds without a map it is said what is missing [s]."""
+"""Interval between warnings while the map is missing [s]."""
 
 
 def cost_table(settings: StaticParameters) -> Costs:
-    """The cost (256) by the byte of a cell of a map, -1 as 255."""
+    """Return the cost (256) for each map value, taken as an unsigned byte (-1 is 255)."""
     values = np.arange(256)
     lethal = max(min(settings.lethal_cost_threshold, 100), 0)
-    # A threshold of 0 makes everything an obstacle; nothing is divided by it.
+    # With a threshold of 0 every cell is an obstacle; avoid dividing by it.
     table = np.zeros(256) if settings.trinary_costmap else values / max(lethal, 1) * LETHAL_OBSTACLE
     table[values >= lethal] = LETHAL_OBSTACLE
     costs = table.astype(np.uint8)
@@ -33,7 +33,7 @@ def cost_table(settings: StaticParameters) -> Costs:
 
 
 class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
-    """Takes the map from a topic, waits for the first one, and gives the costmap its size."""
+    """Subscribes to a map, blocks until the first one arrives, and sets the size of the costmap."""
 
     def on_initialize(self) -> None:
         """Read the parameters and wait for the map."""
@@ -45,11 +45,11 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
 
     @property
     def topics(self) -> tuple[str, ...]:
-        """The map's, and that of its updates if they are subscribed to."""
+        """The topic of the map and, if subscribed, that of its updates."""
         return tuple(each.topic for each in self._subscribers)
 
     def _listen(self) -> None:
-        """Read the parameters; subscribe to the map, unless that is done, and wait for it."""
+        """Read the parameters, subscribe to the map unless already subscribed, and wait for it."""
         node = self.node
         self._settings = StaticParameters.read(node, self.namespace)
         self._table = cost_table(self._settings)
@@ -139,29 +139,29 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         return costs
 
     def match_size(self) -> None:
-        """The size of a rolling window has nothing to do with that of the map."""
+        """Keep the map's size in a rolling window; otherwise adopt that of the master grid."""
         if not self.layered.is_rolling:
             super().match_size()
 
     def activate(self) -> None:
-        """Ask for the map again."""
+        """Subscribe to the map again."""
         self._listen()
 
     def deactivate(self) -> None:
-        """Leave the topics of the map."""
+        """Unsubscribe from the map's topics."""
         for subscriber in self._subscribers:
             subscriber.unregister()
         self._subscribers = []
 
     def reset(self) -> None:
-        """Take the map again."""
+        """Reread the map."""
         if self._settings.first_map_only:
             self._changed = self._whole()
         else:
             self._listen()
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """All of the map if it is new; in a rolling window always."""
+        """Include the whole map if it is new, and always in a rolling window."""
         del robot
         extra = self.use_extra_bounds(bounds)
         if self._received and (self.layered.is_rolling or self._changed is not None or extra):
@@ -172,7 +172,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             self._changed = None
 
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
-        """Write the map."""
+        """Write the map's costs."""
         if not self._received:
             return
         if self.layered.is_rolling:
@@ -183,7 +183,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             self.update_with_true_overwrite(grid, window)
 
     def _write_moved(self, grid: Costmap2D, window: Window) -> None:
-        """Write into each cell of a window that is elsewhere what the map has there."""
+        """Write the map's costs into a rolling window, whose frame may differ from the map's."""
         try:
             found = self.buffer.tree.lookup(self._map_frame, self.layered.global_frame)
         except TransformException as error:
@@ -198,7 +198,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         np.copyto(target, costs, where=inside)
 
     def _map_cells(self, grid: Costmap2D, window: Window, pose: Any) -> tuple[Any, Any]:
-        """The column and row (h, w) in the map of each cell of the window."""
+        """Return the map column and row (h, w) of each cell in the window."""
         x, y = grid.map_to_world(window.x0, window.y0)
         wx = x + np.arange(window.xn - window.x0) * grid.resolution
         wy = (y + np.arange(window.yn - window.y0) * grid.resolution)[:, None]

@@ -1,4 +1,4 @@
-"""`costmap_2d::VoxelLayer`: obstacles by height, in columns of voxels (http://wiki.ros.org/costmap_2d/hydro/obstacles)."""
+"""`costmap_2d::VoxelLayer`: obstacles by height, in voxel columns (http://wiki.ros.org/costmap_2d/hydro/obstacles)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ CLEAR = "rosmini.navigation.costmap_2d.voxels:compiled_clear_voxels"
 
 
 class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
-    """An obstacle layer that knows how high things are: a ray over a box does not clear the box."""
+    """An obstacle layer with heights: a ray that passes above a box does not clear the box."""
 
     config = VoxelConfig
     settings_class = VoxelParameters
@@ -37,7 +37,7 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         self._grids: Any = None
 
     def on_initialize(self) -> None:
-        """Read the parameters, subscribe to the sources, advertise."""
+        """Read the parameters, subscribe to the sources, and advertise the topics."""
         super().on_initialize()
         self._ends = self.node.publisher(
             f"{self.namespace}clearing_endpoints", message_class("sensor_msgs/PointCloud"), queue_size=1
@@ -53,37 +53,37 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         self.size_z, self.origin_z = config["z_voxels"], config["origin_z"]
         self.z_resolution = max(config["z_resolution"], 1e-6)
         self._mark_threshold = config["mark_threshold"]
-        # The bits above the column stay unknown for ever.
+        # The bits above the top of the column always stay unknown.
         self._unknown_threshold = config["unknown_threshold"] + BITS - self.size_z
         result = super()._reconfigure(config, level)
         self.match_size()
         return result
 
     def match_size(self) -> None:
-        """Begin with columns of which nothing is known."""
+        """Start with unknown columns."""
         super().match_size()
         self.columns = np.full(self.costs.shape, UNKNOWN, dtype=np.int64)
 
     def reset(self) -> None:
-        """Forget all obstacles."""
+        """Clear all obstacles."""
         self.columns[...] = UNKNOWN
         super().reset()
 
     def roll(self, robot: Pose) -> tuple[int, int]:
-        """Move costs and columns with the robot."""
+        """Move the costs and columns with the robot."""
         dx, dy = super().roll(robot)
         if (dx, dy) != (0, 0):
             self.columns = shifted(self.columns, dx, dy, UNKNOWN)
         return dx, dy
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """As the obstacle layer, and publish the voxels."""
+        """Update like the obstacle layer, and publish the voxels."""
         super().update_bounds(robot, bounds)
         if self._grids is not None and self._grids.num_connections():
             self._grids.publish(self._message())
 
     def clear(self, observation: Observation, bounds: Bounds) -> None:
-        """Let the voxels between the sensor and what it saw be free."""
+        """Clear the voxels between the sensor and the observed points."""
         grid, (ox, oy, oz) = self.grid, observation.origin
         top = self.origin_z + self.size_z * self.z_resolution
         if grid.world_to_map(ox, oy) is None or not self.origin_z <= oz < top:
@@ -106,7 +106,7 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
             self._ends.publish(self._cloud(observation))
 
     def mark(self, observation: Observation, bounds: Bounds) -> None:
-        """Mark the voxels of what the sensor saw; a column with more than `mark_threshold` is an obstacle."""
+        """Mark the observed voxels; a column with more than `mark_threshold` marked voxels is an obstacle."""
         points = self._near(observation)
         mx, my = np.floor((points[:, :2] - self.grid.origin) / self.grid.resolution).astype(np.int64).T
         height = np.maximum(points[:, 2], self.origin_z) - self.origin_z
@@ -121,7 +121,7 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
             bounds.touch_cells(self.grid, Window(mx.min(), my.min(), mx.max() + 1, my.max() + 1))
 
     def explain(self, mx: int, my: int) -> tuple[int | None, str]:
-        """Its cost, and at which heights there is something."""
+        """Return the layer's cost at a cell, and the heights of its marked voxels."""
         cost, words = super().explain(mx, my)
         cell = self.grid.world_to_map(*self.layered.grid.map_to_world(mx, my))
         heights = [] if cell is None else heights_of(int(self.columns[cell[1], cell[0]]), self.size_z)
@@ -145,7 +145,7 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         return message
 
     def _cloud(self, observation: Observation) -> Any:
-        """Where the rays of an observation ended."""
+        """Return the end points of an observation's rays as a point cloud."""
         cloud = message_class("sensor_msgs/PointCloud")()
         cloud.header.frame_id, cloud.header.stamp = self.layered.global_frame, self.node.now()
         point = message_class("geometry_msgs/Point32")

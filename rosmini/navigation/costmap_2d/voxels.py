@@ -1,7 +1,7 @@
-"""Columns of voxels under each cell: which are marked, which are unknown, and what a ray clears (voxel_grid).
+"""Voxel columns, one per cell, with marked and unknown voxels, and clearing along rays (voxel_grid).
 
-A column is a number: bit z says that voxel z is not known to be free, bit 16 + z that it is marked. So a voxel is
-unknown with the first alone, marked with both, and free with neither.
+A column is an integer: bit z is set unless voxel z is known to be free, and bit 16 + z is set if voxel z is marked. A
+voxel with only the first bit is unknown, with both bits marked, and with neither free.
 """
 
 from __future__ import annotations
@@ -19,35 +19,35 @@ from rosmini.core.geometry.machine_code import machine_code
 Columns = NDArray[np.int64]
 
 BITS = 16
-"""Voxels of a column, at most."""
+"""Maximum number of voxels in a column."""
 UNKNOWN = (1 << BITS) - 1
-"""A column of which nothing is known."""
+"""A column whose voxels are all unknown."""
 
 
 @cache
 def _counts() -> NDArray[np.uint8]:
-    """How many bits a number of 16 bits has."""
+    """Return the number of set bits for each 16-bit integer."""
     return np.array([number.bit_count() for number in range(1 << BITS)], dtype=np.uint8)
 
 
 def marked_count(columns: Columns) -> NDArray[np.uint8]:
-    """How many voxels of columns (...) are marked."""
+    """Return the number of marked voxels in each column (...)."""
     counts: NDArray[np.uint8] = _counts()[columns >> BITS]
     return counts
 
 
 def mark_voxels(columns: Columns, mx: Any, my: Any, mz: Any) -> None:
-    """Mark voxels (n), in place."""
+    """Mark voxels (n) in place."""
     np.bitwise_or.at(columns, (my, mx), (1 << mz) | (1 << (mz + BITS)))
 
 
 def heights_of(column: int, size_z: int) -> list[int]:
-    """The voxels of a column that are marked, from below."""
+    """Return the indices of the marked voxels in a column, lowest first."""
     return [z for z in range(size_z) if column >> (BITS + z) & 1]
 
 
 def bits_of(number: int) -> int:
-    """How many bits a number has."""
+    """Return the number of set bits."""
     count = 0
     while number:
         number &= number - 1
@@ -56,7 +56,7 @@ def bits_of(number: int) -> int:
 
 
 def share_of_ray(value: float, start: float, low: float, high: float, share: float) -> float:
-    """How much of a ray that goes from `start` to `value` on one axis is between `low` and `high`; `share` at most."""
+    """Return the fraction of a ray from `start` to `value` on one axis between `low` and `high`, up to `share`."""
     if value < low:
         return min(share, (low - start) / (value - start))
     if value > high:
@@ -75,22 +75,22 @@ def clear_voxels(
     mark_threshold: int,
     unknown_threshold: int,
 ) -> tuple[int, int, int, int]:
-    """Clear the voxels between a sensor and two cells before each point that it saw, and the costs of their columns.
+    """Clear the voxels from a sensor to two cells before each observed point, and update the costs of their columns.
 
     Args:
-        columns: of voxels (h, w), changed in place.
-        costs: likewise: 0 where so few voxels are marked and unknown, 255 where too many are unknown.
-        frame: the grid's left and lower edge and its floor [m], the side of a cell and the height of a voxel [m], and
-            the greatest height of obstacles [m].
-        sensor: x, y, z [m], in the grid.
-        points: what it saw (n, 3) [m].
-        size_z: voxels of a column.
-        reach: how far a ray clears [cells].
-        mark_threshold: so many marked voxels a free column may have.
-        unknown_threshold: so many unknown ones, those above `size_z` included.
+        columns: the voxel columns (h, w), modified in place.
+        costs: the costs (h, w), modified in place: 0 if few voxels are marked and unknown, 255 if many are unknown.
+        frame: the grid's left edge, lower edge and floor [m], the side of a cell and the height of a voxel [m], and
+            the maximum obstacle height [m].
+        sensor: the sensor's x, y, z [m], inside the grid.
+        points: the observed points (n, 3) [m].
+        size_z: number of voxels in a column.
+        reach: maximum length of a cleared ray [cells].
+        mark_threshold: maximum number of marked voxels in a free column.
+        unknown_threshold: maximum number of unknown voxels in a free column, including those above `size_z`.
 
     Returns:
-        The first column and row that were passed, and the last.
+        The first column, first row, last column and last row that were passed.
 
     """
     height, width = costs.shape
@@ -153,7 +153,7 @@ def clear_voxels(
 
 @cache
 def compiled_clear_voxels() -> Callable[..., tuple[int, int, int, int]]:
-    """`clear_voxels` as machine code, or without numba as it is."""
+    """Return `clear_voxels` compiled by numba, or the plain function if numba is not installed."""
     try:
         import numba
     except ImportError:
