@@ -1,7 +1,7 @@
-"""Where a robot is on a known map: Monte Carlo localisation with as many particles as it takes (http://wiki.ros.org/amcl).
+"""Monte Carlo localisation on a known map with an adaptive number of particles (http://wiki.ros.org/amcl).
 
-The algorithm is that of Fox (KLD-sampling, 2003) with the recovery of Gutmann and Fox (augmented MCL, 2002), as
-Probabilistic Robotics (Thrun, Burgard, Fox, 2005) has it in chapters 5, 6 and 8: `motion`, `laser`, `filter`, apart
+The algorithm is KLD-sampling (Fox, 2003) with the recovery of augmented MCL (Gutmann and Fox, 2002), as described in
+chapters 5, 6 and 8 of Probabilistic Robotics (Thrun, Burgard, Fox, 2005): `motion`, `laser` and `filter` are separate
 from the node.
 """
 

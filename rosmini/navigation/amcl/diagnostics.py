@@ -1,4 +1,4 @@
-"""What amcl says of its own certainty on `/diagnostics`: deviations, and whether one is too large."""
+"""The message that amcl publishes on `/diagnostics`: standard deviations, and whether one is too large."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ AXES = ("x", "y", "yaw")
 
 
 def deviations(node_name: str, covariance: NDArray[Any], limits: AmclParameters, stamp: Time) -> Any:
-    """A `diagnostic_msgs/DiagnosticArray` about a covariance (3, 3) of x, y [m2] and heading [rad2]."""
+    """Return a `diagnostic_msgs/DiagnosticArray` for a covariance (3, 3) of x, y [m2] and heading [rad2]."""
     spread = [math.sqrt(max(0.0, float(covariance[axis, axis]))) for axis in range(3)]
     allowed = [getattr(limits, f"std_warn_level_{axis}") for axis in AXES]
     status = message_class("diagnostic_msgs/DiagnosticStatus")()

@@ -1,4 +1,4 @@
-"""How far cells are from the nearest occupied one, and how far a beam goes until it meets one."""
+"""Distances from cells to the nearest occupied cell, and ranges of beams until they hit an occupied cell."""
 
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ Floats = NDArray[np.float64]
 Table = NDArray[np.float32]
 
 NUDGE = 1e-4
-"""A beam goes so much [cells] past the border of a cell, so that rounding does not leave it before the border."""
+"""A beam steps this distance [cells] past the border of a cell, so that rounding does not leave it short of it."""
 ROUNDING = 2e-6
-"""And so much of its longest way, which is a few times what `float32` rounds."""
+"""An addition to that, as a fraction of the maximum range; a few times the rounding error of `float32`."""
 UPRIGHT = 1e-7
-"""What moves a beam by less sideways [cells a cell] moves it nowhere."""
+"""Minimum absolute value of a beam's direction along each axis, which avoids dividing by zero."""
 CORNER = 1.4143
-"""From the middle of a cell to its corner, and from the nearest blocked cell's middle to its corner [cells]."""
+"""Half a cell diagonal in the beam's cell plus half of one in the nearest blocked cell [cells]."""
 SHARE = 0.4
-"""Beams that have ended are taken out of the arrays when so many have, since taking out costs as much as a step."""
+"""Fraction of finished beams at which they are removed from the arrays; removing costs as much as a step."""
 ROUNDS = 8
-"""Or after so many steps."""
+"""Number of steps after which finished beams are removed in any case."""
 
 
 def distances(occupied: Bools, farthest: int) -> NDArray[np.float32]:
-    """The exact distance of each cell (h, w) from the middle of the nearest occupied one [cells], at most `farthest`.
+    """Return the exact distance of each cell (h, w) from the centre of the nearest occupied cell [cells].
 
-    By rows, then by columns: a squared distance is the least of squares along the row plus squares along the column.
+    At most `farthest`. A squared distance is the minimum of squares along the row plus squares along the column.
     """
     height, width = occupied.shape
     limit = farthest + 1
-    # Narrow numbers, if the largest sum of two squares fits: on a large map the time goes into moving memory.
+    # Use a narrow integer type if the largest sum of two squares fits: on a large map memory traffic takes the time.
     small = np.uint16 if 2 * limit * limit < 1 << 16 else np.int32
     row = np.full((height, width), limit, dtype=small)
     row[occupied] = 0
@@ -49,9 +49,9 @@ def distances(occupied: Bools, farthest: int) -> NDArray[np.float32]:
 
 
 def clearances(blocked: Bools, farthest: int) -> Table:
-    """How far a beam may go from anywhere in a cell without a look [cells]; -1 where it ends.
+    """Return how far a beam may go from anywhere in a cell without another lookup [cells]; -1 in blocked cells.
 
-    Shape (h + 2, w + 2): the map has a border at which beams end, too.
+    The shape is (h + 2, w + 2), because the map gets a blocked border.
     """
     walled = np.pad(blocked, 1, constant_values=True)
     free = np.maximum(distances(walled, farthest) - CORNER, 0.0)
@@ -59,10 +59,10 @@ def clearances(blocked: Bools, farthest: int) -> Table:
 
 
 def march(clear: Table, poses: Floats, bearings: Floats, limit: float) -> Floats:
-    """How far (n, b) [cells] beams go from poses (n, 3) [cells, cells, rad] at bearings [rad], at most `limit`.
+    """Return the ranges (n, b) [cells] of beams from poses (n, 3) [cells, cells, rad] at bearings [rad], up to `limit`.
 
-    All beams take a step at once: as far as is surely free, or else up to the border of the cell (sphere tracing, Hart
-    1996, on a grid). So it is exact up to corners that a beam cuts by less than `NUDGE`.
+    All beams step at once: by the distance that is certainly free, or else to the border of the cell (sphere tracing,
+    Hart 1996, on a grid). The result is exact except where a beam cuts a corner by less than `NUDGE`.
     """
     width, beams = clear.shape[1], len(bearings)
     rays, base = rays_from(clear.shape, poses, bearings, NUDGE + ROUNDING * limit)
@@ -94,10 +94,10 @@ def march(clear: Table, poses: Floats, bearings: Floats, limit: float) -> Floats
 def rays_from(
     shape: tuple[int, ...], poses: Floats, bearings: Floats, nudge: float
 ) -> tuple[Table, NDArray[np.int32]]:
-    """What `march` needs of each beam: (8, n b), two rows each, and the index (n b,) of the cell where it starts.
+    """Return the values that `march` needs for each beam (8, n b), and the index (n b,) of its first cell.
 
-    Rows: direction; start within its cell; where in a cell a beam leaves it, which is `nudge` past the border; and the
-    reciprocal of the direction.
+    The rows are pairs of x and y: direction; start within the cell; coordinate at which a beam leaves a cell, which is
+    `nudge` past the border; reciprocal of the direction.
     """
     height, width = shape
     low = np.floor(poses[:, :2])

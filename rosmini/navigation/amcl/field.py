@@ -1,8 +1,8 @@
-"""How likely a laser's beams are from where: the likelihood field and the beam model.
+"""The likelihood of laser beams at each position: the likelihood field and the beam model.
 
-Thrun, Burgard and Fox, Probabilistic Robotics (2005), sections 6.3 and 6.4. A field is a table: what a beam that ends
-in a cell adds to the likelihood of a particle, so that scoring is looking up. As in the original
-(http://wiki.ros.org/amcl), beams are not multiplied but their cubes added, for neighbours are not independent.
+Thrun, Burgard and Fox, Probabilistic Robotics (2005), sections 6.3 and 6.4. A field is a table of what a beam that ends
+in a cell adds to a particle's likelihood, so scoring is a lookup. As in the original (http://wiki.ros.org/amcl), the
+cubes of the likelihoods are added, instead of multiplying likelihoods, because neighbouring beams are not independent.
 """
 
 from __future__ import annotations
@@ -31,28 +31,28 @@ SCORES = f"{__name__}:compiled_scores"
 
 @dataclass(frozen=True)
 class BeamMixture:
-    """What a beam may be, and how often: http://wiki.ros.org/amcl#Laser_model_parameters."""
+    """Frequencies of the causes of a range, see http://wiki.ros.org/amcl#Laser_model_parameters."""
 
     z_hit: float = 0.95
     z_short: float = 0.1
     z_max: float = 0.05
     z_rand: float = 0.05
     sigma_hit: float = 0.2
-    """Of a beam that hits what is in the map [m]."""
+    """Standard deviation of a beam that hits an obstacle in the map [m]."""
     lambda_short: float = 0.1
-    """Of beams that end too early [1/m]."""
+    """Decay rate of beams that end too early [1/m]."""
 
 
 class LikelihoodField:
-    """A map of which it is known how likely a beam ends where.
+    """A map with the likelihood of beams that end in each cell.
 
     Args:
-        occupied: (h, w), row 0 at the bottom: the cells that are surely occupied.
+        occupied: (h, w), row 0 at the bottom: the occupied cells.
         resolution: the side of a cell [m].
         origin: x and y of the lower left corner of cell (0, 0) [m].
-        farthest: what is farther from everything is taken to be so far [m].
-        free: (h, w): the cells that a beam passes; what is not occupied, by default. As in the original a beam of the
-            beam model ends where nothing is known, too.
+        farthest: upper bound of the distances to occupied cells [m].
+        free: (h, w): the cells that a beam passes; by default all that are not occupied. As in the original, beams of
+            the beam model also end in unknown cells.
 
     """
 
@@ -71,17 +71,17 @@ class LikelihoodField:
         self.distance: Table = np.minimum(distances(self.occupied, cells) * resolution, farthest).astype(
             np.float32
         )
-        """(h, w) [m]."""
+        """Distances (h, w) to the nearest occupied cell [m]."""
         self._table: tuple[tuple[BeamMixture, float, Form], Table, float] | None = None
-        """The table that was used last, for beams of the same laser."""
+        """The table used last, kept for further beams of the same laser."""
         self._clear: Table | None = None
-        """What `march` needs, as soon as the beam model asks."""
+        """The clearances for `march`; computed when the beam model first needs them."""
 
     def densities(self, mixture: BeamMixture, range_max: float, form: Form) -> tuple[Table, float]:
-        """A form of the density of a beam by the cell (h, w) that it ends in, and that of one that ends outside."""
+        """Return the formed density of a beam for the cell (h, w) where it ends, and that of a beam ending outside."""
         wanted = (mixture, range_max, form)
         if self._table is None or self._table[0] != wanted:
-            # The squared distance is a whole number of squared cells: few values, so the map is only looked up.
+            # Squared distances are whole numbers of squared cells, so the few possible values can be tabulated.
             steps = np.rint((self.distance / self.resolution) ** 2).astype(np.int32)
             values = np.arange(int(steps.max()) + 1) * self.resolution**2
             values = np.append(np.minimum(values, self.farthest**2), self.farthest**2)
@@ -94,9 +94,9 @@ class LikelihoodField:
         return table, outside
 
     def sums(self, table: Table, outside: float, poses: Floats, ends: Floats) -> Floats:
-        """For each pose (n, 3) the sum over beams of what stands in `table` where they end.
+        """Return for each pose (n, 3) the sum over all beams of the `table` values at their ends.
 
-        `ends` (b, 2) are the ends of the beams in the frame of the poses [m].
+        `ends` (b, 2) are the beam ends in the frame of the poses [m].
         """
         sums: Floats = np.empty(len(poses))
         kernel(SCORES)(
@@ -111,7 +111,7 @@ class LikelihoodField:
         return sums
 
     def each(self, table: Table, outside: float, poses: Floats, ends: Floats) -> Floats:
-        """The same beam by beam (n, b)."""
+        """Return the `table` values at the beam ends for each pose and beam (n, b)."""
         cos, sin = np.cos(poses[:, 2])[:, None], np.sin(poses[:, 2])[:, None]
         x = poses[:, 0, None] + cos * ends[:, 0] - sin * ends[:, 1]
         y = poses[:, 1, None] + sin * ends[:, 0] + cos * ends[:, 1]
@@ -124,7 +124,7 @@ class LikelihoodField:
         return found
 
     def ranges(self, poses: Floats, bearings: Floats, range_max: float) -> Floats:
-        """How far (n, b) [m] the map lets a beam go from each pose at each bearing [rad], at most `range_max`."""
+        """Return the range (n, b) [m] of a beam from each pose at each bearing [rad], at most `range_max`."""
         if self._clear is None:
             cells = max(1, round(self.farthest / self.resolution))
             self._clear = clearances(self.blocked, cells)
@@ -136,7 +136,7 @@ class LikelihoodField:
 def scores(
     table: Any, outside: float, left: float, low: float, per_metre: float, poses: Any, ends: Any, sums: Any
 ) -> None:
-    """See `LikelihoodField.sums`."""
+    """Compute `LikelihoodField.sums` with scalar loops."""
     height, width = table.shape
     for n in range(poses.shape[0]):
         cos, sin = math.cos(poses[n, 2]), math.sin(poses[n, 2])
@@ -154,7 +154,7 @@ def scores(
 
 @cache
 def compiled_scores() -> Callable[..., None]:
-    """`scores` as machine code, or as it is without numba."""
+    """Return `scores` compiled by numba, or the plain function if numba is not installed."""
     try:
         from numba import float32, float64, void
     except ImportError:

@@ -1,11 +1,11 @@
-"""The particle filter: weights from likelihoods, and as many particles resampled as it takes.
+"""The particle filter: weights from likelihoods, and resampling with an adaptive number of particles.
 
 KLD-sampling: Fox, Adapting the sample size in particle filters through KLD-sampling (IJRR 2003). Recovery:
-Probabilistic Robotics, section 8.3.3 (augmented MCL). Random numbers come from the generator that it is given.
+Probabilistic Robotics, section 8.3.3 (augmented MCL). Random numbers come from the generator passed to the filter.
 
-One defect of the original is not copied: there the average likelihood that the recovery watches is divided by the
-number of particles twice, so that it jumps whenever their number changes. Here it is the average. And there a cluster
-ends where the heading wraps around; here it does not, so that a robot that looks along -x has one mean, not two.
+Two defects of the original are not copied. It divides the average likelihood, from which recovery is triggered, by the
+number of particles twice, so that it jumps whenever the number changes. And its clusters end where the heading wraps
+around, so that a robot that faces -x has two means; here it has one.
 """
 
 from __future__ import annotations
@@ -28,42 +28,42 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 BINS = (0.5, 0.5, math.radians(10))
-"""The sides of the histogram's cells [m, m, rad]."""
+"""Dimensions of a histogram cell [m, m, rad]."""
 CIRCLE = 36
-"""Cells of the histogram along the heading."""
+"""Number of histogram cells along the heading."""
 LEAST_ERROR = 1e-9
-"""What a `kld_err` of 0 counts as: as many particles as there may be."""
+"""Lower bound of `kld_err`: a value of 0 gives the maximum number of particles."""
 GRAIN = 1 << 48
-"""Weights are drawn by whole parts of this: a last bit that differs between machines draws the same particle."""
+"""Weights are rounded to multiples of 1 / GRAIN, so that every machine draws the same particles."""
 NEAR = 0.5
-"""The particles have converged when all are within so much [m] of their mean, along x and y."""
+"""Convergence threshold: all particles lie within this distance [m] of their mean, along x and along y."""
 
 Uniform = Callable[[int], Floats]
-"""Draws so many poses (n, 3) from all that a map leaves free."""
+"""Draws a number of poses (n, 3) uniformly from the free cells of a map."""
 
 
 @dataclass(frozen=True)
 class Cluster:
-    """Particles that lie together."""
+    """A group of neighbouring particles."""
 
     weight: float
     mean: Pose
     covariance: Floats
-    """(3, 3) of x, y [m2] and heading, where the last is circular: minus twice the logarithm of the mean's length."""
+    """Covariance (3, 3) of x, y [m2] and heading (circular: minus twice the logarithm of the mean's length)."""
     count: int
 
 
 class ParticleFilter:
-    """Poses with weights that stand for where the robot may be.
+    """Weighted poses that represent the belief about the robot's pose.
 
     Args:
         fewest, most: bounds of the number of particles.
-        error: the divergence between the true distribution and the particles' that may remain (`kld_err`).
-        quantile: of the normal distribution, for the probability that it is met (`kld_z`).
-        slow, fast: rates at which the two averages of the likelihood follow (`recovery_alpha_slow`, `..._fast`); with 0
-            no particle is ever drawn at random.
-        random: where its random numbers come from.
-        selective: resample only when fewer than half of the particles count (`selective_resampling`).
+        error: maximum divergence between the true distribution and that of the particles (`kld_err`).
+        quantile: normal quantile of the probability that the divergence is within that bound (`kld_z`).
+        slow, fast: decay rates of the long-term and short-term likelihood averages (`recovery_alpha_slow`, `..._fast`);
+            0 disables random particles.
+        random: the generator of all random numbers.
+        selective: resample only if the effective number is below half of the particles (`selective_resampling`).
 
     """
 
@@ -100,7 +100,7 @@ class ParticleFilter:
         self._begin(drawn)
 
     def initialize_uniform(self, uniform: Uniform) -> None:
-        """Draw all particles from everywhere: global localisation."""
+        """Draw all particles uniformly from the free space, for global localisation."""
         self._begin(uniform(self.most))
 
     def _begin(self, particles: Floats) -> None:
@@ -112,7 +112,7 @@ class ParticleFilter:
     # -- the sensor ----------------------------------------------------------------------------------------------
 
     def weigh(self, log_likelihoods: Floats) -> None:
-        """Multiply the weights with likelihoods (n,), and normalise them; if none is above 0, all are equal."""
+        """Multiply the weights by likelihoods (n,) and normalise them; if no likelihood is above 0, make them equal."""
         top = float(log_likelihoods.max())
         if not math.isfinite(top):
             self.weights = np.full(len(self.weights), 1 / len(self.weights))
@@ -129,18 +129,18 @@ class ParticleFilter:
 
     @property
     def effective(self) -> float:
-        """How many particles count: 1 over the sum of the squared weights (Neff)."""
+        """The effective number of particles: 1 over the sum of the squared weights (Neff)."""
         return float(1 / np.square(self.weights).sum())
 
     @property
     def random_share(self) -> float:
-        """The share of particles that resampling draws at random: what the likelihood has lost of late."""
+        """The fraction of particles that resampling draws at random; it grows when the likelihood drops."""
         return max(0.0, 1 - self.average_fast / self.average_slow) if self.average_slow > 0 else 0.0
 
     # -- resampling ----------------------------------------------------------------------------------------------
 
     def limit(self, bins: Ints) -> Ints:
-        """How many particles it takes, for each number of histogram cells that are occupied."""
+        """Return the required number of particles for each number of occupied histogram cells."""
         least = np.maximum(bins - 1, 1).astype(float)
         part = 2 / (9 * least)
         root = 1 - part + np.sqrt(part) * self.quantile
@@ -149,7 +149,7 @@ class ParticleFilter:
         return limits
 
     def resample(self, uniform: Uniform) -> None:
-        """Draw particles by their weights, until there are enough for the histogram cells that they occupy."""
+        """Draw particles by weight until there are enough for the number of histogram cells that they occupy."""
         if self.selective and self.effective > 0.5 * len(self.particles):
             return
         share = self.random_share
@@ -175,7 +175,7 @@ class ParticleFilter:
     # -- the answer ----------------------------------------------------------------------------------------------
 
     def clusters(self) -> list[Cluster]:
-        """Particles in adjacent cells of the histogram, the heaviest cluster first."""
+        """Return clusters of particles in adjacent histogram cells, heaviest first."""
         labels = clustered(cells(self.particles))
         found = [
             summed(self.particles[labels == label], self.weights[labels == label])
@@ -184,19 +184,19 @@ class ParticleFilter:
         return sorted(found, key=lambda cluster: -cluster.weight)
 
     def mean(self) -> Cluster:
-        """All particles as one cluster."""
+        """Return all particles as one cluster."""
         return summed(self.particles, self.weights)
 
 
 def cells(particles: Floats) -> Ints:
-    """The cell (n, 3) of the histogram that each particle is in."""
+    """Return the histogram cell (n, 3) of each particle."""
     found: Ints = np.floor(particles / np.array(BINS)).astype(np.int64)
     found[:, 2] %= CIRCLE
     return found
 
 
 def packed(keys: Ints) -> Ints:
-    """One number (n,) for each cell (n, 3), the same for the same cell."""
+    """Return an integer (n,) for each cell (n, 3) that is the same only for equal cells."""
     low = keys.min(axis=0)
     spans = keys.max(axis=0) - low + 1
     shifted = keys - low
@@ -205,7 +205,7 @@ def packed(keys: Ints) -> Ints:
 
 
 def clustered(keys: Ints) -> Ints:
-    """The number (n,) of the cluster that each of the cells (n, 3) belongs to: cells that touch, corners included."""
+    """Return the cluster number (n,) of each cell (n, 3); cells that touch, also at corners, share a cluster."""
     _, first, back = np.unique(packed(keys), return_index=True, return_inverse=True)
     one, other = touching(keys[first])
     labels = np.arange(len(first))
@@ -222,8 +222,8 @@ def clustered(keys: Ints) -> Ints:
 
 
 def touching(unique: Ints) -> tuple[Ints, Ints]:
-    """The indices of both of each pair of cells (n, 3) that touch; the heading is a circle."""
-    # With a margin of one cell a step to any side has a number of its own.
+    """Return the indices of both cells in each pair of touching cells (n, 3); the heading wraps around."""
+    # A margin of one cell makes the number of every neighbour unique.
     low = unique.min(axis=0) - 1
     spans = unique.max(axis=0) - low + 2
     spans[2] = CIRCLE
@@ -246,7 +246,7 @@ def touching(unique: Ints) -> tuple[Ints, Ints]:
 
 
 def summed(particles: Floats, weights: Floats) -> Cluster:
-    """Mean and covariance of particles."""
+    """Return mean and covariance of particles."""
     weight = float(weights.sum())
     shares = weights / weight if weight > 0 else np.full(len(weights), 1 / len(weights))
     xs, ys, headings = particles.T
@@ -264,5 +264,5 @@ def summed(particles: Floats, weights: Floats) -> Cluster:
 def show_steps(
     grid: Any, steps: Sequence[tuple[str, ArrayLike, ArrayLike | None, Any]], **options: Any
 ) -> Any:
-    """Show a filter on a map, step by step. A step: name, particles (n, 3), weights or None, true pose or None."""
+    """Draw a filter on a map in steps; a step is a name, particles (n, 3), weights or None, true pose or None."""
     return show("filter_steps", grid, steps=steps, **options)

@@ -1,4 +1,4 @@
-"""How likely a scan is from each particle, by one of amcl's three models (http://wiki.ros.org/amcl#Laser_model_parameters)."""
+"""The likelihood of a scan for each particle by amcl's models (http://wiki.ros.org/amcl#Laser_model_parameters)."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ from .field import BeamMixture, LikelihoodField
 Floats = NDArray[np.float64]
 
 MILLIMETRES = 3
-"""To so many digits ranges are rounded: what machines compute differently in the last bit changes nothing then."""
+"""Number of decimals of ranges [m]: rounding hides differences in the last bit between machines."""
 DIGITS = 9
-"""To so many digits logarithms of likelihoods are rounded, for the same reason."""
+"""Number of decimals of log-likelihoods, for the same reason."""
 
 
 @dataclass(frozen=True)
 class Scan:
-    """What a laser saw."""
+    """A laser scan."""
 
     ranges: Floats
-    """(b,) [m]; what is not finite or not below `range_max` hit nothing."""
+    """Ranges (b,) [m]; a value that is not finite or not below `range_max` means no hit."""
     bearings: Floats
-    """(b,) [rad], in the laser's own frame."""
+    """Bearings (b,) [rad] in the laser's frame."""
     range_max: float
     laser: Pose = (0.0, 0.0, 0.0)
-    """Where the laser is on the robot."""
+    """The laser's pose on the robot."""
     upside_down: bool = False
-    """Whether its z axis points down: then bearings count the other way round."""
+    """True if the laser's z axis points down, which reverses the bearings."""
 
     @property
     def seen(self) -> Floats:
-        """The ranges as the models take them: rounded, and `range_max` where nothing was hit."""
+        """The ranges that the models use: rounded, with `range_max` for beams without a hit."""
         known: Floats = np.nan_to_num(
             self.ranges.astype(np.float64), nan=self.range_max, posinf=self.range_max, neginf=0.0
         )
@@ -47,27 +47,27 @@ class Scan:
 
     @property
     def directions(self) -> Floats:
-        """The bearings as seen from above."""
+        """The bearings seen from above."""
         return -self.bearings if self.upside_down else self.bearings
 
 
 @dataclass(frozen=True)
 class BeamSkip:
-    """Beams that most particles cannot explain are left out: `do_beamskip` and its parameters."""
+    """Omits beams that most particles cannot explain: the parameters of `do_beamskip`."""
 
     distance: float = 0.5
-    """A beam agrees with a particle if it ends so near to something [m]."""
+    """A beam agrees with a particle if it ends within this distance of an obstacle [m]."""
     threshold: float = 0.3
-    """The share of particles that a beam has to agree with."""
+    """Minimum fraction of particles with which a used beam agrees."""
     error_threshold: float = 0.9
-    """If more beams than this share would be left out, the filter has converged to a wrong place: none is."""
+    """If a larger fraction of beams would be omitted, the filter has converged to a wrong pose and all are used."""
 
 
 @dataclass(frozen=True)
 class LaserModel:
-    """A model, and how many beams it looks at.
+    """A laser model, its parameters and the number of beams that it uses.
 
-    Raises `RosminiError` when it is used under a name that is none.
+    Raises `RosminiError` when used with an unknown `kind`.
     """
 
     kind: str = "likelihood_field"
@@ -76,15 +76,15 @@ class LaserModel:
     skip: BeamSkip | None = None
 
     def chosen(self, count: int) -> slice:
-        """Which of `count` beams it looks at: about `max_beams`, evenly spread."""
+        """Return which of `count` beams to use: about `max_beams`, evenly spaced."""
         return slice(0, count, max(1, (count - 1) // max(1, self.max_beams - 1)))
 
     def log_likelihoods(
         self, world: LikelihoodField, particles: Floats, scan: Scan, *, converged: bool = False
     ) -> Floats:
-        """The logarithm of each particle's likelihood (n,), up to what is the same for all.
+        """Return each particle's log-likelihood (n,), up to a constant.
 
-        Beams are left out by `skip` only when the filter has `converged`.
+        `skip` applies only when the filter has `converged`.
         """
         if self.kind not in _MODELS:
             hint = nearest(self.kind, _MODELS)
@@ -100,7 +100,7 @@ class LaserModel:
 
 
 def _ends(scan: Scan, ranges: Floats, bearings: Floats) -> Floats:
-    """The ends (b, 2) of the beams that hit something, in the robot's frame."""
+    """Return the ends (b, 2) of the beams that hit something, in the robot's frame."""
     hit = ranges < scan.range_max
     points = np.column_stack([ranges[hit] * np.cos(bearings[hit]), ranges[hit] * np.sin(bearings[hit])])
     return transform_points(scan.laser, points)

@@ -1,4 +1,4 @@
-"""When particles move, weigh and resample: amcl's procedure, from odometry and scans to poses, without a graph."""
+"""amcl's procedure: when to move, weigh and resample particles, from odometry and scans to poses, without a graph."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ NO_MAP = "there is no map yet: the robot cannot be looked for everywhere on it"
 
 @dataclass(frozen=True)
 class Estimate:
-    """What an update has found."""
+    """The result of an update."""
 
     pose: Pose
-    """The mean of the heaviest cluster."""
+    """Mean of the heaviest cluster."""
     covariance: Floats
-    """(3, 3) of all particles."""
+    """Covariance (3, 3) of all particles."""
     clusters: tuple[Cluster, ...]
 
 
 class FreeSpace:
-    """The cells of a map that a robot may be in; draws poses from them, evenly."""
+    """The free cells of a map, from which poses are drawn uniformly."""
 
     def __init__(self, free: NDArray[np.bool_], resolution: float, origin: tuple[float, float]) -> None:
         self.cells = np.flatnonzero(free)
@@ -46,14 +46,14 @@ class FreeSpace:
         self.resolution, self.origin = resolution, origin
 
     def __contains__(self, point: tuple[float, float]) -> bool:
-        """Whether a point [m] is in a free cell."""
+        """True if a point [m] is in a free cell."""
         column, row = (math.floor((v - o) / self.resolution) for v, o in zip(point, self.origin, strict=True))
         cell = row * self.width + column
         index = int(np.searchsorted(self.cells, cell))
         return 0 <= column < self.width and index < len(self.cells) and int(self.cells[index]) == cell
 
     def draw(self, count: int, random: np.random.Generator) -> Floats:
-        """Poses (count, 3) of any heading in the middles of free cells."""
+        """Draw poses (count, 3) with any heading at the centres of free cells."""
         cells = self.cells[random.integers(len(self.cells), size=count)]
         return np.column_stack(
             [
@@ -65,11 +65,11 @@ class FreeSpace:
 
 
 class Localizer:
-    """A filter on a map.
+    """A particle filter on a map.
 
     Args:
-        parameters: amcl's.
-        random: where all its random numbers come from.
+        parameters: the parameters of amcl.
+        random: the generator of all random numbers.
 
     """
 
@@ -78,16 +78,16 @@ class Localizer:
         self.field: LikelihoodField | None = None
         self.free: FreeSpace | None = None
         self.odometry: Pose | None = None
-        """Where the odometry was at the last update; None before the first."""
+        """The odometry at the last update; None before the first."""
         self.force = False
-        """The next scan counts, though the robot stands."""
+        """True if the next scan is to be used even if the robot has not moved."""
         self.updates = 0
         self._due: set[str] = set()
         self._lasers: dict[str, None] = {}
         self.configure(parameters)
 
     def configure(self, parameters: AmclParameters) -> None:
-        """Take parameters: the filter restarts around what it believed."""
+        """Apply parameters: the filter restarts around its current estimate."""
         self.parameters = p = parameters
         before = getattr(self, "filter", None)
         self.filter = ParticleFilter(
@@ -110,9 +110,9 @@ class Localizer:
             self.initialize(mean.mean, mean.covariance)
 
     def set_map(self, grid: GridMap) -> None:
-        """Localise on this map from now on; as in the original its origin's heading is not looked at.
+        """Use this map from now on; as in the original, the heading of its origin is ignored.
 
-        Raises `RosminiError` if it has no free cell; then the map before stays.
+        Raises `RosminiError` if it has no free cell, and then keeps the previous map.
         """
         origin = grid.origin[0], grid.origin[1]
         self.free = FreeSpace(grid.free, grid.resolution, origin)
@@ -121,12 +121,12 @@ class Localizer:
         self._lasers = {}
 
     def initialize(self, pose: Pose, covariance: ArrayLike) -> None:
-        """Begin around a pose."""
+        """Restart the filter around a pose."""
         self.filter.initialize(pose, covariance)
         self.odometry = None
 
     def globally(self) -> None:
-        """Begin everywhere. Raises `RosminiError` without a map."""
+        """Restart the filter with a uniform distribution. Raises `RosminiError` without a map."""
         self.filter.initialize_uniform(self._uniform)
         self.odometry = None
 
@@ -136,10 +136,10 @@ class Localizer:
         return self.free.draw(count, self.random)
 
     def update(self, laser: str, scan: Scan, odometry: Pose) -> bool | None:
-        """Take a scan of the laser of this name, at an odometry.
+        """Process a scan of the named laser, taken at an odometry pose.
 
-        None if the robot has hardly moved since the last one (with several lasers each has its turn after a motion);
-        else whether there is a new estimate: after the first scan, and whenever it was time to resample.
+        Returns None if the robot has hardly moved since the last scan (with several lasers, each gets one scan a motion).
+        Otherwise returns True if there is a new estimate: after the first scan, and after resampling.
         """
         if self.field is None:
             return None
@@ -171,18 +171,18 @@ class Localizer:
         return before is None or resampled
 
     def _far(self, before: Pose, now: Pose) -> bool:
-        """Whether between two odometries lies so much of a motion that it counts."""
+        """True if the motion between two odometry poses exceeds `update_min_d` or `update_min_a`."""
         turned = abs(math.remainder(now[2] - before[2], math.tau))
         way = max(abs(now[0] - before[0]), abs(now[1] - before[1]))
         return way > self.parameters.update_min_d or turned > self.parameters.update_min_a
 
     def estimate(self) -> Estimate:
-        """Where the robot is taken to be."""
+        """Return the estimated pose of the robot."""
         clusters = self.filter.clusters()
         return Estimate(clusters[0].mean, self.filter.mean().covariance, tuple(clusters))
 
     def numbers(self) -> dict[str, Any]:
-        """What the filter is about, for tables."""
+        """Return statistics of the filter for tables."""
         return {
             "particles": len(self.filter.particles),
             "effective": round(self.filter.effective),

@@ -1,8 +1,8 @@
-"""How particles move when the robot does: samples of the odometry motion model.
+"""Motion of particles: samples of the odometry motion model.
 
 Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 5.4, and http://wiki.ros.org/amcl#Overall_filter_parameters
-for what alphas mean. The models `diff` and `omni` take what was meant as a variance for a standard deviation, as the
-original does; `diff-corrected` and `omni-corrected` do not.
+for the meaning of the alphas. Like the original, the models `diff` and `omni` use variances as standard deviations;
+`diff-corrected` and `omni-corrected` do not.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 MODELS = ("diff", "omni", "diff-corrected", "omni-corrected")
 
 SHORT = 0.01
-"""Over a shorter way [m] a robot turns on the spot: the direction of the way says nothing."""
+"""Over shorter distances [m] the robot counts as turning on the spot, since the direction is unreliable."""
 
 
 def moved(
@@ -33,19 +33,19 @@ def moved(
     noise: Floats,
     model: str = "diff",
 ) -> Floats:
-    """Return particles (n, 3) after a motion that the odometry reports, each with an error of its own.
+    """Return particles (n, 3) after a motion reported by the odometry, each with a random error.
 
     Args:
         particles: poses (n, 3) [m, m, rad].
-        before: the odometry at first.
-        after: the odometry now.
-        alphas: five numbers: how much rotation comes of rotation, rotation of translation, translation of translation,
-            translation of rotation, and, for `omni`, sideways translation of translation.
+        before: the odometry pose before the motion.
+        after: the odometry pose after the motion.
+        alphas: five numbers: rotation error from rotation, rotation from translation, translation from translation,
+            translation from rotation, and, for `omni`, sideways translation from translation.
         noise: standard normal numbers (n, 3).
         model: one of `MODELS`.
 
     Raises:
-        RosminiError: there is no such model.
+        RosminiError: the model is unknown.
 
     """
     if model not in MODELS:
@@ -60,12 +60,12 @@ def moved(
 def _diff(
     particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool
 ) -> Floats:
-    """Turn, drive, turn: what a robot on two wheels can do."""
+    """Sample a turn, a straight drive and another turn, for a robot with differential drive."""
     x, y, turn = motion
     way = math.hypot(x, y)
     first = 0.0 if way < SHORT else math.atan2(y, x)
     last = normalize_angle(turn - first)
-    # Driving backwards is no turn by half a circle.
+    # Driving backwards does not count as a half turn.
     loose1, loose2 = (min(abs(angle), math.pi - abs(angle)) for angle in (first, last))
     variances = (
         alphas[0] * loose1**2 + alphas[1] * way**2,
@@ -87,7 +87,7 @@ def _diff(
 def _omni(
     particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool
 ) -> Floats:
-    """Drive into any direction, and turn."""
+    """Sample a drive in any direction with a turn, for an omnidirectional robot."""
     x, y, turn = motion
     way = math.hypot(x, y)
     a1, a2, a3, a4, a5 = alphas

@@ -1,7 +1,7 @@
 """`amcl/amcl`: the filter as a node (http://wiki.ros.org/amcl).
 
-It takes `scan`, `tf`, `initialpose` and a map, and publishes `amcl_pose`, `particlecloud` and the transform from the
-map to the odometry's frame. A scan waits until its transforms are there.
+It subscribes to `scan`, `tf`, `initialpose` and a map, and publishes `amcl_pose`, `particlecloud` and the transform
+from the map to the odometry frame. A scan waits until its transforms are available.
 """
 
 from __future__ import annotations
@@ -34,25 +34,25 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 PATIENCE = 0.5
-"""So long a scan waits for its transforms [s]."""
+"""Maximum time that a scan waits for its transforms [s]."""
 MAP_PAUSE = 0.5
-"""Between two requests for the map [s]."""
+"""Interval between requests for the map [s]."""
 SILENCE = 15.0
-"""After so long without a scan there is a warning [s]."""
+"""Time without a scan after which there is a warning [s]."""
 BACK_NS = 1_000_000_000
-"""Scans of several lasers may come out of order by less than this; more is a jump back in time."""
+"""Scans of several lasers may be out of order by less than this; more is a jump back in time."""
 STRAIGHT = 1e-3
-"""A map is turned if its origin's heading is larger [rad]."""
+"""A map counts as rotated if its origin's heading exceeds this angle [rad]."""
 LEAP = 5.0
-"""Farther no robot drives between two updates [m]."""
+"""Maximum plausible distance between two updates [m]."""
 DIAGNOSED = 1.0
-"""Between two messages on `/diagnostics` [s]."""
+"""Interval between messages on `/diagnostics` [s]."""
 PLACES = ((0, 0), (0, 1), (1, 0), (1, 1))
-"""Where x and y stand in a covariance of six by six; the heading is (5, 5)."""
+"""Indices of x and y in a six by six covariance; that of the heading is (5, 5)."""
 
 
 class Amcl:
-    """Localisation, as a node of a graph."""
+    """Localisation as a node."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -64,14 +64,14 @@ class Amcl:
         self.listener = TransformListener(node, self.buffer)
         self.broadcaster = TransformBroadcaster(node)
         self._correction: Pose | None = None
-        """The pose of the odometry's frame in the map."""
+        """The pose of the odometry frame in the map."""
         self._map: Any = None
         self._estimate: Estimate | None = None
         self._lasers: dict[str, tuple[Pose, bool]] = {}
         self._last_scan_ns = self._saved_ns = node.clock.now_ns()
         self._last_stamp_ns = 0
         self._at_start: dict[str, Any] | None = None
-        """What can be changed, as it was at first."""
+        """The initial values of the parameters that can change at run time."""
         self._advertise()
         self._server = Server(node, AmclConfig, self._reconfigure)
         self.localizer.initialize(self._start_pose(), self._start_covariance())
@@ -146,7 +146,7 @@ class Amcl:
         return config
 
     def _with_known_models(self, given: AmclParameters) -> AmclParameters:
-        """The parameters with the default model, and a warning, where the name of a model is unknown: as in amcl."""
+        """Return the parameters with unknown models replaced by the default, with a warning, as in amcl."""
         if given.odom_model_type not in MODELS:
             self.node.logwarn(f'Unknown odom model type "{given.odom_model_type}"; defaulting to diff model')
             given = replace(given, odom_model_type="diff")
@@ -168,7 +168,7 @@ class Amcl:
     # -- the map -------------------------------------------------------------------------------------------------
 
     def _request_map(self) -> None:
-        """Ask for the map until somebody has it."""
+        """Request the map until a server answers."""
         client = self.node.service_client("static_map", service_class("nav_msgs/GetMap"))
         self.node.loginfo("Requesting the map...")
         while self._map is None and not self.node.is_shutdown():
@@ -189,7 +189,7 @@ class Amcl:
         self._take_map(grid)
 
     def _take_map(self, grid: Any, *, again: bool = False) -> bool:
-        """Localise on a `nav_msgs/OccupancyGrid`; whether it can be used."""
+        """Use a `nav_msgs/OccupancyGrid` as the map; return False if it is invalid."""
         info = grid.info
         self.node.loginfo(f"Received a {info.width} X {info.height} map @ {info.resolution:.3f} m/pix\n")
         if grid.header.frame_id.lstrip("/") != self.parameters.global_frame_id.lstrip("/"):
@@ -241,7 +241,7 @@ class Amcl:
         return {}
 
     def _initial_pose(self, message: Any) -> None:
-        """Begin where somebody says that the robot was at a time; it may have moved since."""
+        """Restart around a given pose, moved by the odometry since the message's stamp."""
         p, frame = self.parameters, message.header.frame_id
         if not frame:
             self.node.logwarn(
@@ -268,7 +268,7 @@ class Amcl:
             self.localizer.force = True
 
     def _motion_since(self, stamp: Time) -> Pose:
-        """How the robot has moved since a time, by its odometry."""
+        """Return the robot's motion since a time, from its odometry."""
         p = self.parameters
         if stamp.to_nsec() == 0:
             return 0.0, 0.0, 0.0
@@ -277,7 +277,7 @@ class Amcl:
                 p.base_frame_id, stamp, p.base_frame_id, self.node.now(), p.odom_frame_id, PATIENCE
             )
         except TransformException as error:
-            # Before the first scan there may be no odometry yet, and the robot has not moved.
+            # Before the first scan the odometry may be missing; the robot has not moved then.
             if self._correction is not None:
                 self.node.logwarn(f"Failed to transform initial pose in time ({error})")
             return 0.0, 0.0, 0.0
@@ -322,7 +322,7 @@ class Amcl:
             self._maybe_save()
 
     def _notice_jump(self, stamp: Time) -> None:
-        """Begin at the initial pose again when time has gone back: a bag that loops, a simulation that was reset."""
+        """Restart at the initial pose if time has jumped back: a bag in a loop, or a simulation that was reset."""
         before, self._last_stamp_ns = self._last_stamp_ns, stamp.to_nsec()
         if self._last_stamp_ns < before - BACK_NS:
             self._saved_ns = self.node.clock.now_ns()
@@ -343,7 +343,7 @@ class Amcl:
             )
 
     def _laser(self, frame: str) -> tuple[Pose, bool]:
-        """Where a laser is on the robot, and whether it is upside down."""
+        """Return the laser's pose on the robot, and True if it is mounted upside down."""
         if frame not in self._lasers:
             found = self.buffer.lookup_transform(self.parameters.base_frame_id, frame, Time(0), PATIENCE)
             q = found.transform.rotation
@@ -358,7 +358,7 @@ class Amcl:
         )
 
     def _checked(self, message: Any, laser: Pose, upside_down: bool) -> Scan:
-        """A scan, as far as it can be used."""
+        """Return the usable part of a scan. Raises `RosminiError` for an invalid scan."""
         p = self.parameters
         ranges = np.asarray(message.ranges, dtype=np.float64)
         known = all(map(math.isfinite, (message.angle_min, message.angle_increment, message.range_min)))
@@ -421,7 +421,7 @@ class Amcl:
             self._save_pose()
 
     def _save_pose(self) -> None:
-        """Write where the robot is taken to be to the parameters from which amcl starts."""
+        """Write the estimated pose to the parameters from which amcl starts."""
         if self._estimate is None:
             return
         x, y, a = self._estimate.pose
@@ -439,7 +439,7 @@ class Amcl:
 
 
 def cloud(particles: NDArray[np.float64], frame: str, stamp: Time) -> Any:
-    """Particles (n, 3) as a `geometry_msgs/PoseArray`."""
+    """Return particles (n, 3) as a `geometry_msgs/PoseArray`."""
     message = message_class("geometry_msgs/PoseArray")()
     message.header.frame_id, message.header.stamp = frame, stamp
     pose = message_class("geometry_msgs/Pose")
@@ -450,7 +450,7 @@ def cloud(particles: NDArray[np.float64], frame: str, stamp: Time) -> Any:
 
 
 def checked_pose(posed: Any) -> tuple[Pose, NDArray[np.float64]]:
-    """Pose and covariance (3, 3) of a `geometry_msgs/PoseWithCovariance`. Raises `RosminiError` for what is neither."""
+    """Return pose and covariance (3, 3) of a `PoseWithCovariance`. Raises `RosminiError` for invalid numbers."""
     pose, covariance = planar_pose(posed.pose), planar_covariance(posed.covariance)
     if not (all(map(math.isfinite, pose)) and np.isfinite(covariance).all()):
         raise RosminiError(f"it has numbers that are not finite: {pose}")
@@ -460,7 +460,7 @@ def checked_pose(posed: Any) -> tuple[Pose, NDArray[np.float64]]:
 
 
 def planar_covariance(values: Any) -> NDArray[np.float64]:
-    """The part (3, 3) of a covariance of 36 numbers that is about x, y and the heading, made symmetric."""
+    """Return the part (3, 3) for x, y and heading of a covariance of 36 numbers, made symmetric."""
     whole = np.asarray(values, dtype=float).reshape(6, 6)
     found = np.zeros((3, 3))
     for row, column in PLACES:

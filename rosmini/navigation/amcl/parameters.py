@@ -1,4 +1,4 @@
-"""The parameters of `amcl/amcl`, by their names, ranges and defaults in Noetic (http://wiki.ros.org/amcl#Parameters)."""
+"""The parameters of `amcl/amcl`, with Noetic's names, ranges and defaults (http://wiki.ros.org/amcl#Parameters)."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from rosmini.core.parameters import Parameters, parameter
 from .motion import MODELS
 
 FARTHEST = 1e6
-"""What any pose on a map is within: an infinite one is a mistake."""
+"""Maximum absolute value of a coordinate; larger values are mistakes."""
 LASERS = ("beam", "likelihood_field", "likelihood_field_prob")
 
 
 @dataclass(frozen=True)
 class AmclConfig(Parameters):
-    """The private parameters that can be changed while it runs."""
+    """Private parameters that can change at run time."""
 
     dynamic = True
 

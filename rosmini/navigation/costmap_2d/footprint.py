@@ -113,7 +113,7 @@ def padded(footprint: Footprint, padding: float) -> Footprint:
 def radii(footprint: Footprint) -> tuple[float, float]:
     """Return the inscribed and the circumscribed radius [m].
 
-    These are the smallest and largest distance from the origin to the outline; with fewer than three vertices inf and 0.
+    They are the smallest and largest distance from the origin to the outline; infinity and 0 below three vertices.
     """
     if len(footprint) < 3:
         return math.inf, 0.0

@@ -1,1 +1,1 @@
-"""Brings a robot to a goal: the node that ties planners, costmaps and recoveries together (http://wiki.ros.org/move_base)."""
+"""The node that drives a robot to a goal with planners, costmaps and recoveries (http://wiki.ros.org/move_base)."""

@@ -1,4 +1,4 @@
-"""What is wrong with a set-up before the robot moves: said once, when `move_base` starts."""
+"""Checks of the configuration before the robot moves; `move_base` logs the warnings once when it starts."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 SLACK = 0.01
-"""By so much [m] the footprint may be narrower than it is long before it counts as not round."""
+"""A footprint counts as round if its two radii differ by at most this length [m]."""
 
 
 def check_setup(move_base: Any) -> None:
-    """Warn of parameters that are legal and let a robot get stuck, and of namespaces that nobody reads."""
+    """Warn of parameters that are valid but can leave the robot stuck, and of namespaces that nothing reads."""
     node = move_base.node
     for costmap in (move_base.global_costmap, move_base.local_costmap):
         for text in inflation_warnings(costmap):
@@ -30,7 +30,7 @@ def check_setup(move_base: Any) -> None:
 
 
 def inflation_warnings(costmap: Any) -> list[str]:
-    """What the inflation of a costmap leaves open between planner and controller."""
+    """Return warnings about inflation parameters that let planner and controller disagree."""
     layers = [layer for layer in costmap.layers if isinstance(layer, InflationLayer)]
     inscribed, circumscribed = costmap.inscribed_radius, costmap.circumscribed_radius
     if not layers:
@@ -58,11 +58,11 @@ def inflation_warnings(costmap: Any) -> list[str]:
 
 
 def unread_namespaces(node: Node, known: list[str]) -> list[str]:
-    """Namespaces of the node that nobody reads, and whose names look like one that somebody does."""
+    """Return warnings about unread parameter namespaces whose names resemble one that is read."""
     tree = node.get_param("~", {})
     plugins = {
         short_name(entry.name) for entry in entry_points(group=GROUP)
-    }  # a file may serve several planners
+    }  # one file may configure several planners
     unread = [
         name for name, value in tree.items() if isinstance(value, dict) and name not in {*known, *plugins}
     ]

@@ -1,4 +1,4 @@
-"""Why a robot stands where it stands: `move_base.explain()`."""
+"""`move_base.explain()`: why the robot is where it is."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MoveBase = Any
 
 @dataclass
 class Explanation:
-    """What `explain()` found: `numbers` for tables and tests, the text in words, `show()` a picture."""
+    """The result of `explain()`: `numbers` for tables and tests, the text in words, and a picture from `show()`."""
 
     lines: list[str] = field(default_factory=list)
     numbers: dict[str, Any] = field(default_factory=dict)
@@ -30,12 +30,12 @@ class Explanation:
     __repr__ = __str__
 
     def show(self, **options: Any) -> Any:
-        """A picture: the global costmap with the robot, its plan and its goal. Options as `Costmap2D.show` has them."""
+        """Draw the global costmap with the robot, its plan and its goal; options as in `Costmap2D.show`."""
         return self.grid.show(**{**self.options, **options})
 
 
 def explain(move_base: MoveBase) -> Explanation:
-    """Say what the robot is about, what stopped it, and how much room it has."""
+    """Report the robot's state, its last problem, and its distances to obstacles."""
     costmap = move_base.global_costmap
     found = Explanation(grid=costmap.grid, options={"footprint": costmap.footprint, "name": "global_costmap"})
     found.numbers["state"] = move_base.state.value
@@ -67,7 +67,7 @@ def _critics(failure: NavigationFailure | None, found: Explanation) -> None:
 
 
 def _room(move_base: MoveBase, found: Explanation) -> None:
-    """How near the footprint is to what the local costmap has."""
+    """Report the distance from the footprint to the nearest obstacle in the local costmap."""
     costmap = move_base.local_costmap
     try:
         pose = planar_pose(costmap.robot_pose())
@@ -87,7 +87,7 @@ def _room(move_base: MoveBase, found: Explanation) -> None:
 
 
 def _goal(move_base: MoveBase, found: Explanation) -> None:
-    """What the goal's cell costs, and why."""
+    """Report the cost of the goal's cell and the reason for it."""
     if move_base.goal is None:
         return
     costmap = move_base.global_costmap
@@ -103,7 +103,7 @@ def _goal(move_base: MoveBase, found: Explanation) -> None:
 
 
 def _way(move_base: MoveBase, found: Explanation) -> None:
-    """The narrowest passage of the plan, beside what the robot needs."""
+    """Report the narrowest passage along the plan, compared with the footprint."""
     if not move_base.plan:
         found.lines.append("there is no plan")
         return
@@ -116,7 +116,7 @@ def _way(move_base: MoveBase, found: Explanation) -> None:
         return
     x, y, away = place
     found.numbers["narrowest"] = place
-    # The controller's: plans may be made for a disc instead.
+    # The local costmap's footprint counts: the controller checks it, while plans may assume a disc.
     inscribed, circumscribed = (
         move_base.local_costmap.inscribed_radius,
         move_base.local_costmap.circumscribed_radius,

@@ -1,4 +1,4 @@
-"""How much room a robot has: measured on costmaps. Arrays in, numbers out."""
+"""Distances between a robot and obstacles, measured on costmaps: arrays in, numbers out."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 
 def obstacles(grid: Costmap2D, x: float, y: float, reach: float) -> Floats:
-    """The middles (n, 2) [m] of the lethal cells within a square of half the side `reach` [m] around a point."""
+    """Return the centres (n, 2) [m] of the lethal cells in a square around a point with half the side `reach` [m]."""
     (x0, y0), (x1, y1) = (grid.world_to_map_clamped(x + s * reach, y + s * reach) for s in (-1, 1))
     rows, columns = np.nonzero(grid.costs[y0 : y1 + 1, x0 : x1 + 1] == LETHAL_OBSTACLE)
     cells = np.stack([columns + x0, rows + y0], axis=-1) + 0.5
@@ -24,9 +24,9 @@ def obstacles(grid: Costmap2D, x: float, y: float, reach: float) -> Floats:
 
 
 def clearance(grid: Costmap2D, pose: Pose, footprint: ArrayLike, reach: float = 1.0) -> float | None:
-    """The distance [m] from the outline of a footprint (n, 2) at `pose` to the middle of the nearest lethal cell.
+    """Return the distance [m] from a footprint's outline (n, 2) at `pose` to the centre of the nearest lethal cell.
 
-    0 where such a cell is inside of it; None if there is none within `reach` [m] of the robot's centre.
+    The distance is 0 if such a cell is inside, and None if no cell is within `reach` [m] of the robot's centre.
     """
     points = obstacles(grid, pose[0], pose[1], reach)
     if not len(points) or len(np.asarray(footprint)) < 3:
@@ -37,9 +37,9 @@ def clearance(grid: Costmap2D, pose: Pose, footprint: ArrayLike, reach: float = 
 
 
 def narrowest(grid: Costmap2D, path: Floats, reach: float = 1.0) -> tuple[float, float, float] | None:
-    """Where a path (n, 2) [m] is nearest to a lethal cell: x, y [m], and the distance [m] to the cell's middle.
+    """Return where a path (n, 2) [m] is closest to a lethal cell: x, y, and the distance to the cell's centre [m].
 
-    None if the whole of it is farther than `reach` [m] from all of them.
+    None if the whole path is farther than `reach` [m] from every lethal cell.
     """
     best: tuple[float, float, float] | None = None
     for x, y in path.tolist():
@@ -52,13 +52,13 @@ def narrowest(grid: Costmap2D, path: Floats, reach: float = 1.0) -> tuple[float,
 
 
 def lethal_cells(layers: Sequence[object]) -> int:
-    """The lethal cells that the layers with costs of their own hold together."""
+    """Return the total number of lethal cells in all layers that store costs."""
     grids = [getattr(layer, "costs", None) for layer in layers]
     return sum(int((costs == LETHAL_OBSTACLE).sum()) for costs in grids if costs is not None)
 
 
 def fewer(count: int) -> str:
-    """The change of a number of lethal cells in words; a negative `count` means that there are more.
+    """Describe a decrease in the number of lethal cells; a negative `count` is an increase.
 
     >>> fewer(3), fewer(-2), fewer(0)
     ('3 lethal cells fewer', '2 lethal cells more', 'no lethal cell fewer')

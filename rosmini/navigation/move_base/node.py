@@ -1,13 +1,13 @@
-"""`move_base/move_base`: brings a robot to a goal (http://wiki.ros.org/move_base).
+"""`move_base/move_base`: drives a robot to a goal (http://wiki.ros.org/move_base).
 
-It offers the action `move_base`, takes goals on `move_base_simple/goal` too, and commands the base on `cmd_vel`. The
-services `~make_plan` and `~clear_costmaps`, all topics, parameters and texts are ROS's. Planning has a lane of its own;
-the cycle of control runs at `controller_frequency` of the graph's time.
+It offers the action `move_base`, also accepts goals on `move_base_simple/goal`, and commands the base on `cmd_vel`. The
+services `~make_plan` and `~clear_costmaps`, all topics, parameters and texts are those of ROS. Planning runs in a
+separate lane; the control cycle runs at `controller_frequency` in the graph's time.
 
-It differs from the original in four ways. A goal in another frame is transformed by the newest transform, whatever its
-stamp. A robot that oscillates is stopped in that cycle, and not commanded once more. A goal on `move_base_simple/goal`
-that arrives before the action server has started is kept for it; the original loses it. Whatever a plugin raises counts
-as a failure of the call, and the log says where it was raised.
+There are four differences from the original. A goal in another frame is transformed with the latest transform, whatever
+its stamp. A robot that oscillates is stopped in the same cycle instead of being commanded once more. A goal on
+`move_base_simple/goal` that arrives before the action server has started is kept; the original loses it. Any exception
+that a plugin raises counts as a failed call, and the log says where it was raised.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ if TYPE_CHECKING:
 
 BAD_QUATERNION = "Aborting on goal because it was sent with an invalid quaternion"
 RECOVERY_BUDGET = 120.0
-"""How long a recovery behaviour that is not rosmini's may take [s]."""
+"""Time limit for a recovery behaviour that is not part of rosmini [s]."""
 WARN_PERIOD = 1.0
-"""How often the same warning is repeated [s]."""
+"""Minimum interval between repetitions of the same warning [s]."""
 
 
 class MoveBase:
-    """The node. `explain()` says why the robot does what it does."""
+    """The `move_base` node; `explain()` reports why the robot is where it is."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -78,15 +78,15 @@ class MoveBase:
         )
         self.machine = StateMachine(limits(own), len(self.recovery_behaviors))
         self.goal: Any = None
-        """The goal in the global frame (`PoseStamped`), while there is one."""
+        """The current goal in the global frame (`PoseStamped`), or None."""
         self.plan: Sequence[Any] = ()
-        """The plan that the local planner follows."""
+        """The plan that the local planner is following."""
         self.why = ""
-        """Why there was no plan or no command, the last time."""
+        """The reason for the last failure to plan or to find a command."""
         self.failure: NavigationFailure | None = None
-        """The same with its numbers."""
+        """The same failure with its numbers."""
         self.recovered: list[str] = []
-        """What the recovery behaviours have changed since the goal came."""
+        """Descriptions of the changes made by recovery behaviours for the current goal."""
         self.lane = PlannerLane(node, self.machine, self._make_plan, self._stop_base)
         check_setup(self)
         self.action.start()
@@ -110,7 +110,7 @@ class MoveBase:
         self._commands = node.publisher("cmd_vel", self._twist, queue_size=1)
         self._current_goal = node.publisher("~current_goal", stamped, queue_size=10)
         self._early_goal: Any = None
-        """The newest pose of `move_base_simple/goal` that arrived before the action server could hear of it."""
+        """The latest pose on `move_base_simple/goal` that arrived before the action server was connected."""
         self._has_server = False
         self._goals = node.publisher(
             "move_base/goal", self._action_goal, queue_size=1, on_connect=self._goals_connected
@@ -134,7 +134,7 @@ class MoveBase:
 
     @property
     def state(self) -> State:
-        """PLANNING, CONTROLLING or CLEARING."""
+        """The current state: PLANNING, CONTROLLING or CLEARING."""
         return self.machine.state
 
     @property
@@ -148,11 +148,11 @@ class MoveBase:
         return self.planners.of[LOCAL]
 
     def explain(self) -> Explanation:
-        """Why the robot is where it is, in words, numbers and a picture."""
+        """Explain why the robot is where it is, in words, numbers and a picture."""
         return explain(self)
 
     def show(self, **options: Any) -> Any:
-        """A picture of the parts that are loaded, and of what comes from other nodes, or goes to them."""
+        """Draw the loaded parts and the topics that connect them to other nodes."""
         return show("move_base", self, **options)
 
     def _now(self) -> float:
@@ -161,7 +161,7 @@ class MoveBase:
     # -- goals ---------------------------------------------------------------------------------------------------
 
     def _simple_goal(self, pose: Any) -> None:
-        """Send a goal of `move_base_simple/goal` to the action server, as soon as that hears of it."""
+        """Forward a pose from `move_base_simple/goal` to the action server once it is connected."""
         if not self._has_server:
             self._early_goal = pose
             return
@@ -171,7 +171,7 @@ class MoveBase:
         self._goals.publish(goal)
 
     def _goals_connected(self, subscriber: str) -> None:
-        """Send the goal that waits once this node's own action server is connected."""
+        """Send the waiting goal once this node's own action server is connected."""
         if subscriber != self.node.name or self._has_server:
             return
         self._has_server = True
@@ -180,7 +180,7 @@ class MoveBase:
             self._simple_goal(pose)
 
     def _accept(self, message: Any) -> bool:
-        """Take a goal, or abort it if it is no pose in the plane."""
+        """Start on a goal, or abort it if it is not a valid pose in the plane; return True if it was accepted."""
         try:
             checked_goal(message.target_pose)
         except BadGoal as error:
@@ -191,7 +191,7 @@ class MoveBase:
         return True
 
     def _begin(self, target: Any) -> None:
-        """Set out for a pose in any frame."""
+        """Start driving to a pose in any frame."""
         try:
             self.goal = self.global_costmap.to_global(target)
         except TransformMissing as error:
@@ -208,7 +208,7 @@ class MoveBase:
         self._current_goal.publish(self.goal)
 
     def _execute(self, message: Any) -> None:
-        """Work on a goal until it is over."""
+        """Run the control cycle until the goal is finished."""
         self._stop_base()
         if not self._accept(message):
             return
@@ -236,7 +236,7 @@ class MoveBase:
                 )
 
     def _preempt(self) -> bool:
-        """Take the goal that waits, or end; whether there is a goal to go on with."""
+        """Accept the waiting goal, or stop if there is none; return True if there is a goal to continue with."""
         if self.action.is_new_goal_available():
             return self._accept(self.action.accept_new_goal())
         self._end()
@@ -244,7 +244,7 @@ class MoveBase:
         return False
 
     def _end(self) -> None:
-        """Be without a goal."""
+        """Clear the current goal and stop."""
         self.machine.end(self._now())
         self.goal = None
         self._stop_base()
@@ -266,7 +266,7 @@ class MoveBase:
     # -- one cycle of control ------------------------------------------------------------------------------------
 
     def _cycle(self) -> bool:
-        """Do what is due now; whether the goal is over."""
+        """Run one control cycle; return True if the goal is finished."""
         with suppress(TransformMissing):
             self._tell_position()
         if not self.local_costmap.is_current:
@@ -300,7 +300,7 @@ class MoveBase:
         self.machine.at(self._now(), x, y)
 
     def _hand_over(self, plan: Sequence[Any]) -> bool:
-        """Give the local planner a new plan; without its consent the goal is aborted."""
+        """Give the local planner a new plan; if it refuses the plan, abort the goal and return False."""
         self.plan = plan
         try:
             self._ask(LOCAL, "set_plan", plan)
@@ -314,14 +314,14 @@ class MoveBase:
         return True
 
     def _ask(self, which: str, method: str, *arguments: Any) -> Any:
-        """Call a method of one of the planners."""
+        """Call a method of the global or the local planner."""
         planner = self.planners.of[which]
         patience = self.config.planner_patience if which == GLOBAL else self.config.controller_patience
         what = f"{method}() of the {which} planner {self.planners.names[which]}"
         return call(self.node, what, getattr(planner, method), *arguments, budget=max(patience, 1.0))
 
     def _follow(self) -> bool:
-        """Command the base along the plan; whether the goal is reached."""
+        """Command the base along the plan; return True if the goal is reached."""
         now = self._now()
         if self._is_reached():
             self._end()
@@ -355,11 +355,11 @@ class MoveBase:
         self.node.logwarn(f"No valid command: {error}", throttle=WARN_PERIOD)
         self.machine.command_failed(self._now())
         self._stop_base()
-        if self.state is State.PLANNING:  # a plan would end the recovery before it begins
+        if self.state is State.PLANNING:  # while CLEARING, a new plan would end the recovery before it begins
             self.lane.wake()
 
     def _recover(self, number: int) -> None:
-        """Run a recovery behaviour; the robot's lane waits for it."""
+        """Run a recovery behaviour; the control cycle waits until it returns."""
         name, behavior = self.recovery_behaviors[number]
         status = self._recovery(
             current_recovery_number=number,
@@ -395,7 +395,7 @@ class MoveBase:
     # -- plans ---------------------------------------------------------------------------------------------------
 
     def _make_plan(self, goal: Any) -> Sequence[Any]:
-        """Plan from where the robot is; nothing if there is no plan."""
+        """Plan from the robot's current pose; return an empty plan on failure."""
         try:
             start = self.global_costmap.robot_pose()
         except TransformMissing as error:
@@ -417,7 +417,7 @@ class MoveBase:
         return plan
 
     def _make_plan_service(self, request: Any) -> Any:
-        """Answer `~make_plan`: a plan to the goal, or to one within the tolerance; empty if there is none."""
+        """Return a plan to the goal or to a pose within the tolerance (`~make_plan`); empty if there is none."""
         if self.action.is_active():
             raise self._refused("move_base must be in an inactive state to make a plan for an external user")
         start = request.start
@@ -479,7 +479,7 @@ class MoveBase:
     # -- parameters ----------------------------------------------------------------------------------------------
 
     def _reconfigure(self, config: Any, _: int) -> Any:
-        """Take changed parameters; the first call only tells what they were."""
+        """Apply changed parameters; the first call only stores the initial values."""
         if self._defaults is None:
             self._defaults = dict(config)
             return config
@@ -492,7 +492,7 @@ class MoveBase:
         return config
 
     def _change_planner(self, which: str, config: Any) -> None:
-        """Let another planner take over, if the parameter has changed; one that cannot be had changes nothing."""
+        """Replace a planner if its parameter has changed; if it cannot be loaded, keep the current one."""
         parameter = f"base_{which}_planner"
         if config[parameter] == self.planners.names[which]:
             return

@@ -1,7 +1,7 @@
 """The parameters of `move_base/move_base` (http://wiki.ros.org/move_base#Parameters).
 
-Ranges are those of its dynamic_reconfigure. There the original states 5.0 s for `controller_patience` and uses 15.0;
-here it is 15.0 in both.
+Ranges are those of its dynamic_reconfigure. The original declares 5.0 s for `controller_patience` there but uses 15.0;
+here both are 15.0.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .state_machine import Limits
 
 @dataclass(frozen=True)
 class MoveBaseConfig(Parameters):
-    """What can be changed while it runs."""
+    """Parameters that can change at run time."""
 
     dynamic = True
 
@@ -71,7 +71,7 @@ class MoveBaseConfig(Parameters):
 
 @dataclass(frozen=True)
 class Behavior(Parameters):
-    """One element of `recovery_behaviors`."""
+    """One entry of `recovery_behaviors`."""
 
     name: str = parameter("", "its namespace: its parameters are in ~NAME/")
     type: str = parameter("", "its plugin, package/Class")
@@ -79,7 +79,7 @@ class Behavior(Parameters):
 
 @dataclass(frozen=True)
 class MoveBaseParameters(MoveBaseConfig):
-    """All of its own parameters; beside them are those of costmaps, planners and recoveries, in their namespaces."""
+    """All parameters of the node itself; costmaps, planners and recoveries have theirs in separate namespaces."""
 
     shared = True
     allowed = ("recovery_behaviors", "global_frame", "robot_base_frame")
@@ -92,7 +92,7 @@ class MoveBaseParameters(MoveBaseConfig):
 
 
 def limits(config: MoveBaseConfig) -> Limits:
-    """The part of the parameters by which the state machine decides."""
+    """Return the parameters on which the state machine's decisions depend."""
     return Limits(
         config.planner_frequency,
         config.planner_patience,

@@ -1,6 +1,6 @@
-"""What a running `move_base` is made of: the plugins that it has loaded, what they hear, and what passes between them.
+"""The parts of a running `move_base`: its loaded plugins, the topics they use, and the data that they exchange.
 
-All of it is asked of the objects that are there, so a planner of one's own or a layer more is in it, too.
+The parts are read from the running objects, so they include planners and layers from other packages.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from .node import MoveBase
 
 STATES, TRANSFORMS, RECOVERIES = "states", "transforms", "recovery behaviors"
-"""Names of parts; the planners are called `global planner` and `local planner`, costmaps by their own names."""
+"""Names of parts; the others are `global planner`, `local planner`, and the names of the costmaps."""
 ACTION = "move_base/"
 """The namespace of the action's topics."""
 
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the node: its unique name, lines that say what it is, and the topics that it hears and publishes."""
+    """A part of the node: its unique name, lines of description, and the topics that it subscribes to and publishes."""
 
     name: str
     lines: tuple[str, ...]
@@ -35,7 +35,7 @@ class Part:
 
 
 class Link(NamedTuple):
-    """What one part gives another."""
+    """Data that one part passes to another."""
 
     source: str
     target: str
@@ -44,14 +44,14 @@ class Link(NamedTuple):
 
 @dataclass(frozen=True)
 class Inside:
-    """All parts of a `move_base`, and what passes between them."""
+    """All parts of a `move_base` and the links between them."""
 
     parts: tuple[Part, ...]
     links: tuple[Link, ...]
 
 
 def inside(move_base: MoveBase) -> Inside:
-    """The parts of a `move_base`, as it is now."""
+    """Return the current parts of a `move_base`."""
     costmaps = (move_base.global_costmap, move_base.local_costmap)
     parts = [_states(move_base), Part(TRANSFORMS, (TRANSFORMS,), hears=frozenset(("/tf", "/tf_static")))]
     links = [Link(STATES, _planner(GLOBAL), "goal"), Link(_planner(GLOBAL), _planner(LOCAL), "plan")]
@@ -77,7 +77,7 @@ def _planner(which: str) -> str:
 
 
 def _states(move_base: MoveBase) -> Part:
-    """What decides: it hears of goals, by the action and by clicks."""
+    """Describe the state machine, which receives goals from the action and from `move_base_simple/goal`."""
     resolve = move_base.node.resolve
     action, simple = resolve(ACTION + "goal"), resolve("move_base_simple/goal")
     lines = ("state machine", *(state.name for state in State))
@@ -85,7 +85,7 @@ def _states(move_base: MoveBase) -> Part:
 
 
 def _of_planner(move_base: MoveBase, which: str) -> Part:
-    """A planner; what the local one finds goes out on `cmd_vel`."""
+    """Describe a planner; the local one publishes on `cmd_vel`."""
     planners = move_base.planners
     says = frozenset((move_base.node.resolve("cmd_vel"),)) if which == LOCAL else frozenset()
     return Part(
@@ -94,7 +94,7 @@ def _of_planner(move_base: MoveBase, which: str) -> Part:
 
 
 def _costmap(costmap: Costmap2DROS) -> Part:
-    """A costmap with its layers, in the order in which they write, and what they hear."""
+    """Describe a costmap with its layers, lowest first, and their topics."""
     grid = costmap.grid
     size = f"{grid.width} x {grid.height} cells, frame {costmap.global_frame}"
     rows = [layer.name for layer in costmap.layers]
@@ -103,7 +103,7 @@ def _costmap(costmap: Costmap2DROS) -> Part:
 
 
 def _recoveries(move_base: MoveBase) -> Part:
-    """All of them in one part, in their order."""
+    """Describe all recovery behaviours as one part, in order."""
     rows = [f"{number}. {each.name}" for number, each in enumerate(move_base.recovery_behaviors, 1)]
     says = {
         value.topic
@@ -115,5 +115,5 @@ def _recoveries(move_base: MoveBase) -> Part:
 
 
 def _is_cleared(move_base: MoveBase, costmap: Costmap2DROS) -> bool:
-    """Whether a recovery behaviour says that it clears this costmap."""
+    """True if a recovery behaviour declares that it clears this costmap."""
     return any(costmap in behavior.costmaps() for _, behavior in move_base.recovery_behaviors)

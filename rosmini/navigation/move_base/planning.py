@@ -1,4 +1,4 @@
-"""When the global planner runs: a lane that plans when it is asked to, and goals around one that cannot be reached."""
+"""The lane that runs the global planner on request, and alternatives to a goal that cannot be reached."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node, Waiter
 
 STEP_CELLS = 3.0
-"""How many cells the goals lie apart that `make_plan` tries instead of its own."""
+"""Distance [cells] between the alternative goals that `make_plan` tries."""
 
 
 def offsets_within(tolerance: float, resolution: float) -> Iterator[tuple[float, float]]:
-    """Offsets (dx, dy) [m] around a goal, on squares that grow to `tolerance` [m], as in `make_plan`."""
+    """Yield offsets (dx, dy) [m] from a goal, on squares that grow to `tolerance` [m], as in `make_plan`."""
     step = resolution * STEP_CELLS
     if 0 < tolerance < step:
         step = tolerance
@@ -31,7 +31,7 @@ def offsets_within(tolerance: float, resolution: float) -> Iterator[tuple[float,
 class PlannerLane:
     """Plans for `goal` while the state machine wants a plan: once, or `planner_frequency` times a second.
 
-    `plan(goal)` returns the poses, or nothing. `stop()` is called when patience is at an end.
+    `plan(goal)` returns the poses, or an empty plan. `stop()` is called when the planner's patience has run out.
     """
 
     def __init__(
@@ -45,18 +45,18 @@ class PlannerLane:
         self._plan, self._stop = plan, stop
         self.goal: Any = None
         self.latest: Sequence[Any] | None = None
-        """A plan that nobody has taken yet."""
+        """A plan that has not been taken yet."""
         self._waiter: Waiter | None = None
         node.spawn(f"{node.name} planner", self._run)
 
     def wake(self) -> None:
-        """Plan now, if a plan is wanted."""
+        """Plan immediately if the state machine wants a plan."""
         waiter, self._waiter = self._waiter, None
         if waiter is not None:
             waiter.wake()
 
     def take(self) -> Sequence[Any] | None:
-        """The newest plan, once."""
+        """Return the latest plan, once; then None until there is another."""
         plan, self.latest = self.latest, None
         return plan
 
@@ -73,12 +73,12 @@ class PlannerLane:
                 pause = self._once()
 
     def _once(self) -> int | None:
-        """Plan; return after what time [ns] to do so again, if nobody wakes the lane before."""
+        """Plan once; return the time [ns] until planning again, or None to wait for `wake`."""
         clock = self.node.clock
         start, goal = clock.now_ns(), self.goal
         plan = self._plan(goal)
         if goal is not self.goal:
-            return 0  # it preempted the one that was planned for
+            return 0  # another goal has preempted the one that the plan is for
         now = clock.now_ns()
         if plan:
             self.latest = plan

@@ -1,8 +1,8 @@
-"""Calls of planners and recovery behaviours that somebody else wrote: they may raise, block for ever, or never return.
+"""Calls of planners and recovery behaviours from other packages, which may raise, block forever, or never return.
 
-A plugin of rosmini is called as it is. Another one runs in a lane of its own, with a budget: what it may block is
-seconds of the graph's time, what it may compute is turns of its loops, of which 1,000 count as a millisecond, as in a
-script's loops. Wall time decides nothing, so the answer is the same on every machine.
+Plugins of rosmini are called directly. Others run in a separate lane with a budget: blocking is limited in seconds of
+the graph's time, and computing by the number of loop iterations, of which 1,000 count as a millisecond, as for loops
+in scripts. Wall-clock time has no effect, so the result is the same on every machine.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 TURNS_PER_SECOND = 1_000_000
-"""The number of turns of loops that count as a second."""
+"""Number of loop iterations that count as one second."""
 
 _ROSMINI = str(Path(__file__).resolve().parents[2])
 _OURS = (_ROSMINI, *{sysconfig.get_path(kind) for kind in ("stdlib", "purelib", "platlib")}, "<frozen")
 
 
 class PluginFault(NavigationFailure):
-    """A plugin raised something that is no failure of navigation, or did not return within its budget."""
+    """Raised if a plugin raises an exception other than `NavigationFailure`, or exceeds its budget."""
 
 
 def call(node: Node, what: str, function: Callable[..., Any], *arguments: Any, budget: float) -> Any:
-    """Call a plugin's method; `what` says in an error whose it is, `budget` is in seconds.
+    """Call a plugin's method; `what` names it in error messages, and `budget` is in seconds.
 
-    Raises what the method raises if that is a `NavigationFailure`, else `PluginFault`.
+    Raises the method's exception if that is a `NavigationFailure`, and `PluginFault` for all others.
     """
     owner = getattr(function, "__self__", function)
     is_ours = type(owner).__module__.startswith("rosmini.")
@@ -51,7 +51,7 @@ def call(node: Node, what: str, function: Callable[..., Any], *arguments: Any, b
 
 
 def _where(error: Exception) -> str:
-    """File and line of the plugin's own frame, the innermost that is not ours."""
+    """Return file and line of the innermost frame outside rosmini, Python and installed packages."""
     frames = traceback.extract_tb(error.__traceback__)
     own = [frame for frame in frames if not frame.filename.startswith(_OURS)] or list(frames)
     return f"{Path(own[-1].filename).name}, line {own[-1].lineno}" if own else "nowhere"
@@ -86,9 +86,9 @@ def _in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) -> A
 
 
 class LoopWatch:
-    """Counts the turns of loops in code that is neither rosmini's nor Python's, and raises `PluginFault` after `most`.
+    """Counts loop iterations outside rosmini and installed packages, and raises `PluginFault` after `most` of them.
 
-    It counts by Python's trace function, so it stands back where a debugger or a measurement of coverage has that.
+    It uses Python's trace function, so it does nothing while a debugger or a coverage tool is using that.
     """
 
     def __init__(self, what: str, most: int) -> None:
@@ -96,17 +96,17 @@ class LoopWatch:
         self._foreign: dict[str, bool] = {}
 
     def start(self) -> None:
-        """Count from now on."""
+        """Start counting."""
         if sys.gettrace() is None:
             sys.settrace(self)
 
     def stop(self) -> None:
-        """Count no more."""
+        """Stop counting."""
         if isinstance(sys.gettrace(), LoopWatch):
             sys.settrace(None)
 
     def __call__(self, frame: FrameType, event: str, _: Any) -> Callable[..., Any] | None:
-        """A frame begins (the signature is that of a trace function)."""
+        """Decide whether to trace a new frame; this is a trace function for `sys.settrace`."""
         file = frame.f_code.co_filename
         foreign = self._foreign.get(file)
         if foreign is None:

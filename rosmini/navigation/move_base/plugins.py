@@ -1,4 +1,4 @@
-"""The two planners of `move_base`, which may be changed while it runs."""
+"""The two planners of `move_base`, which can be replaced at run time."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ GLOBAL, LOCAL = "global", "local"
 
 
 class Planners:
-    """Loads planners by their names; `of` has the planners, `names` their names, by `GLOBAL` and `LOCAL`."""
+    """Loads planners by name; `of` and `names` map `GLOBAL` and `LOCAL` to the planners and their names."""
 
     def __init__(self, node: Node, buffer: Buffer, global_costmap: Any) -> None:
         self._node, self._buffer = node, buffer
@@ -30,7 +30,7 @@ class Planners:
         self._made: dict[str, list[Any]] = {}
 
     def load(self, which: str, name: str) -> None:
-        """Make a planner and let it take over. Raises `PluginError`, and then the one that was there stays."""
+        """Create and start a planner. Raises `PluginError`, in which case the previous planner stays."""
         made, before = self._created(which, name), self.names.get(which)
         self._withdraw(which)
         try:
@@ -54,7 +54,7 @@ class Planners:
             ) from error
 
     def _bring(self, which: str, name: str, made: Any) -> None:
-        """Let it begin, and keep in mind what it advertised."""
+        """Initialise a planner, and record the topics and services that it creates."""
         before = set(_handles(self._node))
         try:
             self._initialize(which, made, name)
@@ -78,18 +78,18 @@ class Planners:
             ) from error
 
     def hears(self, which: str) -> frozenset[str]:
-        """The topics that a planner has subscribed to."""
+        """Return the topics that a planner has subscribed to."""
         return frozenset(each.topic for each in self._made[which] if isinstance(each, Subscriber))
 
     def _withdraw(self, which: str) -> None:
-        """Withdraw what the planner advertised, so that the next one can have the same names."""
+        """Remove the publishers, subscribers and services of a planner, so that the next can use the same names."""
         for handle in self._made.pop(which, ()):
             end = handle.unregister if hasattr(handle, "unregister") else handle.shutdown
             end()
 
 
 def _handles(node: Node) -> Iterator[Any]:
-    """Every publisher, subscriber, service and timer of a node."""
+    """Yield every publisher, subscriber, service and timer of a node."""
     for topics in (node.publications, node.subscriptions):
         for topic in topics.values():
             yield from topic.handles

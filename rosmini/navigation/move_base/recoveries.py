@@ -1,4 +1,4 @@
-"""The list of recovery behaviours: what `recovery_behaviors` says, or the default (http://wiki.ros.org/move_base)."""
+"""The recovery behaviours listed in `recovery_behaviors`, or the default ones (http://wiki.ros.org/move_base)."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ CLEAR, ROTATE = "clear_costmap_recovery/ClearCostmapRecovery", "rotate_recovery/
 
 
 class Named(NamedTuple):
-    """A behaviour under its name in the list."""
+    """A behaviour and its name in the list."""
 
     name: str
     behavior: RecoveryBehavior
 
 
 class BadList(Exception):
-    """The list cannot be taken; the text says why, for the log."""
+    """Raised if the list is invalid; the message goes to the log."""
 
 
 def checked(entries: Any) -> list[tuple[str, str]]:
-    """Name and type of each behaviour of the parameter `recovery_behaviors`. Raises `BadList` with ROS's texts."""
+    """Return name and type of each entry of `recovery_behaviors`. Raises `BadList` with ROS's messages."""
     if not isinstance(entries, list):
         raise BadList(
             "The recovery behavior specification must be a list, but is of the type "
@@ -56,14 +56,14 @@ def checked(entries: Any) -> list[tuple[str, str]]:
 
 
 class Recoveries:
-    """Makes the behaviours of a node."""
+    """Creates the recovery behaviours of a node."""
 
     def __init__(self, node: Node, buffer: Buffer, global_costmap: Any, local_costmap: Any) -> None:
         self._node = node
         self._world = (buffer, global_costmap, local_costmap)
 
     def load(self, *, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[Named]:
-        """Those that the parameter lists; without it, or where something is wrong with it, the default ones."""
+        """Return the behaviours that the parameter lists, or the default ones if it is missing or invalid."""
         if self._node.has_param("~recovery_behaviors"):
             try:
                 listed = checked(self._node.get_param("~recovery_behaviors"))
@@ -77,7 +77,7 @@ class Recoveries:
         return self._default(rotate, reset_distance, circumscribed_radius)
 
     def _default(self, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[Named]:
-        """Clear far away, turn, clear nearer, turn again."""
+        """Return the default list: clear far away, rotate, clear closer, rotate again."""
         self._node.set_param("~conservative_reset/reset_distance", reset_distance)
         self._node.set_param("~aggressive_reset/reset_distance", circumscribed_radius * 4)
         conservative = Named("conservative_reset", self._made("conservative_reset", CLEAR))
@@ -92,7 +92,7 @@ class Recoveries:
         return made
 
     def _full_name(self, kind: str) -> str:
-        """A class without its package, as files for old releases have it, under its whole name."""
+        """Return the full name of a class that is given without its package, as in files for old ROS releases."""
         if "/" in kind or ":" in kind:
             return kind
         for name in RecoveryBehavior.names():

@@ -1,12 +1,12 @@
-"""The state machine of `move_base`: events in, decisions out; no node, no topic, no clock.
+"""The state machine of `move_base`: events in, decisions out, without nodes, topics or clocks.
 
-Three states (http://wiki.ros.org/move_base): PLANNING, until there is a plan; CONTROLLING, while the local planner
-finds commands; CLEARING, while a recovery behaviour tries to free the robot. What sent the robot there, the trigger,
-decides when the list of behaviours starts from its first again, and with which text the goal is given up after the
-last.
+It has three states (http://wiki.ros.org/move_base): PLANNING, until there is a plan; CONTROLLING, while the local
+planner finds commands; CLEARING, while a recovery behaviour tries to free the robot. The trigger, which is the reason
+for CLEARING, determines when the list of behaviours restarts and which message is sent when the last one has not
+helped.
 
-Times are seconds on any one clock, positions metres in any one frame. `TRANSITIONS` lists every change that can happen,
-and `StateMachine.history` those that did.
+Times are in seconds on any clock, positions in metres in any frame. `TRANSITIONS` lists all possible state changes,
+and `StateMachine.history` those that have happened.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from enum import Enum
 from typing import NamedTuple
 
 HISTORY = 1000
-"""The number of the latest changes that are kept."""
+"""Number of latest state changes that are stored."""
 
 
 class State(Enum):
-    """What `move_base` is about."""
+    """The activity of `move_base`."""
 
     PLANNING = "planning"
     CONTROLLING = "controlling"
@@ -32,7 +32,7 @@ class State(Enum):
 
 
 class Trigger(Enum):
-    """Why recovery behaviours run; the value is the text with which a goal is aborted when none has helped."""
+    """The reason for recovery behaviours; its value is the text of the aborted goal if none of them helps."""
 
     PLANNING = "Failed to find a valid plan. Even after executing recovery behaviors."
     CONTROLLING = "Failed to find a valid control. Even after executing recovery behaviors."
@@ -46,11 +46,11 @@ GIVEN_UP = {
     Trigger.OSCILLATION: "Aborting because the robot appears to be oscillating over and over. Even after executing "
     "all recovery behaviors",
 }
-"""What the log says then."""
+"""The log message for each trigger when a goal is aborted."""
 
 
 class Event(Enum):
-    """What changes the state; the value says it in words, for histories and figures."""
+    """A cause of a state change; its value describes it in histories and figures."""
 
     NEW_GOAL = "new goal"
     PLAN_FOUND = "plan found"
@@ -75,11 +75,11 @@ TRANSITIONS: tuple[tuple[State, Event, State], ...] = (
     (State.CLEARING, Event.NEW_GOAL, State.PLANNING),
     (State.CLEARING, Event.OVER, State.PLANNING),
 )
-"""Every change of state: from, why, to. With `planner_frequency` a plan may come while the robot is CLEARING."""
+"""All state changes: from, event, to. With `planner_frequency` a plan can also arrive while CLEARING."""
 
 
 class Transition(NamedTuple):
-    """A change of state that happened, at `time` [s]."""
+    """A state change that happened at `time` [s]."""
 
     time: float
     before: State
@@ -89,7 +89,7 @@ class Transition(NamedTuple):
 
 @dataclass(frozen=True)
 class Limits:
-    """The parameters that decide; see `rosmini.navigation.move_base.parameters`."""
+    """The parameters on which decisions depend; see `rosmini.navigation.move_base.parameters`."""
 
     planner_frequency: float = 0.0
     planner_patience: float = 5.0
@@ -101,21 +101,21 @@ class Limits:
 
 
 class Plan(NamedTuple):
-    """Decision: nothing to command in this cycle, the planner is to run."""
+    """Decision: run the planner; send no command in this cycle."""
 
 
 class Follow(NamedTuple):
-    """Decision: ask the local planner, first whether the goal is reached, then for a command."""
+    """Decision: ask the local planner whether the goal is reached, and then for a command."""
 
 
 class Recover(NamedTuple):
-    """Decision: run the recovery behaviour with this number, from 0."""
+    """Decision: run the recovery behaviour with this index."""
 
     number: int
 
 
 class Abort(NamedTuple):
-    """Decision: give the goal up, with this text, and this line for the log."""
+    """Decision: abort the goal with this text, and log this message."""
 
     text: str
     log: str
@@ -125,7 +125,7 @@ Decision = Plan | Follow | Recover | Abort
 
 
 class StateMachine:
-    """Where `move_base` is, and what it does next.
+    """The state of `move_base` and the decision what to do next.
 
     `recoveries` is the number of recovery behaviours; `limits` may be replaced at any time.
     """
@@ -137,9 +137,9 @@ class StateMachine:
         self.trigger = Trigger.PLANNING
         self.recovery_index = 0
         self.wants_plan = False
-        """Whether the planner is to run (`runPlanner_` of the original)."""
+        """True if the planner should run (`runPlanner_` in the original)."""
         self.retries = 0
-        """How often planning failed since there was a plan, a command or a recovery."""
+        """Number of failed attempts to plan since the last plan, command or recovery."""
         self.last_plan = self.last_command = self.last_progress = 0.0
         self._progress_at: tuple[float, float] | None = None
         self.history: deque[Transition] = deque(maxlen=HISTORY)
@@ -150,14 +150,14 @@ class StateMachine:
         self.state = after
 
     def _patience(self, now: float) -> None:
-        """Start all patience from now."""
+        """Restart the planner's patience."""
         self.last_plan = now
         self.retries = 0
 
     # -- events --------------------------------------------------------------------------------------------------
 
     def begin(self, now: float) -> None:
-        """A goal, also one that preempts another: plan for it, with all patience and from the first recovery."""
+        """Handle a new goal, which may preempt another: plan, with full patience and all recoveries available."""
         self._enter(now, Event.NEW_GOAL, State.PLANNING)
         self.recovery_index = 0
         self.wants_plan = True
@@ -165,14 +165,14 @@ class StateMachine:
         self._patience(now)
 
     def end(self, now: float) -> None:
-        """The goal is over, however it ended (`resetState` of the original)."""
+        """Handle the end of a goal, for any reason (`resetState` in the original)."""
         self._enter(now, Event.OVER, State.PLANNING)
         self.wants_plan = False
         self.recovery_index = 0
         self.trigger = Trigger.PLANNING
 
     def plan_found(self, now: float) -> None:
-        """The planner has a plan, which the next cycle hands to the local planner."""
+        """Handle a new plan, which the next cycle passes to the local planner."""
         self._patience(now)
         if self.wants_plan:
             self._enter(now, Event.PLAN_FOUND, State.CONTROLLING)
@@ -180,9 +180,9 @@ class StateMachine:
             self.wants_plan = False
 
     def plan_failed(self, now: float) -> bool:
-        """The planner has found none. Return whether patience is at an end: then the robot has to stop.
+        """Handle a failure to plan; return True if patience has run out and the robot has to stop.
 
-        While the robot follows an older plan it goes on following it.
+        While the robot is following an older plan, it continues to do so.
         """
         if self.state is not State.PLANNING:
             return False
@@ -196,12 +196,12 @@ class StateMachine:
         return True
 
     def plan_taken(self) -> None:
-        """The local planner has the new plan: if recoveries ran for want of one, the list starts from its first."""
+        """Handle the local planner's acceptance of a plan: after failed planning, recoveries start from the first again."""
         if self.trigger is Trigger.PLANNING:
             self.recovery_index = 0
 
     def at(self, now: float, x: float, y: float) -> None:
-        """The robot is there: after `oscillation_distance` it counts as getting on."""
+        """Handle a new robot position: a move of `oscillation_distance` counts as progress."""
         if (
             self._progress_at is not None
             and math.dist(self._progress_at, (x, y)) < self.limits.oscillation_distance
@@ -212,7 +212,7 @@ class StateMachine:
             self.recovery_index = 0
 
     def step(self) -> Decision:
-        """What this cycle of control has to do."""
+        """Return the decision for this control cycle."""
         if self.state is State.PLANNING:
             self.wants_plan = True
             return Plan()
@@ -224,7 +224,7 @@ class StateMachine:
         return Abort(self.trigger.value, GIVEN_UP[self.trigger])
 
     def oscillates(self, now: float) -> bool:
-        """Ask, while CONTROLLING, whether the robot has not got on for too long. If so it has to stop: CLEARING."""
+        """Return True, and enter CLEARING, if the robot has made no progress for too long. Call while CONTROLLING."""
         timeout = self.limits.oscillation_timeout
         if not (timeout > 0 and self.last_progress + timeout < now):
             return False
@@ -233,13 +233,13 @@ class StateMachine:
         return True
 
     def command_found(self, now: float) -> None:
-        """The local planner has a command."""
+        """Handle a valid command from the local planner."""
         self.last_command = now
         if self.trigger is Trigger.CONTROLLING:
             self.recovery_index = 0
 
     def command_failed(self, now: float) -> None:
-        """The local planner has none; the robot has to stop. Plan again, or after `controller_patience` recover."""
+        """Handle the lack of a command, when the robot has to stop: replan, or recover after `controller_patience`."""
         if now > self.last_command + self.limits.controller_patience:
             self._enter(now, Event.NO_COMMAND_AT_ALL, State.CLEARING)
             self.trigger = Trigger.CONTROLLING
@@ -249,7 +249,7 @@ class StateMachine:
         self.wants_plan = True
 
     def recovered(self, now: float) -> None:
-        """The recovery behaviour has run: plan again; the next time it is the next one's turn."""
+        """Handle the end of a recovery behaviour: plan again; the next recovery will run the next behaviour."""
         self.last_progress = now
         self._patience(now)
         self.recovery_index += 1
@@ -257,9 +257,9 @@ class StateMachine:
 
 
 def recovery_steps(names: Sequence[str]) -> list[tuple[str, str, str]]:
-    """What becomes of a robot that cannot plan: (from, what happens, to), with recovery behaviours of these names.
+    """Return the steps (from, event, to) of a robot that cannot plan, with recovery behaviours of these names.
 
-    The machine itself is run for that: without any plan until it gives up, and after each behaviour with one.
+    They come from running the state machine without any plan until it aborts, and after each behaviour with a plan.
     """
     machine, limits = StateMachine(Limits(), len(names)), Limits()
     found: list[tuple[str, str, str]] = []
