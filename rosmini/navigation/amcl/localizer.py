@@ -138,7 +138,7 @@ class Localizer:
     def update(self, laser: str, scan: Scan, odometry: Pose) -> bool | None:
         """Process a scan of the named laser, taken at an odometry pose.
 
-        Returns None if the robot has hardly moved since the last scan (with several lasers, each gets one scan a motion).
+        Returns None if the robot has hardly moved since the last scan; with several lasers, each gets one per motion.
         Otherwise returns True if there is a new estimate: after the first scan, and after resampling.
         """
         if self.field is None:

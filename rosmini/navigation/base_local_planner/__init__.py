@@ -1,4 +1,4 @@
-"""Local planners that roll trajectories out and score them (http://wiki.ros.org/base_local_planner).
+"""Local planners that simulate trajectories and score them (http://wiki.ros.org/base_local_planner).
 
-The pieces, which `dwa_local_planner` uses too, are arrays in and arrays out; `plugin` meets the graph.
+The algorithms, which `dwa_local_planner` also uses, work on arrays; `plugin` connects them to the graph.
 """

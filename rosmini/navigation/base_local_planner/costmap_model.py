@@ -1,7 +1,7 @@
-"""What a footprint costs where it stands: base_local_planner's `CostmapModel`.
+"""The cost of a footprint at a pose: base_local_planner's `CostmapModel`.
 
-Only the outline is looked up, as there: an obstacle that is wholly inside of it is not seen, but then the robot stands
-on it already.
+As in the original only the outline is checked: an obstacle completely inside it is missed, but then the robot is
+already on top of it.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ __all__ = ["HIT", "OUTSIDE", "UNSEEN", "footprint_cells", "footprint_cost", "lin
 
 
 def footprint_cost(grid: Costmap2D, pose: Pose, footprint: ArrayLike) -> int:
-    """The largest cost on the outline of a footprint (n, 2) [m, in the base frame] at `pose` (x [m], y [m], heading).
+    """Return the largest cost on a footprint's outline (n, 2) [m, base frame] at `pose` (x [m], y [m], heading).
 
-    Negative where the robot cannot be: `HIT` (-1) on an obstacle, `UNSEEN` (-2) on an unknown cell, `OUTSIDE` (-3) off
-    the costmap. With fewer than three vertices the robot is round, and the cost of its centre's cell decides: then 253
-    is a hit, too.
+    Negative at an illegal pose: `HIT` (-1) on an obstacle, `UNSEEN` (-2) on an unknown cell, `OUTSIDE` (-3) outside the
+    costmap. With fewer than three vertices the robot is round, and only the cell of its centre counts, where 253 is
+    also a hit.
     """
     outline = np.ascontiguousarray(footprint, dtype=np.float64).reshape(-1, 2)
     costs = np.ascontiguousarray(grid.costs).reshape(-1)
@@ -35,7 +35,7 @@ def footprint_cost(grid: Costmap2D, pose: Pose, footprint: ArrayLike) -> int:
 
 
 def line_cells(x: int, y: int, end_x: int, end_y: int) -> list[tuple[int, int]]:
-    """The cells of a line, both ends included, as the kernel visits them."""
+    """Return the cells of a line, including both ends, as the kernel visits them."""
     dx, dy = abs(end_x - x), abs(end_y - y)
     step_x, step_y = (1 if end_x >= x else -1), (1 if end_y >= y else -1)
     steps, gain, cells = max(dx, dy), min(dx, dy), []
@@ -53,9 +53,9 @@ def line_cells(x: int, y: int, end_x: int, end_y: int) -> list[tuple[int, int]]:
 def footprint_cells(
     grid: Costmap2D, pose: Pose, footprint: ArrayLike, *, fill: bool
 ) -> list[tuple[int, int]]:
-    """The cells (mx, my) under the outline of a footprint at `pose`, and those between them if it is to be filled.
+    """Return the cells (mx, my) under a footprint's outline at `pose`; with `fill`, also those inside it.
 
-    Where the outline leaves the map, it ends, as in base_local_planner's `FootprintHelper`.
+    The outline stops where it leaves the map, as in base_local_planner's `FootprintHelper`.
     """
     x, y, theta = pose
     cos, sin = np.cos(theta), np.sin(theta)

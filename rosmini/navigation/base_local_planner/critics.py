@@ -1,6 +1,6 @@
-"""The critics that look at velocities alone, and how the numbers of all are put together.
+"""The critics that depend on velocities alone, and the combination of all critics' costs.
 
-Those that look at the points (obstacle, map grids) are in the kernel: `rosmini.navigation.base_local_planner.rollout`.
+The critics of points (obstacle, map grids) are in the kernel: `rosmini.navigation.base_local_planner.rollout`.
 """
 
 from __future__ import annotations
@@ -17,32 +17,32 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 GOES_BACK = -5.0
-"""What the oscillation critic gives what it rejects."""
+"""The score of trajectories that the oscillation critic rejects."""
 
 
 @dataclass
 class Oscillation:
-    """Rejects what goes back where the robot has just come from: forwards and backwards, left and right.
+    """Rejects velocities that undo the previous motion: forwards and backwards, left and right.
 
-    As soon as the sign of a velocity has changed twice, only the later sign is allowed, until the robot has moved by
+    Once the sign of a velocity has changed twice, only the later sign is allowed until the robot has moved by
     `reset_distance` [m] or turned by `reset_angle` [rad].
     """
 
     reset_distance: float = 0.05
     reset_angle: float = 0.2
     last: list[int] = field(default_factory=lambda: [0, 0, 0])
-    """The sign of the last velocity that was not 0, of x, y and theta; 0: forgotten."""
+    """The sign of the last non-zero velocity in x, y and theta; 0 initially."""
     allowed: list[int] = field(default_factory=lambda: [0, 0, 0])
-    """The only sign that is allowed; 0: both."""
+    """The only allowed sign in x, y and theta; 0 allows both."""
     stood_at: Pose = (0.0, 0.0, 0.0)
 
     def score(self, commands: Floats) -> Floats:
-        """0 or `GOES_BACK` for each command (n, 3)."""
+        """Return 0 or `GOES_BACK` for each command (n, 3)."""
         wrong = (np.sign(commands) * np.asarray(self.allowed) < 0).any(axis=1)
         return np.where(wrong, GOES_BACK, 0.0)
 
     def update(self, pose: Pose, command: Floats, min_vel_trans: float) -> None:
-        """Note the command that was chosen at `pose`."""
+        """Record the command that was chosen at `pose`."""
         if self._note(command, min_vel_trans):
             self.stood_at = pose
         if any(self.allowed):
@@ -53,7 +53,7 @@ class Oscillation:
     def _note(self, command: Floats, min_vel_trans: float) -> bool:
         changed = self._turned(0, command[0])
         if abs(command[0]) <= min_vel_trans:
-            # Turns and steps aside count only while it does not drive on.
+            # Turns and sideways steps count only while the robot is not driving ahead.
             changed = self._turned(1, command[1]) | self._turned(2, command[2]) | changed
         return changed
 
@@ -68,26 +68,26 @@ class Oscillation:
         return turned
 
     def reset(self) -> None:
-        """Allow everything."""
+        """Allow all velocities."""
         self.last, self.allowed = [0, 0, 0], [0, 0, 0]
 
 
 def twirling(commands: Floats) -> Floats:
-    """How fast each command (n, 3) turns [rad/s]."""
+    """Return the turning speed of each command (n, 3) [rad/s]."""
     return np.abs(commands[:, 2])
 
 
 def prefer_forward(commands: Floats, penalty: float = 1.0) -> Floats:
-    """`penalty` for commands (n, 3) that reverse or hardly move; for others ten times how fast they turn."""
+    """Return `penalty` for commands (n, 3) that reverse or hardly move, and ten times the turning speed for others."""
     x, turn = commands[:, 0], np.abs(commands[:, 2])
     return np.where((x < 0) | ((x < 0.1) & (turn < 0.2)), penalty, turn * 10)
 
 
 def together(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
-    """Costs (n) and the number of the critic that rejected each (n), -1 if none did, from what each gave (n, k).
+    """Combine the critics' raw scores (n, k): return costs (n) and the index of the rejecting critic (n), or -1.
 
-    Critics are asked in order, and those of scale 0 are not: `SimpleScoredSamplingPlanner::scoreTrajectory`. The cost
-    of a rejected one is what its critic gave.
+    Critics are applied in order, without those of scale 0 (`SimpleScoredSamplingPlanner::scoreTrajectory`). The cost
+    of a rejected trajectory is the score of its critic.
     """
     asked = np.flatnonzero(scales != 0)
     if not len(asked):

@@ -1,6 +1,6 @@
-"""Where a local planner meets the graph: the plan in the costmap's frame, topics, clouds and parameters.
+"""The part of local planners that uses the graph: the plan in the costmap's frame, topics, clouds and parameters.
 
-What `LocalPlannerUtil`, `MapGridVisualizer` and `goal_functions` do for both planners in ROS.
+It does the work of `LocalPlannerUtil`, `MapGridVisualizer` and `goal_functions` for both planners.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ Floats = NDArray[np.float64]
 
 
 class Following:
-    """The plan that is followed, and its part that concerns the local costmap."""
+    """The plan being followed, and its part near the local costmap."""
 
     def __init__(self, buffer: Buffer, costmap: Any) -> None:
         self.buffer, self.costmap = buffer, costmap
         self.poses: Floats = np.empty((0, 3))
-        """The rest of the plan (n, 3), in `frame`."""
+        """The remaining plan (n, 3), in `frame`."""
         self.frame = ""
 
     def set_plan(self, plan: Sequence[Any]) -> None:
-        """Follow poses (`geometry_msgs/PoseStamped`) that are all in the frame of the first one."""
+        """Set the plan: poses (`geometry_msgs/PoseStamped`), all in the frame of the first one."""
         self.frame = plan[0].header.frame_id.lstrip("/") if plan else ""
         rows = []
         for stamped in plan:
@@ -47,16 +47,16 @@ class Following:
         self.poses = np.column_stack([made[:, :2], np.arctan2(made[:, 2], made[:, 3])])
 
     def goal(self) -> Pose:
-        """The end of the plan in the costmap's frame. Raises `ControlFailure` and `TransformMissing`."""
+        """Return the end of the plan in the costmap's frame. Raises `ControlFailure` and `TransformMissing`."""
         if not len(self.poses):
             raise ControlFailure("Received plan with zero length: there is no goal to drive to")
         x, y, theta = self.poses[-1].tolist()
         return compose(self._frame_pose(), (x, y, theta))
 
     def local(self, robot: Pose, *, prune: bool) -> Floats:
-        """The part (n, 3) of the plan in reach of the costmap, in its frame; with `prune`, what is behind is dropped.
+        """Return the part (n, 3) of the plan within the costmap's reach, in its frame; `prune` drops passed poses.
 
-        Raises `ControlFailure` if there is none, and `TransformMissing`.
+        Raises `ControlFailure` if no pose is within reach, and `TransformMissing`.
         """
         if not len(self.poses):
             raise ControlFailure("Received plan with zero length: the local planner has nothing to follow")
@@ -79,7 +79,7 @@ class Following:
         return np.asarray(part)
 
     def _frame_pose(self) -> Pose:
-        """Where the plan's frame is in the costmap's."""
+        """Return the pose of the plan's frame in the costmap's frame."""
         if self.frame == self.costmap.global_frame:
             return 0.0, 0.0, 0.0
         try:
@@ -94,7 +94,7 @@ class Following:
 
 
 class Publications:
-    """The topics of a local planner, in its namespace; messages are made only if somebody listens."""
+    """The topics of a local planner, in its namespace; messages are created only if there are subscribers."""
 
     def __init__(self, node: Node, name: str, frame: str) -> None:
         path, cloud = message_class("nav_msgs/Path"), message_class("sensor_msgs/PointCloud2")
@@ -104,7 +104,7 @@ class Publications:
         self.cost_cloud = node.publisher(f"~{name}/cost_cloud", cloud, queue_size=1)
 
     def path(self, publisher: Any, poses: Floats) -> None:
-        """Publish poses (n, 3), if there are any: an empty plan is not published, as in ROS."""
+        """Publish poses (n, 3); as in ROS, an empty plan is not published."""
         if not len(poses) or not publisher.num_connections():
             return
         now = self.node.now()
@@ -114,14 +114,14 @@ class Publications:
         publisher.publish(message)
 
     def costs(self, grid: Any, path: MapGrid, goal: MapGrid, scales: tuple[float, float, float]) -> None:
-        """Publish what each cell costs: distances to path and goal, costs, and their sum with these weights.
+        """Publish the distances of each cell to path and goal, its cost, and their weighted sum.
 
-        Cells in obstacles and without a path are left out.
+        Cells in obstacles and unreachable cells are omitted.
         """
         if not self.cost_cloud.num_connections():
             return
         lost = (path.distances >= path.obstacle) | (grid.costs >= INSCRIBED_INFLATED_OBSTACLE)
-        # Column by column, as there.
+        # Column by column, as in the original.
         mx, my = np.nonzero(~lost.T)
         parts = [each[my, mx].astype(np.float32) for each in (path.distances, goal.distances, grid.costs)]
         x = grid.origin[0] + (mx + 0.5) * grid.resolution
@@ -131,7 +131,7 @@ class Publications:
         self._cloud(self.cost_cloud, names, np.column_stack([x, y, np.zeros(len(x)), *parts, total]))
 
     def trajectories(self, publisher: Any, samples: Samples) -> None:
-        """Publish the points of all trajectories that were not rejected, with their cost."""
+        """Publish the points and costs of all trajectories that were not rejected."""
         if not publisher.num_connections():
             return
         rows = [
@@ -152,7 +152,7 @@ class Publications:
 
 
 def sim_period(node: Node, label: str) -> float:
-    """The time between two commands [s], from `controller_frequency` in the planner's namespace or above."""
+    """Return the time between two commands [s], from `controller_frequency` here or in a parent namespace."""
     for name in (label + "controller_frequency", "~controller_frequency"):
         if node.has_param(name):
             break
@@ -173,7 +173,7 @@ def sim_period(node: Node, label: str) -> float:
 
 
 def rename(node: Node, label: str, old: str, new: str) -> None:
-    """Take the value of an older name for the newer one, if that has none, with ROS's warning."""
+    """Copy an old parameter to its new name, with ROS's warning, unless the new one is set."""
     if not node.has_param(label + old):
         return
     if not node.has_param(label + new):
@@ -182,7 +182,7 @@ def rename(node: Node, label: str, old: str, new: str) -> None:
 
 
 def ignore(node: Node, label: str, names: Iterable[str], whose: str) -> None:
-    """Warn of parameters that this planner does not read, though files for real robots have them."""
+    """Warn of parameters that this planner does not read, although files for real robots contain them."""
     for name in names:
         if node.has_param(label + name):
             node.logwarn(
@@ -191,7 +191,7 @@ def ignore(node: Node, label: str, names: Iterable[str], whose: str) -> None:
 
 
 def no_command(text: str, samples: Samples) -> NoValidCommand:
-    """Why none of the samples is any good, with their number by critic."""
+    """Return the error for a cycle without a valid sample, with the number of samples that each critic rejected."""
     counts = samples.counts()
     listed = [f"{name} rejected {count}" for name, count in counts.items() if name != "generator"]
     tried = len(samples) + samples.refused
@@ -206,7 +206,7 @@ def no_command(text: str, samples: Samples) -> NoValidCommand:
 
 
 def twist(command: Floats) -> Any:
-    """A `geometry_msgs/Twist` of a velocity (3)."""
+    """Return a velocity (3) as a `geometry_msgs/Twist`."""
     message = message_class("geometry_msgs/Twist")()
     message.linear.x, message.linear.y, message.angular.z = (float(value) for value in command)
     return message

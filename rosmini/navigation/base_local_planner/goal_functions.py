@@ -1,4 +1,4 @@
-"""The part of a plan that concerns the local planner, and whether its end is reached: `goal_functions`, on arrays."""
+"""The part of a plan near the local costmap, and the distance to its end: `goal_functions`, on arrays."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from rosmini.navigation.costmap_2d.costmap import Costmap2D
 Floats = NDArray[np.float64]
 
 BEHIND = 1.0
-"""What lies further behind is pruned, up to the first point that does not [m]."""
+"""Poses farther behind than this [m] are pruned, up to the first one that is nearer."""
 
 
 def part_in_reach(plan: Floats, robot: Pose, grid: Costmap2D) -> slice:
-    """Which poses of a plan (n, 3) are in reach of the costmap, half its longer side: from the first one that is.
+    """Return the slice of a plan (n, 3) within the costmap's reach, which is half of its longer side.
 
-    The one after the last of them belongs to it, too, as in ROS. `robot` and `plan` are in one frame.
+    As in ROS it includes the first pose beyond. `robot` and `plan` must be in the same frame.
     """
     reach = max(grid.size_m) / 2
     near = ((plan[:, 0] - robot[0]) ** 2 + (plan[:, 1] - robot[1]) ** 2) <= reach * reach
@@ -28,28 +28,28 @@ def part_in_reach(plan: Floats, robot: Pose, grid: Costmap2D) -> slice:
         return slice(0, 0)
     first = int(np.argmax(near))
     beyond = np.flatnonzero(~near[first:])
-    # ROS measures a pose after it has put it in.
+    # ROS appends a pose before it measures its distance.
     return slice(first, first + int(beyond[0]) + 1 if len(beyond) else len(plan))
 
 
 def behind(plan: Floats, robot: Pose) -> int:
-    """How many poses at the beginning of a plan (n, 3) lie more than `BEHIND` away from the robot: what is pruned."""
+    """Return the number of poses at the start of a plan (n, 3) that are more than `BEHIND` away from the robot."""
     near = ((plan[:, 0] - robot[0]) ** 2 + (plan[:, 1] - robot[1]) ** 2) < BEHIND * BEHIND
     return int(np.argmax(near)) if near.any() else len(plan)
 
 
 def distance_to(pose: Pose, goal: Pose) -> float:
-    """How far the goal is [m]."""
+    """Return the distance to the goal [m]."""
     return math.hypot(goal[0] - pose[0], goal[1] - pose[1])
 
 
 def turn_to(pose: Pose, goal: Pose) -> float:
-    """By how much to turn at the goal, in (-pi, pi] [rad]."""
+    """Return the rotation from the pose's heading to the goal's, in (-pi, pi] [rad]."""
     return shortest_angular_distance(pose[2], goal[2])
 
 
 def stands(velocity: Floats, theta_stopped_vel: float, trans_stopped_vel: float) -> bool:
-    """Whether a velocity (3) counts as standing."""
+    """True if a velocity (3) counts as standing still."""
     return bool(
         abs(velocity[2]) <= theta_stopped_vel
         and abs(velocity[0]) <= trans_stopped_vel

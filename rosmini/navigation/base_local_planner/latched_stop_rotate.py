@@ -1,4 +1,4 @@
-"""What to do at the goal: stop, then turn to its heading. `LatchedStopRotateController`, without its node."""
+"""Commands at the goal: stop, then turn to its heading. `LatchedStopRotateController` without its node."""
 
 from __future__ import annotations
 
@@ -17,31 +17,31 @@ from .limits import LocalPlannerLimits
 
 Floats = NDArray[np.float64]
 Check = Callable[[Floats], str]
-"""Why the robot may not drive a velocity (3); empty if it may."""
+"""Returns the reason why a velocity (3) is not allowed; empty if it is allowed."""
 
 
 @dataclass
 class LatchedStopRotate:
-    """Knows whether the goal's position was reached once (`latch`: that is enough), and what to command there."""
+    """Decides whether the goal is reached, and commands the stop and the final rotation."""
 
     latch: bool = False
-    """`latch_xy_goal_tolerance`."""
+    """`latch_xy_goal_tolerance`: having reached the position once is sufficient."""
     reached: bool = False
     rotating: bool = False
 
     def reset(self) -> None:
-        """Forget that the position was reached: there is a new plan."""
+        """Forget that the position was reached, for a new plan."""
         self.reached = False
 
     def is_position_reached(self, pose: Pose, goal: Pose, limits: LocalPlannerLimits) -> bool:
-        """Whether the robot is near enough to the goal, or was, with `latch`."""
+        """True if the robot is within tolerance of the goal's position or, with `latch`, has been."""
         if (self.latch and self.reached) or distance_to(pose, goal) <= limits.xy_goal_tolerance:
             self.reached = True
             return True
         return False
 
     def is_goal_reached(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> bool:
-        """Whether it is there, turned as it should be, and stands."""
+        """True if the robot has reached position and heading and is standing still."""
         if not ((self.latch and self.reached) or distance_to(pose, goal) <= limits.xy_goal_tolerance):
             return False
         self.reached = self.reached or self.latch
@@ -58,9 +58,9 @@ class LatchedStopRotate:
         period: float,
         why_not: Check,
     ) -> Floats:
-        """The velocity (3) to command at the goal; `period` [s] is the time between two commands.
+        """Return the velocity (3) to command at the goal; `period` [s] is the time between two commands.
 
-        Raises `ControlFailure` if the robot cannot brake or turn there without touching something.
+        Raises `ControlFailure` if the robot cannot brake or turn there without a collision.
         """
         turn = turn_to(pose, goal)
         if abs(turn) <= limits.yaw_goal_tolerance:
@@ -79,18 +79,18 @@ class LatchedStopRotate:
 
 
 def braked(velocity: Floats, accelerations: Floats, period: float) -> Floats:
-    """The velocity (3) after a period of braking as hard as the robot can."""
+    """Return the velocity (3) after braking at the maximum deceleration for one period."""
     return np.sign(velocity) * np.maximum(0.0, np.abs(velocity) - accelerations * period)
 
 
 def follow(speed: float, turn: float, now: float, acceleration: float, period: float) -> float:
-    """A speed of turning that the robot reaches in a period, and from which it can stop at the end of `turn` [rad]."""
+    """Return a turning speed within reach in one period from which the robot can stop at the end of `turn` [rad]."""
     speed = min(max(abs(speed), abs(now) - acceleration * period), abs(now) + acceleration * period)
     return min(math.sqrt(2 * acceleration * abs(turn)), abs(speed))
 
 
 def checked(command: Floats, why_not: Check, text: str) -> Floats:
-    """The command, if the robot may drive it. Raises `ControlFailure`, which begins with `text`."""
+    """Return the command if it is allowed. Raises `ControlFailure`, with a message that starts with `text`."""
     reason = why_not(command)
     if not reason:
         return command

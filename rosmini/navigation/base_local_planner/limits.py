@@ -1,4 +1,4 @@
-"""What the robot can do, and when it has arrived: parameters that local planners have in common."""
+"""Velocity limits and goal tolerances: the parameters that local planners have in common."""
 
 from __future__ import annotations
 
@@ -34,5 +34,5 @@ class LocalPlannerLimits(Parameters):
 
     @property
     def accelerations(self) -> NDArray[np.float64]:
-        """Of x, y and theta (3) [m/s2, m/s2, rad/s2]."""
+        """Maximum accelerations in x, y and theta (3) [m/s2, m/s2, rad/s2]."""
         return np.array([self.acc_lim_x, self.acc_lim_y, self.acc_lim_theta])

@@ -1,6 +1,6 @@
-"""How far each cell of a costmap is from the plan, or from where the plan leaves the costmap: `MapGrid`.
+"""The distance of each cell to the plan, or to the point where the plan leaves the costmap: `MapGrid`.
 
-A wavefront from the target cells, from cell to cell through shared edges; obstacles stop it.
+A wavefront spreads from the target cells across shared cell edges; obstacles stop it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Distances = NDArray[np.int32]
 Floats = NDArray[np.float64]
 
 INSCRIBED = 253
-"""From this cost on a cell stops the wavefront; compiled in."""
+"""Cells of at least this cost stop the wavefront; a constant in the compiled code."""
 
 
 def wavefront(
@@ -32,10 +32,10 @@ def wavefront(
     queue: NDArray[np.int32],
     count: int,
 ) -> None:
-    """Spread distances (h, w) [cells] from the `count` cells that stand in `queue` (h w), as indices, with distance 0.
+    """Spread distances (h, w) [cells] from the first `count` cell indices in `queue` (h w), which have distance 0.
 
-    All others begin with the distance h w + 1, and keep it where no path leads; obstacles get h w. Cells marked in
-    `within` (h, w) are never obstacles: there the robot is.
+    All other cells start with distance h w + 1, and keep it if they are unreachable; obstacles get h w. Cells marked in
+    `within` (h, w), under the robot, are never obstacles.
     """
     height, width = costs.shape
     size = height * width
@@ -59,7 +59,7 @@ def wavefront(
 
 
 def compiled_wavefront() -> Callable[..., None]:
-    """`wavefront` as machine code, or as it is without numba."""
+    """Return `wavefront` compiled by numba, or the plain function if numba is not installed."""
     try:
         import numba
     except ImportError:
@@ -71,24 +71,24 @@ def compiled_wavefront() -> Callable[..., None]:
 
 @dataclass(frozen=True)
 class MapGrid:
-    """Distances [cells] of all cells (h, w), from the cells `targets` (n, 2) as (mx, my)."""
+    """Distances [cells] of all cells (h, w) to the cells `targets` (n, 2), given as (mx, my)."""
 
     distances: Distances
     targets: Ints
 
     @property
     def obstacle(self) -> int:
-        """The distance that says "an obstacle"."""
+        """The distance value of obstacles."""
         return int(self.distances.size)
 
     @property
     def unreachable(self) -> int:
-        """The distance that says "no path leads here"."""
+        """The distance value of unreachable cells."""
         return int(self.distances.size) + 1
 
 
 def finer(points: Floats, resolution: float) -> Floats:
-    """A plan (n, 2 or more columns) with points put in between, so that none are further apart than `resolution`."""
+    """Return a plan (n, 2 or more columns) with points inserted so that no gap exceeds `resolution`."""
     if len(points) < 2:
         return points
     steps = np.diff(points, axis=0)
@@ -105,7 +105,7 @@ def finer(points: Floats, resolution: float) -> Floats:
 
 
 def plan_cells(grid: Costmap2D, plan: Floats) -> Ints:
-    """The cells (n, 2), as (mx, my), of the first part of a plan (n, 2) that is on the costmap and on known cells."""
+    """Return the cells (n, 2), as (mx, my), of the first part of a plan (n, 2) on known cells of the costmap."""
     points = finer(plan[:, :2], grid.resolution)
     cells = np.floor((points - np.asarray(grid.origin)) / grid.resolution).astype(np.int64)
     inside = np.all((cells >= 0) & (cells < (grid.width, grid.height)), axis=1)
@@ -118,20 +118,20 @@ def plan_cells(grid: Costmap2D, plan: Floats) -> Ints:
 
 
 def path_grid(grid: Costmap2D, plan: Floats, within: Ints | None = None) -> MapGrid:
-    """Distances from the plan (n, 2): what `MapGrid::setTargetCells` computes.
+    """Return the distances to the plan (n, 2), as `MapGrid::setTargetCells` computes them.
 
-    `within` (n, 2) are cells (mx, my) where the robot is, which stop nothing.
+    `within` (n, 2) are the cells (mx, my) under the robot, which never stop the wavefront.
     """
     return spread(grid, plan_cells(grid, plan), within)
 
 
 def goal_grid(grid: Costmap2D, plan: Floats) -> MapGrid:
-    """Distances from the last point of the plan (n, 2) before it leaves the costmap: `MapGrid::setLocalGoal`."""
+    """Return the distances to the plan's last point (n, 2) before it leaves the costmap: `MapGrid::setLocalGoal`."""
     return spread(grid, plan_cells(grid, plan)[-1:])
 
 
 def spread(grid: Costmap2D, targets: Ints, within: Ints | None = None) -> MapGrid:
-    """Distances from the cells `targets` (n, 2); `within` as in `path_grid`."""
+    """Return the distances to the cells `targets` (n, 2); `within` as in `path_grid`."""
     size = grid.width * grid.height
     distances: Distances = np.full((grid.height, grid.width), size + 1, dtype=np.int32)
     inside = np.zeros((grid.height, grid.width), dtype=np.uint8)

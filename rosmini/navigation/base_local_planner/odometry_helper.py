@@ -1,4 +1,4 @@
-"""How fast the robot is, from its odometry: `OdometryHelperRos`."""
+"""The robot's velocity from its odometry: `OdometryHelperRos`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rosmini.msgs import message_class
 
 
 class OdometryHelper:
-    """Listens to `nav_msgs/Odometry`; `velocity` (3) is what it said last: x [m/s], y [m/s], theta [rad/s]."""
+    """Subscribes to `nav_msgs/Odometry`; `velocity` (3) is the latest one: x [m/s], y [m/s], theta [rad/s]."""
 
     def __init__(self, node: Node, topic: str = "odom") -> None:
         self.velocity: NDArray[np.float64] = np.zeros(3)

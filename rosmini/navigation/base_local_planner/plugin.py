@@ -1,4 +1,4 @@
-"""`base_local_planner/TrajectoryPlannerROS`: parameters, topics and the odometry around `TrajectoryPlanner`."""
+"""`base_local_planner/TrajectoryPlannerROS`: parameters, topics and odometry for `TrajectoryPlanner`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from .trajectory_planner import TrajectoryPlanner, TrajectoryPlannerParameters
 Floats = NDArray[np.float64]
 
 STANDS = 1e-2
-"""Up to this speed [m/s] and turn [rad/s] the robot stands."""
+"""Up to this speed [m/s] and turning speed [rad/s] the robot counts as standing still."""
 
 RENAMED = {
     "acc_lim_th": "acc_lim_theta",
@@ -36,10 +36,10 @@ RENAMED = {
     "pdist_scale": "path_distance_bias",
     "gdist_scale": "goal_distance_bias",
 }
-"""Names of earlier releases, which are still read."""
+"""Names from earlier releases, which are still accepted."""
 
 MISSPELT = {"acc_limit_x": "acc_lim_x", "acc_limit_y": "acc_lim_y", "acc_limit_th": "acc_lim_th"}
-"""What an early documentation had wrong: not read, in ROS as here."""
+"""Names that were wrong in early documentation; as in ROS they are ignored with an error message."""
 
 OTHERS = (
     *(each.name for each in fields(LocalPlannerLimits)),
@@ -58,7 +58,7 @@ OTHERS = (
 
 @dataclass(frozen=True)
 class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
-    """All parameters of `base_local_planner/TrajectoryPlannerROS`: those that cannot be changed while it runs, too."""
+    """All parameters of `base_local_planner/TrajectoryPlannerROS`, including those that are read only once."""
 
     controller_frequency: float | None = parameter(
         None, "how often it is asked for a command; by default move_base's", unit="Hz"
@@ -79,13 +79,13 @@ class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
 
 
 class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/TrajectoryPlannerROS"):
-    """Drives along a plan by rolling trajectories out; `samples` has what the last cycle tried."""
+    """Follows a plan by simulating trajectories; `samples` holds those of the last cycle."""
 
     samples: Samples | None = None
     """The trajectories of the last cycle, or None before the first."""
 
     def initialize(self, name: str, buffer: Buffer, costmap: Any) -> None:
-        """Read the parameters, advertise the topics, and listen to the odometry."""
+        """Read the parameters, advertise the topics, and subscribe to the odometry."""
         super().initialize(name, buffer, costmap)
         self.node, label = costmap.node, f"~{name}/"
         self._mend_names(label)
@@ -156,7 +156,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
 
     @property
     def parameters(self) -> TrajectoryPlannerParameters:
-        """What holds now."""
+        """The current parameters."""
         return self.planner.parameters
 
     # -- the interface -------------------------------------------------------------------------------------------
@@ -167,11 +167,11 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         self._latched = self._reached = False
 
     def is_goal_reached(self) -> bool:
-        """Whether the robot is at the end of the plan, and turned as it says."""
+        """True if the robot has reached the end of the plan and its heading."""
         return self._reached
 
     def compute_velocity_commands(self) -> Any:
-        """The next command: along the plan, or at its end to a standstill and to the heading."""
+        """Return the next command, which follows the plan or, at its end, stops and turns to the heading."""
         pose = planar_pose(self.costmap.robot_pose())
         plan = self.following.local(pose, prune=self._settings.prune_plan)
         goal = (float(plan[-1, 0]), float(plan[-1, 1]), float(plan[-1, 2]))
@@ -206,7 +206,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
             self._rotating = self._latched = False
             self._reached = True
             return np.zeros(3)
-        # So that the distances of the check below are those of now.
+        # Update the distances that the check below uses.
         self._sample(pose, plan)
         if not self._rotating and not stands(velocity, STANDS, STANDS):
             command = braked(velocity, self.parameters.accelerations, self.planner.sim_period)
@@ -216,7 +216,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         most, least = p.max_vel_theta, p.min_in_place_vel_theta
         speed = min(most, max(least, abs(turn)))
         speed = follow(speed, turn, float(velocity[2]), p.acc_lim_theta, self.planner.sim_period)
-        # More important than the acceleration.
+        # The velocity limits take precedence over the acceleration.
         speed = min(most, max(least, speed))
         command = np.array([0.0, 0.0, math.copysign(speed, turn)])
         return checked(command, lambda asked: self._why_not(pose, asked), "Rotation cmd in collision")

@@ -1,7 +1,7 @@
-"""The kernels of the local planners: a footprint on a costmap, and sampled trajectories, driven and looked up.
+"""The kernels of the local planners: the cost of a footprint, and the simulation and lookup of sampled trajectories.
 
-The functions are plain Python. `compiled_footprint_cost` and `compiled_rollout` make machine code of them; without
-numba they run as they are. They are in one file, since numba's cache looks at the age of this file only.
+The functions are plain Python. `compiled_footprint_cost` and `compiled_rollout` compile them; without numba they run
+as they are. They are in one file because numba's cache only checks the modification time of this file.
 """
 
 from __future__ import annotations
@@ -20,24 +20,24 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Distances = NDArray[np.int32]
 
-# These are compiled in.
+# Constants in the compiled code.
 INSCRIBED = 253
 LETHAL = 254
 UNKNOWN = 255
 
 HIT = -1
-"""The outline of the footprint meets an obstacle."""
+"""The outline of the footprint touches an obstacle."""
 UNSEEN = -2
-"""It meets a cell of which nothing is known."""
+"""The outline touches an unknown cell."""
 OUTSIDE = -3
-"""It leaves the costmap."""
+"""The outline leaves the costmap."""
 
 IN_OBSTACLE = -3.0
-"""What a map grid gives a trajectory that enters an obstacle."""
+"""The map grid score of a trajectory that enters an obstacle."""
 UNREACHABLE = -2.0
-"""What it gives one that goes where no path leads."""
+"""The map grid score of a trajectory that enters an unreachable cell."""
 OFF_GRID = -4.0
-"""What it gives one that leaves the costmap."""
+"""The map grid score of a trajectory that leaves the costmap."""
 
 
 def footprint_cost(
@@ -53,11 +53,11 @@ def footprint_cost(
     footprint: Floats,
     scale: float,
 ) -> int:
-    """The largest cost under the outline of a footprint (n, 2) [m], `scale` times as large, that stands at a pose.
+    """Return the largest cost under a footprint's outline (n, 2) [m], scaled by `scale`, at a pose.
 
-    `costs` (height width) are those of the costmap, row by row.
-    `HIT`, `UNSEEN` or `OUTSIDE` at the first cell that is one, edge by edge. Fewer than three vertices are a round
-    robot: the cell of its centre counts, and `INSCRIBED` is a hit.
+    `costs` (height width) are the costmap's costs, row by row.
+    Returns `HIT`, `UNSEEN` or `OUTSIDE` at the first such cell, edge by edge. With fewer than three vertices the robot
+    is round: only the cell of its centre counts, and `INSCRIBED` is a hit.
     """
     return outline_cost(
         costs,
@@ -87,7 +87,7 @@ def outline_cost(
     sin: float,
     footprint: Floats,
 ) -> int:
-    """As `footprint_cost`, of a robot at (x, y) that is turned and made larger by `cos` and `sin`."""
+    """Like `footprint_cost`, for a robot at (x, y) rotated and scaled by `cos` and `sin`."""
     if x < origin_x or y < origin_y:
         return OUTSIDE
     mx = int((x - origin_x) / resolution)
@@ -125,9 +125,9 @@ def outline_cost(
 
 
 def line_cost(costs: Costs, width: int, x: int, y: int, end_x: int, end_y: int) -> int:
-    """The largest cost of the cells on a line (Bresenham, 1965), or `HIT` or `UNSEEN`.
+    """Return the largest cost of the cells on a line (Bresenham, 1965), or `HIT` or `UNSEEN`.
 
-    Its last cell is left to the next edge, which begins there.
+    The last cell is omitted, because the next edge starts with it.
     """
     step_x = 1 if end_x >= x else -1
     step_y = width if end_y >= y else -width
@@ -173,17 +173,17 @@ def rollout(
     raw: Floats,
     where: Ints,
 ) -> None:
-    """Drive every sample and ask the critics that look at its points; all grids (height width) are flat, row by row.
+    """Simulate every sample and evaluate the critics of its points; all grids (height width) are flat, row by row.
 
-    From `pose` (3) each of n samples drives `steps[n]` equal steps in `sim_time` [s]: its velocity begins at
-    `starts[n]` (x, y, theta) and comes nearer to `targets[n]` by `limits` (3) [m/s2, rad/s2] a second. Its points are
+    From `pose` (3) each of n samples drives `steps[n]` equal steps in `sim_time` [s]: its velocity starts at
+    `starts[n]` (x, y, theta) and approaches `targets[n]` by up to `limits` (3) [m/s2, rad/s2] a second. The points are
     written into `points` (n, at least as many as steps, 3).
 
-    `raw` (n, 5) gets the largest cost under the footprint, `scales[n]` times as large, or a negative number as
-    `footprint_cost` returns; then the distances [cells] at the last point: in `front` and in `path`, both taken `shift`
-    [m] ahead of the robot, in `path` and in `goal`; negative as the constants above say. `where` (n, 5) gets the first
-    point at which that number became negative, else -1. If `scored[n]` is not negative, the distances are those of
-    that point alone.
+    `raw` (n, 5) receives first the largest cost under the footprint, scaled by `scales[n]`, or a negative number from
+    `footprint_cost`; then the distances [cells] at the last point: in `front` and in `path`, both measured `shift` [m]
+    ahead of the robot, in `path` and in `goal`, or one of the negative scores above. `where` (n, 5) receives the first
+    point at which the number became negative, or -1. If `scored[n]` is not negative, the distances are those of that
+    point alone.
     """
     for n in range(targets.shape[0]):
         dt = sim_time / max(steps[n], 1)
@@ -232,7 +232,7 @@ def rollout(
 def cell_of(
     x: float, y: float, origin_x: float, origin_y: float, resolution: float, width: int, height: int
 ) -> int:
-    """The index of the cell of a point, row by row, or -1 off the costmap."""
+    """Return the index of the cell that contains a point, row by row, or -1 outside the costmap."""
     if x < origin_x or y < origin_y:
         return -1
     mx = int((x - origin_x) / resolution)
@@ -241,7 +241,7 @@ def cell_of(
 
 
 def nearer(value: float, target: float, most: float) -> float:
-    """`value` moved towards `target`, by `most` at most."""
+    """Return `value` moved towards `target` by at most `most`."""
     if value < target:
         return min(target, value + most)
     return max(target, value - most)
@@ -250,7 +250,7 @@ def nearer(value: float, target: float, most: float) -> float:
 def looked_up(
     distances: Distances, cell: int, strict: bool, last: float, n: int, critic: int, i: int, where: Ints
 ) -> float:
-    """The distance of a cell, or `last` if that is negative; the first point that makes it so is noted in `where`."""
+    """Return a cell's distance, or `last` if that is negative; record the first negative point in `where`."""
     if last < 0:
         return last
     value = OFF_GRID
@@ -265,7 +265,7 @@ def looked_up(
 
 
 def compiled_footprint_cost() -> Callable[..., int]:
-    """`footprint_cost` as machine code, or as it is without numba."""
+    """Return `footprint_cost` compiled by numba, or the plain function if numba is not installed."""
     try:
         import numba
     except ImportError:
@@ -278,7 +278,7 @@ def compiled_footprint_cost() -> Callable[..., int]:
 
 
 def compiled_rollout() -> Callable[..., None]:
-    """`rollout` as machine code, or as it is without numba."""
+    """Return `rollout` compiled by numba, or the plain function if numba is not installed."""
     try:
         import numba
     except ImportError:

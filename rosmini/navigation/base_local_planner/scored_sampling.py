@@ -1,4 +1,4 @@
-"""Sample velocities, drive them in thought, and score them: `SimpleTrajectoryGenerator` and its scored planner."""
+"""Velocity sampling, simulation and scoring: `SimpleTrajectoryGenerator` and its scored planner."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 SLACK = 1e-4
-"""So much a velocity may lie outside of the limits [m/s, rad/s]."""
+"""Tolerance for velocities outside the limits [m/s, rad/s]."""
 
 MOST_POINTS = 20_000_000
-"""Points of all trajectories of a cycle: half a gigabyte."""
+"""Maximum number of points of all trajectories in a cycle; they take half a gigabyte."""
 
 
 @dataclass(frozen=True)
 class Rollouts:
-    """What the kernel found: see `rosmini.navigation.base_local_planner.rollout.rollout`."""
+    """The results of the kernel: see `rosmini.navigation.base_local_planner.rollout.rollout`."""
 
     points: Floats
     lengths: Ints
@@ -51,7 +51,7 @@ def roll_out(
     shift: float,
     scored: Ints | None = None,
 ) -> Rollouts:
-    """Call the kernel: `grids` of path, goal and front; `motion`: starts (n, 3), targets (n, 3), accelerations (3)."""
+    """Call the kernel: `grids` of path, goal, front; `motion`: starts (n, 3), targets (n, 3), accelerations (3)."""
     starts, targets, limits = motion
     count, most = len(targets), int(steps.max(initial=1))
     if count * most > MOST_POINTS:
@@ -87,22 +87,22 @@ def roll_out(
 
 @dataclass(frozen=True)
 class Sampling:
-    """How velocities are sampled and driven: what `SimpleTrajectoryGenerator` is told.
+    """The parameters of sampling and simulation in `SimpleTrajectoryGenerator`.
 
     Raises `ParameterError` for a granularity of 0.
     """
 
     sim_time: float
-    """[s]"""
+    """Duration of a trajectory [s]."""
     sim_granularity: float
-    """[m]"""
+    """Maximum distance between two points [m]."""
     angular_sim_granularity: float
-    """[rad]"""
+    """Maximum angle between two points [rad]."""
     use_dwa: bool
     sim_period: float
     """Time between two commands [s]."""
     counts: tuple[int, int, int]
-    """Samples of x, y and theta."""
+    """Numbers of samples in x, y and theta."""
 
     def __post_init__(self) -> None:
         for name in ("sim_granularity", "angular_sim_granularity"):
@@ -113,10 +113,10 @@ class Sampling:
                 )
 
     def velocities(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> Floats:
-        """The velocities (n, 3) to try from `velocity` (3).
+        """Return the velocities (n, 3) to try from the current `velocity` (3).
 
-        With `use_dwa` what the robot reaches in a period, else what it reaches in `sim_time`, and no faster than to be
-        at the `goal` then.
+        With `use_dwa` they are within reach in one period, otherwise in `sim_time`, and then not so fast that the robot
+        would pass the `goal`.
         """
         low = np.array([limits.min_vel_x, limits.min_vel_y, -limits.max_vel_theta])
         high = np.array([limits.max_vel_x, limits.max_vel_y, limits.max_vel_theta])
@@ -132,7 +132,7 @@ class Sampling:
         return made.reshape(-1, 3)
 
     def steps(self, velocities: Floats, limits: LocalPlannerLimits) -> Ints:
-        """How many steps each velocity (n, 3) is driven, 0 for one that the robot cannot follow."""
+        """Return the number of steps of each velocity (n, 3); 0 for velocities that the robot cannot follow."""
         speeds, turns = np.hypot(velocities[:, 0], velocities[:, 1]), np.abs(velocities[:, 2])
         slow = (speeds + SLACK < limits.min_vel_trans) & (turns + SLACK < limits.min_vel_theta)
         fast = speeds - SLACK > limits.max_vel_trans
@@ -145,7 +145,7 @@ class Sampling:
         return np.where(slow | fast, 0, steps).astype(np.int64)
 
     def starts(self, velocities: Floats, velocity: Floats, steps: Ints, limits: LocalPlannerLimits) -> Floats:
-        """The velocities (n, 3) of the first cycle, which are commanded if they are chosen."""
+        """Return the velocities (n, 3) of the first cycle, which are commanded if they are chosen."""
         if self.use_dwa:
             return velocities
         gain = limits.accelerations * (self.sim_time / np.maximum(steps, 1))[:, None]
@@ -155,7 +155,7 @@ class Sampling:
 def footprint_scales(
     velocities: Floats, max_vel_trans: float, max_scaling_factor: float, scaling_speed: float
 ) -> Floats:
-    """By how much the footprint grows for each velocity (n, 3): from `scaling_speed` on, up to 1 + the factor."""
+    """Return the footprint's scale for each velocity (n, 3): it grows above `scaling_speed`, up to 1 + the factor."""
     speeds = np.hypot(velocities[:, 0], velocities[:, 1])
     fast = speeds > scaling_speed
     room = max_vel_trans - scaling_speed

@@ -1,4 +1,4 @@
-"""The sampled trajectories of one cycle, with what each critic gave them or why they were rejected."""
+"""The sampled trajectories of one cycle, with each critic's scores and the reasons for rejection."""
 
 from __future__ import annotations
 
@@ -16,58 +16,58 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """n trajectories that were driven in thought, as arrays.
+    """n simulated trajectories, as arrays.
 
-    A critic's number is what it gave before its scale; a negative one rejects the trajectory, and says why in ROS's
-    codes. What a later critic gave a rejected trajectory is kept, too.
+    A critic's raw score is its score before scaling; a negative one rejects the trajectory and is one of ROS's codes.
+    The scores of later critics for a rejected trajectory are kept.
     """
 
     critics: tuple[str, ...]
-    """Their names (k), in the order in which they are asked."""
+    """Names of the critics (k), in order of application."""
     scales: Floats
-    """Their weights (k); one of weight 0 is not asked."""
+    """Weights of the critics (k); a critic with weight 0 is not applied."""
     velocities: Floats
-    """What was sampled (n, 3): x [m/s], y [m/s], theta [rad/s]."""
+    """The sampled velocities (n, 3): x [m/s], y [m/s], theta [rad/s]."""
     commands: Floats
-    """What would be commanded (n, 3)."""
+    """The commands for these samples (n, 3)."""
     points: Floats
-    """The poses (n, s, 3) in the costmap's frame, of which the first `lengths[n]` count."""
+    """The poses (n, s, 3) in the costmap's frame; only the first `lengths[n]` are valid."""
     lengths: Ints
-    """Points of each (n)."""
+    """Number of points of each trajectory (n)."""
     raw: Floats
-    """What each critic gave (n, k)."""
+    """The raw score from each critic (n, k)."""
     where: Ints
-    """At which point a critic rejected it (n, k), -1 if at none."""
+    """The point at which a critic rejected the trajectory (n, k), or -1."""
     totals: Floats
-    """The costs (n): the scaled sum, or the negative code of the critic that rejected it."""
+    """The costs (n): the weighted sum, or the negative code of the critic that rejected the trajectory."""
     rejected_by: Ints
-    """The number of that critic (n), or -1."""
+    """The index of that critic (n), or -1."""
     best: int | None = None
-    """Which one was chosen."""
+    """Index of the chosen trajectory."""
     refused: int = 0
-    """How many velocities were not driven: too slow to be followed, or faster than the robot may be."""
+    """Number of velocities that were not simulated because they are too slow or too fast for the robot."""
     pose: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Where the robot was."""
+    """The robot's pose."""
 
     def __len__(self) -> int:
         return len(self.totals)
 
     def trajectory(self, number: int) -> Floats:
-        """The poses (s, 3) of one."""
+        """Return the poses (s, 3) of a trajectory."""
         return self.points[number, : self.lengths[number]]
 
     @property
     def accepted(self) -> NDArray[np.bool_]:
-        """Which of them no critic rejected (n)."""
+        """True for each trajectory (n) that no critic rejected."""
         return self.rejected_by < 0
 
     def counts(self) -> dict[str, int]:
-        """How many each critic rejected; critics that rejected none are left out. `generator`: what was not driven."""
+        """Return each critic's number of rejections, if not 0; `generator` counts the velocities not simulated."""
         found = {name: int((self.rejected_by == i).sum()) for i, name in enumerate(self.critics)}
         return {name: count for name, count in {**found, "generator": self.refused}.items() if count}
 
     def explain(self, number: int) -> dict[str, float | None]:
-        """What each critic added to the cost of one, scaled; None from the critic that rejected it, and `total`."""
+        """Return each critic's scaled share of a trajectory's cost, None for the rejecting one, and the `total`."""
         row: dict[str, float | None] = {
             name: None if self.raw[number, i] < 0 else float(self.raw[number, i] * self.scales[i])
             for i, name in enumerate(self.critics)
@@ -77,7 +77,7 @@ class Samples:
         return row
 
     def reason(self, number: int) -> str:
-        """Why one was rejected, in words; empty if it was not."""
+        """Return the reason why a trajectory was rejected; empty if it was not."""
         critic = int(self.rejected_by[number])
         if critic < 0:
             return ""
@@ -87,9 +87,9 @@ class Samples:
         return f"{self.critics[critic]}: {words}{place}"
 
     def table(self, count: int = 8) -> str:
-        """The `count` cheapest, and of each critic that rejected any the first one, with what each critic added.
+        """Format the `count` cheapest trajectories, and the first one that each critic rejected, with all shares.
 
-        Columns that are 0 in all these rows are left out; below are the reasons of those that were rejected.
+        Columns that are 0 in all rows are omitted; the reasons for rejection follow below.
         """
         accepted = np.flatnonzero(self.accepted)
         cheapest = accepted[np.argsort(self.totals[accepted].round(6), kind="stable")][:count]
@@ -108,7 +108,7 @@ class Samples:
         return "\n".join([*lines, *reasons])
 
     def nearest(self, x: float, y: float, theta: float) -> int:
-        """The number of the sample whose velocity is most like this one.
+        """Return the index of the sample whose velocity is closest to this one.
 
         Raises `IndexError` if there are no samples.
         """
@@ -117,12 +117,12 @@ class Samples:
         return int(np.argmin(np.abs(self.velocities - (x, y, theta)).sum(axis=1)))
 
     def show(self, **options: Any) -> Any:
-        """Show the trajectories in a stepped player: see `rosmini.viz.stepped_pictures.trajectory_steps`."""
+        """Draw the trajectories in a stepped player: see `rosmini.viz.stepped_pictures.trajectory_steps`."""
         return show("trajectories", self, **options)
 
 
 def _shown(value: float | None) -> str:
-    """Two decimals. The boundaries lie a little off the halves, so that they are the same on every machine."""
+    """Format with two decimals; a small offset avoids ties, which machines may round differently."""
     return f"{(value or 0.0) + 3.7e-7:.2f}".replace("-0.00", "0.00")
 
 
@@ -140,11 +140,11 @@ REASONS: dict[tuple[str, int], str] = {
     ("goal_front", -4): "its nose leaves the local costmap",
     ("alignment", -4): "its nose leaves the local costmap",
 }
-"""What a critic's negative number means. (An obstacle's is -6 in ROS, whatever it is; here it says what was met.)"""
+"""Meanings of the critics' negative scores. (ROS has -6 for every obstacle; here the code names its kind.)"""
 
 
 def joined(first: Samples, *others: Samples, best: int | None = None) -> Samples:
-    """All of them together, with the number `best` of the one that was chosen."""
+    """Return all samples as one, with the index `best` of the chosen one."""
     parts = [first, *others]
     most = max(part.points.shape[1] for part in parts)
     points = [np.pad(part.points, ((0, 0), (0, most - part.points.shape[1]), (0, 0))) for part in parts]

@@ -1,7 +1,7 @@
-"""The planner of base_local_planner: Trajectory Rollout, and with `dwa` the Dynamic Window Approach in its older form.
+"""The planner of base_local_planner: Trajectory Rollout, or with `dwa` an older form of the Dynamic Window Approach.
 
-Gerkey and Konolige, "Planning and Control in Unstructured Terrain" (2008). It samples velocities ahead, turns on the
-spot and, for a robot that can, steps aside; if nothing is possible, it backs up until it has come free.
+Gerkey and Konolige, "Planning and Control in Unstructured Terrain" (2008). It samples forward velocities, turns on the
+spot and, for a holonomic robot, sideways steps; if none is possible, it backs up until the robot is free.
 """
 
 from __future__ import annotations
@@ -28,18 +28,18 @@ Ints = NDArray[np.int64]
 
 CRITICS = ("obstacle", "path", "goal", "heading")
 BLOCKED = -1.0
-"""The cost of a trajectory on which the footprint meets something."""
+"""The cost of a trajectory whose footprint touches an obstacle."""
 IMPOSSIBLE = -2.0
-"""The cost of one from which no way leads to the plan."""
+"""The cost of a trajectory that ends where no path leads to the plan."""
 HEADING_SCALE = 0.3
 STRAFE = 0.1
-"""A holonomic robot also tries this velocity ahead together with this one to either side [m/s]."""
+"""A holonomic robot also tries this velocity ahead combined with the same velocity to either side [m/s]."""
 INSCRIBED = 253
 
 
 @dataclass(frozen=True)
 class TrajectoryPlannerParameters(Parameters):
-    """The parameters of `base_local_planner/TrajectoryPlannerROS` that can be changed while it runs."""
+    """The parameters of `base_local_planner/TrajectoryPlannerROS` that can change at run time."""
 
     dynamic = True
 
@@ -98,11 +98,11 @@ class TrajectoryPlannerParameters(Parameters):
 
     @property
     def accelerations(self) -> Floats:
-        """Of x, y and theta (3) [m/s2, m/s2, rad/s2]."""
+        """Maximum accelerations in x, y and theta (3) [m/s2, m/s2, rad/s2]."""
         return np.array([self.acc_lim_x, self.acc_lim_y, self.acc_lim_theta])
 
     def sideways(self) -> list[float]:
-        """`y_vels` as numbers [m/s]. Raises `ParameterError` for a text that is no list of numbers."""
+        """Return `y_vels` as numbers [m/s]. Raises `ParameterError` if the text is not a list of numbers."""
         try:
             return [float(word) for word in self.y_vels.replace(",", " ").strip(" []").split()]
         except ValueError:
@@ -113,9 +113,9 @@ class TrajectoryPlannerParameters(Parameters):
 
 @dataclass
 class Turning:
-    """Which ways the robot has turned or stepped on the spot since it last drove on.
+    """The directions in which the robot has turned or stepped on the spot since it last moved on.
 
-    Whoever has turned right twice in a row may not turn left before it has driven on, and the other way round.
+    A robot that has turned right twice may not turn left until it has moved on, and vice versa.
     """
 
     right: bool = False
@@ -124,7 +124,7 @@ class Turning:
     stuck_left: bool = False
 
     def note(self, velocity: float) -> None:
-        """Remember a velocity to the left (positive) or to the right."""
+        """Record a velocity to the left (positive) or to the right (negative)."""
         if velocity < 0:
             self.right, self.stuck_right = True, self.stuck_right or self.right
         elif velocity > 0:
@@ -132,7 +132,7 @@ class Turning:
 
 
 class TrajectoryPlanner:
-    """Chooses velocities; `parameters` may be exchanged at any time between two cycles."""
+    """Chooses velocities; call `reconfigure` to change the parameters between two cycles."""
 
     def __init__(
         self,
@@ -154,7 +154,7 @@ class TrajectoryPlanner:
         self.reconfigure(parameters)
 
     def reconfigure(self, parameters: TrajectoryPlannerParameters) -> None:
-        """Use these from now on. Raises `ParameterError` for numbers that make no trajectories."""
+        """Set the parameters. Raises `ParameterError` for values that give no valid trajectories."""
         for name in ("sim_granularity", "angular_sim_granularity", "sim_time"):
             if getattr(parameters, name) <= 0:
                 raise ParameterError(
@@ -165,9 +165,9 @@ class TrajectoryPlanner:
         self.parameters = parameters
 
     def update_plan(self, grid: Costmap2D, pose: Pose, plan: Floats, footprint: Floats) -> bool:
-        """Follow this plan (n, 3), in the costmap's frame, with a footprint (n, 2) in the base frame.
+        """Set the plan (n, 3), in the costmap's frame, and the footprint (n, 2), in the base frame.
 
-        Returns whether any of it is on known cells of the costmap.
+        Returns True if any part of the plan is on known cells of the costmap.
         """
         self.plan, self.footprint = plan, footprint
         here = footprint_cells(grid, pose, footprint, fill=True)
@@ -179,9 +179,9 @@ class TrajectoryPlanner:
     # -- one cycle -----------------------------------------------------------------------------------------------
 
     def find_best(self, grid: Costmap2D, pose: Pose, velocity: Floats) -> Samples:
-        """Sample around `velocity` (3), score, choose, and remember how it turned: `createTrajectories`.
+        """Sample around `velocity` (3), score, choose the best, and record its direction: `createTrajectories`.
 
-        `best` is None only if backing up is impossible, too, since no way leads to the plan.
+        `best` is None only if backing up is impossible as well, because no path leads to the plan.
         """
         low, high = self.window(pose, velocity)
         turns = evenly(low[1], high[1], self.parameters.vtheta_samples)
@@ -213,11 +213,11 @@ class TrajectoryPlanner:
         return replace(samples, best=best)
 
     def driven(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
-        """What becomes of velocities (n, 3) of one's own, beginning at `velocity` (3); none is chosen or noted."""
+        """Simulate and score given velocities (n, 3), starting at `velocity` (3); none is chosen or recorded."""
         return self._scored(grid, pose, velocity, velocities)
 
     def window(self, pose: Pose, velocity: Floats) -> tuple[tuple[float, float], tuple[float, float]]:
-        """The lowest and the highest velocities to try, each as (ahead [m/s], turn [rad/s])."""
+        """Return the lowest and the highest velocities to try, each as (ahead [m/s], turn [rad/s])."""
         p = self.parameters
         span = self.sim_period if p.dwa else p.sim_time
         fastest = p.max_vel_x
@@ -230,7 +230,7 @@ class TrajectoryPlanner:
         return (low, right), (high, left)
 
     def _ahead(self, speeds: Floats, turns: Floats) -> Floats:
-        """Straight on and all turns but the last, for each speed; for a holonomic robot two steps aside."""
+        """Return straight drives and all turns but the last for each speed; if holonomic, also two sideways drives."""
         angles = np.concatenate([[0.0], turns[:-1]])
         grid = np.stack(np.meshgrid(speeds, [0.0], angles, indexing="ij"), axis=-1).reshape(-1, 3)
         if not self.parameters.holonomic_robot:
@@ -240,7 +240,7 @@ class TrajectoryPlanner:
     def _best_of(
         self, grid: Costmap2D, samples: Samples, ahead: int, turns: Floats, step: float
     ) -> tuple[int | None, float]:
-        """The best of those that drive on, or of the turns on the spot, which are preferred towards open space."""
+        """Return the best forward sample or turn on the spot; turns towards open space are preferred."""
         best = _cheapest(samples, ahead)
         nearest = math.inf
         for i, turn in enumerate(turns, start=ahead):
@@ -270,13 +270,13 @@ class TrajectoryPlanner:
         return None if best is None else len(first) + best
 
     def _distance_ahead(self, grid: Costmap2D, end: Floats) -> float:
-        """How far the cell that the robot would look at is from the goal; infinite off the costmap."""
+        """Return the goal distance of the cell `heading_lookahead` in front of the robot; infinite off the costmap."""
         reach = self.parameters.heading_lookahead
         cell = grid.world_to_map(end[0] + reach * math.cos(end[2]), end[1] + reach * math.sin(end[2]))
         return math.inf if cell is None or self.goal is None else float(self.goal.distances[cell[1], cell[0]])
 
     def _escape(self, pose: Pose, samples: Samples, back: Samples) -> Samples:
-        """Back up, even where an obstacle is; not where no way leads to the plan."""
+        """Back up, even into an obstacle, unless no path leads to the plan."""
         cost = float(back.totals[0])
         self._forget_turns(pose)
         if not self.escaping and cost > IMPOSSIBLE:
@@ -307,7 +307,7 @@ class TrajectoryPlanner:
         if p.heading_scoring:
             return np.full(len(velocities), max(1, int(p.sim_time / p.sim_granularity + 0.5)))
         speeds, turns = np.hypot(velocities[:, 0], velocities[:, 1]), np.abs(velocities[:, 2])
-        # A turn is not multiplied by the time, as in ROS.
+        # As in ROS, a turn is not multiplied by the time.
         steps = np.maximum(speeds * p.sim_time / p.sim_granularity, turns / p.angular_sim_granularity) + 0.5
         return np.maximum(1, steps.astype(np.int64))
 
@@ -349,7 +349,7 @@ class TrajectoryPlanner:
         )
 
     def _scored_points(self, steps: Ints) -> Ints:
-        """At which point distances are taken: -1 for the last, after all others."""
+        """Return the point at which distances are measured, or -1 for the last one."""
         p = self.parameters
         if not p.heading_scoring:
             return np.full(len(steps), -1)
@@ -362,7 +362,7 @@ class TrajectoryPlanner:
         where[:, 1:3] = -1
 
     def _headings(self, grid: Costmap2D, points: Floats, steps: Ints, scored: Ints) -> Floats:
-        """How much each would have to turn to the last point of the plan that it can see [rad]: `headingDiff`."""
+        """Return each sample's angle to the last visible point of the plan [rad]: `headingDiff`."""
         seen: dict[tuple[int, int], tuple[float, float] | None] = {}
         found = np.zeros(len(steps))
         for n in np.flatnonzero(scored < steps):
@@ -390,7 +390,7 @@ class TrajectoryPlanner:
 
 
 def evenly(low: float, high: float, count: int) -> Floats:
-    """`count` values from `low` to `high`; one alone is `low`."""
+    """Return `count` evenly spaced values from `low` to `high`; with a count of 1, only `low`."""
     if count == 1:
         return np.array([low])
     return np.asarray(low + (high - low) / (count - 1) * np.arange(count))
@@ -403,7 +403,7 @@ def _cheapest(samples: Samples, count: int) -> int | None:
 
 
 def _judged(raw: Floats, where: Ints, scales: Floats) -> tuple[Floats, Ints]:
-    """Costs and the critics that rejected: whichever did so at the earlier point, of two at one point the obstacle."""
+    """Return costs and rejecting critics: the critic of the earliest point, and at the same point the obstacle."""
     first = np.where(raw < 0, where, np.iinfo(np.int64).max)
     critic = np.argmin(first, axis=1)
     rejected = (raw < 0).any(axis=1)

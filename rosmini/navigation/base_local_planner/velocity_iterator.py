@@ -1,4 +1,4 @@
-"""The velocities of one direction that are tried: base_local_planner's `VelocityIterator`."""
+"""The sampled velocities along one axis: base_local_planner's `VelocityIterator`."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 
 def velocity_samples(low: float, high: float, count: int) -> NDArray[np.float64]:
-    """`count` values (two at least) from `low` to `high`, evenly, and 0 if it lies between two of them.
+    """Return `count` evenly spaced values (at least two) from `low` to `high`, and 0 if it lies between two of them.
 
-    If `low` and `high` are equal, that one.
+    If `low` and `high` are equal, return only that value.
 
     >>> velocity_samples(-1.0, 2.0, 3).tolist()
     [-1.0, 0.0, 0.5, 2.0]

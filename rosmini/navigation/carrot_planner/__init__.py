@@ -1,4 +1,4 @@
-"""carrot_planner: as near to the goal as a straight line allows (http://wiki.ros.org/carrot_planner)."""
+"""carrot_planner: moves as close to the goal as a straight line allows (http://wiki.ros.org/carrot_planner)."""
 
 from __future__ import annotations
 

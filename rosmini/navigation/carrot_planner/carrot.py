@@ -1,4 +1,4 @@
-"""A carrot on a stick: from the goal back to the robot, to where its footprint fits (http://wiki.ros.org/carrot_planner)."""
+"""The carrot: the pose nearest to the goal where the footprint fits (http://wiki.ros.org/carrot_planner)."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import Pose
 
 STEPS = 100
-"""Steps of the whole way back."""
+"""Number of steps from the goal back to the start."""
 
 
 def carrot(start: Pose, goal: Pose, is_legal: Callable[[Pose], bool]) -> Pose | None:
-    """The pose nearest to the goal, of `STEPS` on the line back to the start, that is legal; None if none is.
+    """Return the legal pose nearest to the goal, out of `STEPS` on the line back to the start, or None.
 
-    The heading turns evenly on the way.
+    The heading changes evenly along the line.
     """
     turn = normalize_angle(goal[2] - start[2])
     for step in range(STEPS + 1):

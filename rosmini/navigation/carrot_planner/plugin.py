@@ -31,9 +31,9 @@ class CarrotParameters(Parameters):
 
 
 class CarrotPlanner(BaseGlobalPlanner, plugin="carrot_planner/CarrotPlanner"):
-    """A plan of two poses: the start, and the pose nearest to the goal on the line to it where the footprint fits.
+    """Plans two poses: the start, and the pose nearest to the goal on the line to it where the footprint fits.
 
-    What is on the line is not looked at: that is the local planner's.
+    Obstacles along the line are ignored; avoiding them is the task of the local planner.
     """
 
     def initialize(self, name: str, costmap: Any) -> None:
@@ -43,7 +43,7 @@ class CarrotPlanner(BaseGlobalPlanner, plugin="carrot_planner/CarrotPlanner"):
         self.parameters = CarrotParameters.read(self.node, f"~{name}")
 
     def make_plan(self, start: Any, goal: Any) -> Sequence[Any]:
-        """The start and the carrot. Raises a `PlanningFailure` if the footprint fits nowhere on the line."""
+        """Return the start and the carrot. Raises a `PlanningFailure` if the footprint fits nowhere on the line."""
         frame = goal.header.frame_id.lstrip("/")
         if frame != self.costmap.global_frame:
             text = (

@@ -224,7 +224,7 @@ class CostmapLayer(Layer):
         return True
 
     def clear_area(self, x0: int, y0: int, x1: int, y1: int, inside: bool = False) -> None:
-        """Set cells to unknown: those strictly between columns `x0`, `x1` and rows `y0`, `y1` (`inside`), or the rest."""
+        """Set cells to unknown: those strictly between columns `x0`, `x1` and rows `y0`, `y1` (`inside`), or others."""
         window = Window(max(x0 + 1, 0), max(y0 + 1, 0), min(x1, self.grid.width), min(y1, self.grid.height))
         if inside:
             if not window.is_empty:

@@ -1,4 +1,4 @@
-"""The planner of dwa_local_planner: samples, critics and what is remembered from cycle to cycle."""
+"""The planner of dwa_local_planner: samples, critics, and the state kept between cycles."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from rosmini.navigation.costmap_2d.costmap import Costmap2D
 Floats = NDArray[np.float64]
 
 CRITICS = ("oscillation", "obstacle", "goal_front", "alignment", "path", "goal", "twirling")
-"""In the order in which `DWAPlanner` asks them."""
+"""The critics in the order in which `DWAPlanner` applies them."""
 
 
 @dataclass(frozen=True)
 class DWAPlannerParameters(LocalPlannerLimits):
-    """The parameters of `dwa_local_planner/DWAPlannerROS` that can be changed while it runs."""
+    """The parameters of `dwa_local_planner/DWAPlannerROS` that can change at run time."""
 
     dynamic = True
 
@@ -57,7 +57,7 @@ class DWAPlannerParameters(LocalPlannerLimits):
     restore_defaults: bool = parameter(False, "set all parameters to what they were at the start")
 
     def sampling(self, sim_period: float) -> Sampling:
-        """How velocities are sampled; `sim_period` [s] is the time between two commands."""
+        """Return the sampling parameters; `sim_period` [s] is the time between two commands."""
         return Sampling(
             self.sim_time,
             self.sim_granularity,
@@ -69,7 +69,7 @@ class DWAPlannerParameters(LocalPlannerLimits):
 
 
 class DWAPlanner:
-    """Chooses velocities. `parameters` may be exchanged at any time between two cycles."""
+    """Chooses velocities; call `reconfigure` to change the parameters between two cycles."""
 
     def __init__(
         self, parameters: DWAPlannerParameters, sim_period: float = 0.05, cheat_factor: float = 1.0
@@ -84,36 +84,36 @@ class DWAPlanner:
         self.reconfigure(parameters)
 
     def reconfigure(self, parameters: DWAPlannerParameters) -> None:
-        """Use these from now on. Raises `ParameterError` for numbers that make no trajectories."""
+        """Set the parameters. Raises `ParameterError` for values that give no valid trajectories."""
         self.sampling = parameters.sampling(self.sim_period)
         self.parameters = parameters
         self.oscillation.reset_distance = parameters.oscillation_reset_dist
         self.oscillation.reset_angle = parameters.oscillation_reset_angle
 
     def update_plan(self, grid: Costmap2D, pose: Pose, plan: Floats, footprint: Floats) -> bool:
-        """Follow this plan (n, 3), in the costmap's frame, with a footprint (n, 2) in the base frame.
+        """Set the plan (n, 3), in the costmap's frame, and the footprint (n, 2), in the base frame.
 
-        Returns whether any of it is on known cells of the costmap.
+        Returns True if any part of the plan is on known cells of the costmap.
         """
         shift = self.parameters.forward_point_distance
         self.plan, self.footprint = plan, footprint
         x, y = plan[-1, 0] - pose[0], plan[-1, 1] - pose[1]
         ahead = plan.copy()
-        # The nose is drawn beyond the end, or a robot that has to turn round there would not keep still.
+        # The nose's target lies beyond the end; otherwise a robot that has to turn round there would keep moving.
         towards = math.atan2(y, x)
         ahead[-1, :2] += shift * math.cos(towards), shift * math.sin(towards)
-        # Near the goal the nose has no business on the plan any more.
+        # Near the goal the nose need not stay on the plan.
         self._nose = x * x + y * y > shift * shift * self.cheat_factor
         cells = plan_cells(grid, plan)
         end, front = cells[-1:], plan_cells(grid, ahead)[-1:]
         goal = spread(grid, end)
-        # Where the plan leaves the costmap before its end, both are the same.
+        # If the plan leaves the costmap before its end, both are the same.
         same = np.array_equal(end, front)
         self.grids = (spread(grid, cells), goal, goal if same else spread(grid, front))
         return len(cells) > 0
 
     def scales(self, resolution: float) -> Floats:
-        """The weights of the critics (k): distances are counted in cells, and weighed in metres."""
+        """Return the critics' weights (k); distances are in cells but weighed in metres."""
         p = self.parameters
         path, goal = resolution * p.path_distance_bias, resolution * p.goal_distance_bias
         return np.array(
@@ -121,7 +121,7 @@ class DWAPlanner:
         )
 
     def find_best(self, grid: Costmap2D, pose: Pose, velocity: Floats) -> Samples:
-        """Sample around `velocity` (3), score, choose the cheapest, and note it for the oscillation critic."""
+        """Sample around `velocity` (3), score, choose the cheapest, and record it for the oscillation critic."""
         p = self.parameters
         goal = (float(self.plan[-1, 0]), float(self.plan[-1, 1]), float(self.plan[-1, 2]))
         velocities = self.sampling.velocities(pose, velocity, goal, p)
@@ -133,13 +133,13 @@ class DWAPlanner:
         return samples
 
     def driven(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
-        """What becomes of velocities (n, 3) of one's own, beginning at `velocity` (3): scored, and none is noted."""
+        """Simulate and score given velocities (n, 3), starting at `velocity` (3), without recording any."""
         return self._scored(
             grid, pose, velocity, velocities, self.sampling.steps(velocities, self.parameters), 0
         )
 
     def why_not(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> str:
-        """Why a critic rejects one command (3), or nothing: `checkTrajectory`, which allows going back, too."""
+        """Return why a critic rejects a command (3), or an empty text; going back is allowed (`checkTrajectory`)."""
         self.oscillation.reset()
         return self.driven(grid, pose, velocity, command[None, :]).reason(0)
 

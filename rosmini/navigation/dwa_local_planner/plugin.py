@@ -1,4 +1,4 @@
-"""`dwa_local_planner/DWAPlannerROS`: parameters, topics and the odometry around `DWAPlanner`."""
+"""`dwa_local_planner/DWAPlannerROS`: parameters, topics and odometry for `DWAPlanner`."""
 
 from __future__ import annotations
 
@@ -40,15 +40,15 @@ RENAMED = {
     "acc_limit_trans": "acc_lim_trans",
     "rot_stopped_vel": "theta_stopped_vel",
 }
-"""Names of releases before Melodic: a warning, and no more, in ROS as here."""
+"""Names from releases before Melodic; as in ROS they only cause a warning."""
 
 FORMER = ("penalize_negative_x", "acc_limit_x", "acc_limit_y", "acc_limit_th", "acc_lim_th", "sim_period")
-"""What files for real robots still have."""
+"""Obsolete names that files for real robots still contain."""
 
 
 @dataclass(frozen=True)
 class DWAPlannerSettings(DWAPlannerParameters):
-    """All parameters of `dwa_local_planner/DWAPlannerROS`: those that cannot be changed while it runs, too."""
+    """All parameters of `dwa_local_planner/DWAPlannerROS`, including those that are read only once."""
 
     controller_frequency: float | None = parameter(
         None, "how often it is asked for a command; by default move_base's", unit="Hz"
@@ -72,13 +72,13 @@ class DWAPlannerSettings(DWAPlannerParameters):
 
 
 class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
-    """Drives along a plan by the Dynamic Window Approach; `samples` has what the last cycle tried."""
+    """Follows a plan with the Dynamic Window Approach; `samples` holds the trajectories of the last cycle."""
 
     samples: Samples | None = None
     """The trajectories of the last cycle, or None before the first."""
 
     def initialize(self, name: str, buffer: Buffer, costmap: Any) -> None:
-        """Read the parameters, advertise the topics, and listen to the odometry."""
+        """Read the parameters, advertise the topics, and subscribe to the odometry."""
         super().initialize(name, buffer, costmap)
         self.node, label = costmap.node, f"~{name}/"
         self._warn_of_names(label)
@@ -90,7 +90,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         )
         self.following = Following(buffer, costmap)
         self.planner = DWAPlanner(_dynamic(settings), sim_period(self.node, label), settings.cheat_factor)
-        # In ROS the controller has no name there, and reads the parameter from the node's own namespace.
+        # In ROS this controller has no name, and reads the parameter from the node's private namespace.
         latch = (
             bool(self.node.get_param("~latch_xy_goal_tolerance", False)) or settings.latch_xy_goal_tolerance
         )
@@ -121,7 +121,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
 
     @property
     def parameters(self) -> DWAPlannerParameters:
-        """What holds now."""
+        """The current parameters."""
         return self.planner.parameters
 
     # -- the interface -------------------------------------------------------------------------------------------
@@ -134,7 +134,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         self.following.set_plan(plan)
 
     def is_goal_reached(self) -> bool:
-        """Whether the robot is at the end of the plan, turned as it says, and stands."""
+        """True if the robot has reached the end of the plan and its heading, and stands still."""
         pose = planar_pose(self.costmap.robot_pose())
         if not self.latch.is_goal_reached(
             pose, self.odometry.velocity, self.following.goal(), self.parameters
@@ -144,10 +144,10 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         return True
 
     def compute_velocity_commands(self) -> Any:
-        """The next command: along the plan, or at its end to a standstill and to the heading."""
+        """Return the next command, which follows the plan or, at its end, stops and turns to the heading."""
         pose = planar_pose(self.costmap.robot_pose())
         plan = self.following.local(pose, prune=self.parameters.prune_plan)
-        # The map grids are made at the goal, too: a turn is checked with them.
+        # The map grids are also needed at the goal, to check turns.
         if not self.planner.update_plan(self.costmap.grid, pose, plan, self.costmap.footprint):
             self.node.logerr(
                 "None of the points of the global plan were in the local costmap, global plan points too far from robot"

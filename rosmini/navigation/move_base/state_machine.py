@@ -196,7 +196,7 @@ class StateMachine:
         return True
 
     def plan_taken(self) -> None:
-        """Handle the local planner's acceptance of a plan: after failed planning, recoveries start from the first again."""
+        """Handle the local planner's acceptance of a plan: after failed planning, recoveries restart with the first."""
         if self.trigger is Trigger.PLANNING:
             self.recovery_index = 0
 
