@@ -1,1 +1,1 @@
-"""Clears costmaps around a stuck robot, or beyond it (http://wiki.ros.org/clear_costmap_recovery)."""
+"""Clears costmaps near or far from a stuck robot (http://wiki.ros.org/clear_costmap_recovery)."""

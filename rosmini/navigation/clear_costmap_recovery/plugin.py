@@ -1,7 +1,7 @@
 """`clear_costmap_recovery/ClearCostmapRecovery` (http://wiki.ros.org/clear_costmap_recovery).
 
-In the layers that `layer_names` names, everything farther from the robot than half of `reset_distance` becomes unknown
-again, and the next update fills it from the static map and the sensors. `invert_area_to_clear` clears what is nearer.
+In the layers listed in `layer_names`, all cells farther from the robot than half of `reset_distance` become unknown,
+and the next update restores the static map and the sensors' data. `invert_area_to_clear` clears the near cells instead.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ class ClearCostmapParameters(Parameters):
 
 
 class ClearCostmapRecovery(RecoveryBehavior, plugin="clear_costmap_recovery/ClearCostmapRecovery"):
-    """Forget obstacles, which may be gone."""
+    """Clears obstacles that may no longer be there."""
 
     def initialize(self, name: str, buffer: Any, global_costmap: Any, local_costmap: Any) -> None:
-        """Read the parameters in `~name/`; warn of layers that no costmap has."""
+        """Read the parameters in `~name/`; warn of layers that do not exist."""
         super().initialize(name, buffer, global_costmap, local_costmap)
         self.node = local_costmap.node
         self.parameters = own = ClearCostmapParameters.read(self.node, f"~{name}")
@@ -49,12 +49,12 @@ class ClearCostmapRecovery(RecoveryBehavior, plugin="clear_costmap_recovery/Clea
         self._check_layers()
 
     def costmaps(self) -> list[Any]:
-        """The costmaps that it clears: the global one first."""
+        """Return the costmaps that it clears, the global one first."""
         pairs = (("global", self.global_costmap), ("local", self.local_costmap))
         return [costmap for which, costmap in pairs if self._maps in (which, "both")]
 
     def _check_layers(self) -> None:
-        """Warn of a behaviour that will clear nothing: in ROS one only finds out by reading its source."""
+        """Warn if the behaviour will clear nothing; ROS gives no hint of this."""
         known = [layer.name for costmap in self.costmaps() for layer in costmap.layers]
         wanted = self.parameters.layer_names
         if known and not set(wanted) & set(known):
@@ -66,7 +66,7 @@ class ClearCostmapRecovery(RecoveryBehavior, plugin="clear_costmap_recovery/Clea
             )
 
     def run_behavior(self) -> None:
-        """Clear, and update if the parameters say so."""
+        """Clear the costmaps, and update them if `force_updating` is set."""
         for costmap in self.costmaps():
             self._clear(costmap)
             if self.parameters.force_updating:

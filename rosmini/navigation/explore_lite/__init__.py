@@ -1,7 +1,7 @@
-"""Exploration by frontiers, greedily, on the map alone (http://wiki.ros.org/explore_lite).
+"""Greedy frontier exploration on a map (http://wiki.ros.org/explore_lite).
 
-`costs` says which frontier is the cheapest; the node keeps a map, and sends goals to move_base. Frontiers are found by
-`rosmini.navigation.frontier_exploration.search`, as the original shares its search with that package.
+`costs` ranks the frontiers; the node stores a map and sends goals to move_base. Frontiers are found by
+`rosmini.navigation.frontier_exploration.search`; the original also shares its search with that package.
 """
 
 from __future__ import annotations

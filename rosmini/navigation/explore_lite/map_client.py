@@ -1,4 +1,4 @@
-"""A map, or another's costmap, as the messages of two topics tell it, and where the robot is on it."""
+"""A map or costmap received from two topics, and the robot's position on it."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from .parameters import ExploreParameters
 
 PATIENCE = 5.0
-"""After so long without a map, or without the robot's transform, it is said what is missing [s]."""
+"""Interval between warnings while the map or the robot's transform is missing [s]."""
 
 
 @cache
 def costs_by_value() -> Costs:
-    """The cost (256) by the byte of a cell of an `OccupancyGrid`: 0 to 98 are spread over 0 to 252."""
+    """Return the cost (256) of each `OccupancyGrid` value as a byte: 0 to 98 are spread over 0 to 252."""
     values = np.arange(256)
     table = (251 * (values - 1) - 1) // 97 + 1
     table[0] = 0
@@ -44,7 +44,7 @@ def costs_by_value() -> Costs:
 
 
 class MapClient:
-    """The newest map in `grid`. Blocks until there is one, and until the robot's pose on it is known."""
+    """The latest map, in `grid`. Blocks until there is one, and until the robot's pose on it is known."""
 
     def __init__(self, node: Node, parameters: ExploreParameters) -> None:
         self.node = node
@@ -110,7 +110,7 @@ class MapClient:
             window.of(self.grid.costs)[...] = _costs(update.data, update.width)
 
     def robot(self) -> tuple[float, float]:
-        """Where the robot is on the map [m]. Raises `TransformMissing` if that is unknown, or too old."""
+        """Return the robot's position on the map [m]. Raises `TransformMissing` if it is unknown or too old."""
         try:
             found = self.buffer.lookup_transform(self.global_frame, self.base_frame, Time(0))
         except TransformException as error:

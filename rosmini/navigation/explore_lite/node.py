@@ -1,9 +1,9 @@
 """`explore_lite/explore`: drives to the cheapest frontier until none is left, or all were given up.
 
-It takes a map and its updates, sends goals to `move_base`, and shows frontiers on `~frontiers`: blue, or red if given
-up, with a green ball whose size falls with the cost. One that was given up is tried once more when no other is left,
-which it is not in the original. False on `~resume` stops it, True lets it go on; with
-`return_to_init` it drives back in the end. These two are of the version for ROS 2.
+It subscribes to a map and its updates, sends goals to `move_base`, and shows frontiers on `~frontiers`: blue, or red if
+given up, with a green ball that is smaller for higher costs. Unlike in the original, a frontier that was given up is
+tried once more when no other is left. False on `~resume` stops the exploration, True resumes it; with
+`return_to_init` the robot finally returns to its start. These two features come from the version for ROS 2.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 Ranked = Sequence[tuple[float, Frontier]]
 
 SOON = 1e-3
-"""After the end of a goal the next one is chosen [s]."""
+"""Delay between the end of a goal and the choice of the next one [s]."""
 BLUE, RED, GREEN = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
 
 class Explore:
-    """The node."""
+    """The `explore` node."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -40,11 +40,11 @@ class Explore:
         self.weights = Weights(own.potential_scale, own.gain_scale, own.min_frontier_size)
         self.blacklist = Blacklist()
         self.frontiers: Ranked = ()
-        """Cost and frontier of those that were found the last time, the cheapest first."""
+        """Cost and frontier of those found last, cheapest first."""
         self.goal: tuple[float, float] | None = None
-        """The last one sent [m]."""
+        """The last goal sent [m]."""
         self.sent = 0
-        """How many goals it has sent."""
+        """Number of goals sent."""
         self.is_exploring = False
         self._distance, self._progress_ns, self._shown = math.inf, 0, 0
         self._marker = message_class("visualization_msgs/Marker")
@@ -72,7 +72,7 @@ class Explore:
     # -- the goal ------------------------------------------------------------------------------------------------
 
     def make_plan(self) -> None:
-        """Choose the frontier to drive to, and send it unless the robot is on its way there."""
+        """Choose the frontier to drive to, and send it as the goal unless the robot is already driving there."""
         if not self.is_exploring or not self._look():
             return
         while (frontier := self._cheapest()) is not None:
@@ -95,7 +95,7 @@ class Explore:
         self._stop(is_finished=True)
 
     def _look(self) -> bool:
-        """Find the frontiers; whether that was possible."""
+        """Find the frontiers; return False if that was not possible."""
         try:
             x, y = self.map.robot()
             found = find_frontiers(self.map.grid, x, y)
@@ -109,7 +109,7 @@ class Explore:
         return True
 
     def _cheapest(self) -> Frontier | None:
-        """Of those that were given up the least often, unless all were for good."""
+        """Return the cheapest of the frontiers with the fewest failures, or None if all were given up permanently."""
         resolution = self.map.grid.resolution
         left = [one for _, one in self.frontiers if not self.blacklist.has(one.centroid, resolution)]
         return min(left, key=lambda one: self.blacklist.count(one.centroid, resolution), default=None)
@@ -126,11 +126,11 @@ class Explore:
         self.move_base.send_goal(goal, done_cb=lambda state, _: self._ended(state, point))
 
     def _ended(self, state: int, point: tuple[float, float]) -> None:
-        """Look for the next goal at once."""
+        """Choose the next goal when one has ended."""
         if state == Status.ABORTED:
             self._give_up(point, self.move_base.get_goal_status_text())
         if self.is_exploring:
-            # Not in the client's callback: the next goal would be the old one's end.
+            # Not in the client's callback, where the next goal would be taken for the old one's end.
             self.node.timer(SOON, lambda _: self.make_plan(), oneshot=True)
 
     # -- stop and go on ------------------------------------------------------------------------------------------
@@ -154,7 +154,7 @@ class Explore:
     # -- pictures ------------------------------------------------------------------------------------------------
 
     def _drawn(self) -> Iterator[Any]:
-        """Two markers a frontier, its cells and a ball; and deletions of those that are no longer needed."""
+        """Yield two markers for each frontier, its cells and a ball, and deletions of old markers."""
         resolution = self.map.grid.resolution
         least = self.frontiers[0][0] if self.frontiers else 0.0
         point = message_class("geometry_msgs/Point")

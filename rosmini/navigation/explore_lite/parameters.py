@@ -9,7 +9,7 @@ from rosmini.core.parameters import Parameters, parameter
 
 @dataclass(frozen=True)
 class ExploreParameters(Parameters):
-    """Of the node."""
+    """The private parameters of the node."""
 
     robot_base_frame: str = parameter("base_link", "the robot's frame")
     costmap_topic: str = parameter("costmap", "the map, or another's costmap")

@@ -1,1 +1,1 @@
-"""A localisation that knows the truth (http://wiki.ros.org/fake_localization)."""
+"""A localisation that uses the true pose (http://wiki.ros.org/fake_localization)."""

@@ -1,4 +1,4 @@
-"""Where odom stands in the map, from where a robot really is and where its odometry believes it to be."""
+"""The pose of odom in the map, from the robot's true pose and its pose in the odometry frame."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ from rosmini.core.tf.rigid import Rigid, compose, from_yaw, inverse
 
 
 def offset(delta_x: float, delta_y: float, delta_yaw: float) -> Rigid:
-    """What is put before each true pose, for a map whose origin lies at the deltas [m, rad] in the truth's frame.
+    """Return the offset applied to true poses, for a map whose origin is at the deltas [m, rad] in the truth's frame.
 
-    As in the original the deltas are taken off one by one, and not as a transform.
+    As in the original each delta is subtracted separately, instead of inverting a transform.
     """
     return from_yaw(-delta_x, -delta_y, -delta_yaw)
 
 
 def odom_in_map(base_in_map: Rigid, base_in_odom: Rigid) -> Rigid:
-    """The transform from map to odom that makes both true."""
+    """Return the transform from map to odom that is consistent with both poses."""
     return compose(base_in_map, inverse(base_in_odom))
 
 
 def moved_offset(before: Rigid, wanted: Rigid, base_in_map: Rigid) -> Rigid:
-    """The offset with which the robot, now believed to be at `base_in_map`, is at `wanted`."""
+    """Return the offset that places the robot, now estimated at `base_in_map`, at `wanted`."""
     return compose(compose(wanted, inverse(base_in_map)), before)

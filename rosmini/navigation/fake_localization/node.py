@@ -1,8 +1,8 @@
 """`fake_localization/fake_localization` (http://wiki.ros.org/fake_localization).
 
-It stands in for amcl where the truth is known, in a simulator: from `base_pose_ground_truth` it says where odom is in
-the map, on `/tf`, and where the robot is, on `amcl_pose` and `particlecloud`. A pose on `initialpose` (RViz's *2D Pose
-Estimate*) moves the map so that the robot is there.
+It replaces amcl in a simulator, where the true pose is known: from `base_pose_ground_truth` it computes the pose of
+odom in the map, on `/tf`, and the robot's pose, on `amcl_pose` and `particlecloud`. A pose on `initialpose` (RViz's
+*2D Pose Estimate*) moves the map so that the robot is there.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 WAITING = 100
-"""The number of true poses that wait for the odometry's transform at their time."""
+"""Maximum number of true poses that wait for the odometry's transform."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class FakeLocalizationParameters(Parameters):
 
 
 class FakeLocalization:
-    """Tell the truth about where a robot is, in the form of amcl."""
+    """Publishes the robot's true pose in the form of amcl."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -71,12 +71,12 @@ class FakeLocalization:
         node.subscriber("initialpose", posed, self._move_map, queue_size=1)
 
     def _truth(self, message: Any) -> None:
-        """Take a true pose, which may have to wait for the odometry's transform at its time."""
+        """Queue a true pose, which may have to wait for the odometry's transform at its time."""
         self._waiting.append(message)
         self._catch_up()
 
     def _catch_up(self) -> None:
-        """Localise by the newest pose that has its transform; older ones are of no use any more."""
+        """Localise with the newest pose whose transform is known, and drop older ones."""
         for index in reversed(range(len(self._waiting))):
             message = self._waiting[index]
             stamp = message.header.stamp.to_nsec()
@@ -118,7 +118,7 @@ class FakeLocalization:
                 f'Frame ID of "initialpose" ({frame}) is different from the global frame {self.map_frame}'
             )
         try:
-            # The latest: where the robot was believed to be when the pose was drawn may not be known any more.
+            # Use the latest transform: the one at the time of the message may no longer be available.
             base = self.buffer.tree.lookup(self.map_frame, self.base_frame, 0).transform
         except TransformException as error:
             self.node.logwarn(f"Failed to lookup transform! {error}")

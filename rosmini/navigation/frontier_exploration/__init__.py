@@ -1,8 +1,8 @@
-"""Exploration by frontiers, inside a polygon (http://wiki.ros.org/frontier_exploration).
+"""Frontier exploration inside a polygon (http://wiki.ros.org/frontier_exploration).
 
-Yamauchi, A frontier-based approach for autonomous exploration (CIRA 1997). `search` finds frontiers on a grid of costs;
-`polygon` is the polygon that a user clicks; a layer of a costmap (`plugin`), a server (`node`) and a client
-(`client_node`) meet the graph.
+Yamauchi, A frontier-based approach for autonomous exploration (CIRA 1997). `search` finds frontiers on a cost grid, and
+`polygon` is the polygon that a user clicks; a costmap layer (`plugin`), a server (`node`) and a client (`client_node`)
+connect them to the graph.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""`frontier_exploration/explore_client`: an area to explore, from points that a user clicks in RViz.
+"""`frontier_exploration/explore_client`: defines the area to explore from points clicked in RViz.
 
-It takes `/clicked_point`, shows the polygon on `exploration_polygon_marker` (blue while it grows, red when it is
-closed), and sends it to `explore_server`. A polygon whose edges cross is refused here, where the original takes it.
+It subscribes to `/clicked_point`, shows the polygon on `exploration_polygon_marker` (blue while open, red when closed),
+and sends it to `explore_server`. Unlike the original it rejects a polygon whose edges cross.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 PERIOD = 0.1
-"""Between two pictures of the polygon [s]."""
+"""Interval between publications of the polygon [s]."""
 PATIENCE = 5.0
-"""After so long without the server it is said that it is missing [s]."""
+"""Interval between warnings while the server is missing [s]."""
 
 
 class ExploreClient:
-    """The node."""
+    """The `explore_client` node."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
         self.selection = Selection()
         self.client: SimpleActionClient | None = None
-        """Of the server; made when the first area is complete."""
+        """The client of the server; created when the first area is complete."""
         self._marker = message_class("visualization_msgs/Marker")
         self._point = message_class("geometry_msgs/Point")
         self._markers = node.publisher("exploration_polygon_marker", self._marker, queue_size=10)
@@ -44,7 +44,7 @@ class ExploreClient:
         return f"<ExploreClient {self.node.name}: {len(self.selection.vertices)} vertices>"
 
     def _clicked(self, point: Any) -> None:
-        """Take a point."""
+        """Add a clicked point."""
         selection = self.selection
         step, text = selection.click(point.header.frame_id.lstrip("/"), point.point.x, point.point.y)
         if step is Step.REFUSED:
@@ -79,7 +79,7 @@ class ExploreClient:
         self.client.send_goal(goal)
 
     def _show(self, _: Any) -> None:
-        """Publish the vertices and the edges as they are."""
+        """Publish the current vertices and edges."""
         if self._markers.num_connections():
             for number, (kind, size) in enumerate(
                 ((self._marker.SPHERE_LIST, (0.1, 0.1, 0.1)), (self._marker.LINE_STRIP, (0.05, 0.0, 0.0)))

@@ -1,14 +1,14 @@
-"""`frontier_exploration/explore_server`: drives to frontier after frontier until none is left in an area.
+"""`frontier_exploration/explore_server`: drives to one frontier after another until none is left in an area.
 
-It offers the action that is called as the node (`frontier_exploration/ExploreTask`), has a costmap of its own,
+It offers an action with the node's name (`frontier_exploration/ExploreTask`), has a separate costmap,
 `~explore_costmap`, with a `BoundedExploreLayer` called `explore_boundary`, and sends goals to `move_base`.
 
-From the original differ: there the exploration ends with the first goal that move_base gives up ("Failed to move").
-Here such a goal is tried once more when no other is left, and is then left out. The end tells what was given up, and is
-a failure if the robot has got nowhere since several goals. A goal that was left several times for another, nearer one
-is kept: in a maze each of two is the nearer one while the robot drives to the other. Before it asks again whether a
-frontier is left, it waits for an update of the costmap; the five attempts are each goal's own; and a robot whose pose
-is not known ends the task.
+Differences from the original: there the exploration ends with the first goal that move_base aborts ("Failed to move").
+Here such a goal is tried once more when no other is left, and then ignored. The result names the goals that were given
+up, and is a failure if the robot has been stuck for several goals. A goal that was replaced several times by a nearer
+one is kept: in a maze each of two may become the nearer one while the robot drives to the other. Before it asks again
+for a frontier, it waits for an update of the costmap; each goal has five attempts; and the task ends if the robot's
+pose stays unknown.
 """
 
 from __future__ import annotations
@@ -36,23 +36,23 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 ATTEMPTS = 5
-"""So many further times it is asked whether there is a frontier before there is none."""
+"""Number of repeated requests for a frontier before the exploration ends."""
 PAUSE = 0.2
-"""Between two attempts [s]."""
+"""Interval between two requests [s]."""
 PATIENCE = 5.0
-"""After so long without move_base it is said what is missing [s]."""
+"""Interval between warnings while move_base is missing [s]."""
 STUCK = 3
-"""If so many goals, one after another, were given up"""
+"""Number of consecutive aborted goals after which the robot counts as stuck,"""
 NEAR = 0.3
-"""within so many metres, the robot does not get away."""
+"""if it has stayed within this distance [m]."""
 LEAVINGS = 3
-"""A goal that was left so often for another one is kept until the robot arrives or move_base gives up."""
+"""A goal replaced this many times is kept until the robot arrives or move_base aborts it."""
 LOST = 30.0
-"""A robot whose pose has not been known for so long ends the task [s]."""
+"""Time [s] after which an unknown pose ends the task."""
 
 
 class ExploreServer:
-    """The node."""
+    """The `explore_server` node."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -61,13 +61,13 @@ class ExploreServer:
         self.move_base = SimpleActionClient(node, "move_base", message_class("move_base_msgs/MoveBaseAction"))
         self.costmap = Costmap2DROS("explore_costmap", self.buffer, node)
         self.sent = 0
-        """How many goals it has sent."""
+        """Number of goals sent."""
         self._moving = self._found = False
         self._last = (math.inf, math.inf)
         self._left = Blacklist()
-        """The goals that were left for others."""
+        """Goals that were replaced by others."""
         self._ends: list[tuple[float, float]] = []
-        """Where the robot was when goals were given up, since one was last reached [m]."""
+        """The robot's positions when goals were aborted since the last one reached [m]."""
         self._feedback = message_class("frontier_exploration/ExploreTaskFeedback")()
         services = "~explore_costmap/explore_boundary/"
         self._set_boundary, self._next_frontier = (
@@ -145,10 +145,10 @@ class ExploreServer:
                 ) from error
 
     def _next_goal(self, task: Any) -> Any:
-        """Where to drive now: the next frontier, or back into the area.
+        """Return the next goal: a frontier, or a point inside if the robot has left the area.
 
-        Raises `ServiceException` if there is no frontier, and `TransformMissing` or `TransformException` if it is not
-        known where the robot is.
+        Raises `ServiceException` if there is no frontier, and `TransformMissing` or `TransformException` if the robot's
+        pose is unknown.
         """
         robot = self.costmap.robot_pose()
         x, y, _ = planar_pose(robot)
@@ -165,7 +165,7 @@ class ExploreServer:
         return goal
 
     def _way_back(self, center: Any, x: float, y: float) -> Any:
-        """The point inside that came with the area, looked at from where the robot is."""
+        """Return the given point inside the area, facing away from the robot's current position."""
         if self._found:
             self.node.logwarn("Robot left exploration boundary, returning to center", throttle=PATIENCE)
         else:
@@ -178,7 +178,7 @@ class ExploreServer:
     # -- driving -------------------------------------------------------------------------------------------------
 
     def _drive(self, pose: Any) -> None:
-        """Send a goal, unless it is nearly the last one, or the last one was left too often."""
+        """Send a goal, unless it is close to the last one, or the last one was replaced too often."""
         x, y, _ = planar_pose(pose)
         if not self.action.is_active():
             return
@@ -194,7 +194,7 @@ class ExploreServer:
         self.move_base.send_goal(goal, done_cb=self._done, feedback_cb=self._feed)
 
     def _wait(self) -> None:
-        """Until the next search is due: a period, or until the robot has arrived."""
+        """Wait until the next search is due: for a period, or until the robot has arrived."""
         frequency = self.parameters.frequency
         if frequency > 0:
             self.node.sleep(1 / frequency)
@@ -225,7 +225,7 @@ class ExploreServer:
     # -- the end -------------------------------------------------------------------------------------------------
 
     def _finish(self, why: str) -> None:
-        """There is no frontier that was not given up: the end, or a failure if there was none or the robot is stuck."""
+        """Finish the task when all frontiers were given up; it fails if there never was one or the robot is stuck."""
         if not self._found:
             self._fail(f"Failed exploration: {why}")
             return
@@ -258,7 +258,7 @@ class ExploreServer:
             self.action.set_preempted()
 
     def _cancel(self) -> None:
-        """End the drive, if it is this node's."""
+        """Cancel the current goal, if this node has sent one."""
         if self._moving:
             self._moving = False
             self.move_base.cancel_goals_at_and_before_time(self.node.now())

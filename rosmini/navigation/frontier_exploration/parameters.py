@@ -1,4 +1,4 @@
-"""Parameters of the layer, the server and of nothing else: the client has none."""
+"""Parameters of the layer and the server; the client has none."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ CLOSEST, MIDDLE, CENTROID = "closest", "middle", "centroid"
 
 @dataclass(frozen=True)
 class BoundedExploreParameters(LayerConfig):
-    """Of `frontier_exploration::BoundedExploreLayer`."""
+    """Parameters of `frontier_exploration::BoundedExploreLayer`."""
 
     explore_clear_space: bool = parameter(
         True, "whether all inside of the boundary is unknown at first, so that known space is explored again"
@@ -27,7 +27,7 @@ class BoundedExploreParameters(LayerConfig):
 
 @dataclass(frozen=True)
 class ExploreServerParameters(Parameters):
-    """Of `explore_server`."""
+    """Parameters of `explore_server`."""
 
     allowed: ClassVar[tuple[str, ...]] = ("explore_costmap",)
 

@@ -1,8 +1,8 @@
-"""`frontier_exploration::BoundedExploreLayer`: a boundary in a costmap, and frontiers inside of it.
+"""`frontier_exploration::BoundedExploreLayer`: a boundary in a costmap, and the frontiers inside it.
 
-Below the costmap's name: the services `explore_boundary/update_boundary_polygon` and `explore_boundary/
-get_next_frontier`, and the topic `explore_boundary/frontiers`, a cloud in which the frontier chosen has the intensity
-100, others 50.
+Under the costmap's name it offers the services `explore_boundary/update_boundary_polygon` and `explore_boundary/
+get_next_frontier`, and the topic `explore_boundary/frontiers`, a cloud in which the chosen frontier has intensity 100
+and the others 50.
 """
 
 from __future__ import annotations
@@ -32,17 +32,17 @@ from .polygon import fault
 from .search import TRIES, Blacklist, Frontier, find_frontiers, places
 
 PATIENCE = 10.0
-"""So long it is waited for a transform, and for the boundary to be drawn [s]."""
+"""Maximum time to wait for a transform, and for the boundary to be drawn [s]."""
 ROUNDING = 1e-3
-"""Points are 32-bit floats: by less than this share of a cell a boundary does not reach into the next [cells]."""
+"""Points are 32-bit floats: a boundary must reach into a cell by at least this fraction of a cell [cells]."""
 LOOK = 0.1
-"""How often it is looked whether the boundary is drawn [s]."""
+"""Interval between checks whether the boundary is drawn [s]."""
 OTHERS, CHOSEN = 50.0, 100.0
-"""Intensities of frontiers in the cloud."""
+"""Intensities of the frontiers in the cloud."""
 
 
 def moved(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:
-    """Points (n, 2) of the frame `source` in another, as it is now. Raises `TransformException` after `PATIENCE`."""
+    """Transform points (n, 2) from the frame `source` to `frame`. Raises `TransformException` after `PATIENCE`."""
     if source.lstrip("/") == frame:
         return points
     found = buffer.lookup_transform(frame, source.lstrip("/"), Time(0), PATIENCE)
@@ -50,23 +50,23 @@ def moved(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:
 
 
 class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExploreLayer"):
-    """Draws a boundary that cannot be crossed into the costmap, and chooses the nearest frontier.
+    """Draws an impassable boundary into the costmap, and chooses the nearest frontier.
 
-    The costmap's layer of the map or the sensors is below or above it; its own costs are the boundary and, with
-    `explore_clear_space`, unknown elsewhere. Boundaries that bound no area are refused, where the original takes them.
+    The map or sensor layer may be below or above it; its own costs are the boundary and, with `explore_clear_space`,
+    unknown elsewhere. Unlike the original it rejects boundaries that enclose no area.
     """
 
     def on_initialize(self) -> None:
-        """Read the parameters; offer the services."""
+        """Read the parameters and offer the services."""
         node, namespace = self.node, self.namespace
         self.settings = BoundedExploreParameters.read(node, namespace)
         self.grid.default = NO_INFORMATION if self.settings.explore_clear_space else FREE_SPACE
         self.boundary: Floats | None = None
-        """The vertices (n, 2) [m] in the costmap's frame; None before there is a boundary."""
+        """The vertices (n, 2) [m] in the costmap's frame; None without a boundary."""
         self.frontiers: list[Frontier] = []
-        """Those that were found the last time."""
+        """The frontiers found last."""
         self.given_up = Blacklist()
-        """Where nobody is to be sent any more."""
+        """Goals that could not be reached."""
         self._is_drawn = False
         self._has_changed = False
         self.match_size()
@@ -88,7 +88,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
     # -- the boundary --------------------------------------------------------------------------------------------
 
     def _update_boundary(self, request: Any) -> Any:
-        """Take a boundary; without a vertex it is the costmap's edge."""
+        """Set the boundary; without vertices it is the costmap's edge."""
         stamped = request.explore_boundary
         vertices = points_of(stamped.polygon)
         wrong = fault(vertices) if len(vertices) else None
@@ -120,19 +120,19 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         return ServiceRefused(text)
 
     def reset(self) -> None:
-        """Forget the boundary."""
+        """Remove the boundary."""
         self.boundary, self.frontiers = None, []
         self.given_up.points.clear()
         self._is_drawn, self._has_changed = False, True
         self.costs[...] = self.grid.default
 
     def match_size(self) -> None:
-        """Take over the costmap's size, for which the boundary has to be drawn again."""
+        """Adopt the costmap's size, after which the boundary must be redrawn."""
         super().match_size()
         self._is_drawn = False
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """Everything, after a change of the boundary."""
+        """Include everything after the boundary has changed."""
         del robot
         self.use_extra_bounds(bounds)
         if self._has_changed:
@@ -140,7 +140,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
             bounds.touch_all()
 
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
-        """Write the boundary, and what is to count as unknown; obstacles stay."""
+        """Write the boundary, and unknown cells inside it; obstacles are kept."""
         if self.boundary is None:
             return
         if not self._is_drawn:
@@ -152,7 +152,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         )
 
     def _draw(self, boundary: Floats) -> None:
-        """Draw the edges as obstacles; vertices outside of the costmap are brought to its edge."""
+        """Draw the edges as obstacles; vertices outside the costmap are moved to its edge."""
         self.costs[...] = self.grid.default
         cells = [self.grid.world_to_map_clamped(x, y) for x, y in boundary.tolist()]
         for (x0, y0), (x1, y1) in zip(cells, [*cells[1:], cells[0]], strict=True):
@@ -162,7 +162,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
     # -- frontiers -----------------------------------------------------------------------------------------------
 
     def _next_frontier(self, request: Any) -> Any:
-        """Where to drive next from a pose; refused if no frontier is left."""
+        """Return the next goal from a pose; the request is refused if no frontier is left."""
         start = request.start_pose
         self._wait_until_drawn()
         p = start.pose.position
@@ -181,7 +181,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
             raise self._refused(
                 f"Robot out of costmap bounds, cannot search for frontiers: {error}"
             ) from error
-        # A single cell is noise of the map.
+        # A single cell is noise in the map.
         self.frontiers = [one for one in self.frontiers if one.size > 1]
         resolution = self.layered.grid.resolution
         left = [
@@ -198,7 +198,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
 
     @property
     def said_of_given_up(self) -> str:
-        """Where frontiers of the last time are that were given up, to be put behind a sentence."""
+        """A clause with the positions of the latest frontiers if all were given up, to append to a sentence."""
         if not self.frontiers:
             return ""
         return f"; {len(self.frontiers)} were given up, at {places(map(self._travel_point, self.frontiers))}"
@@ -231,17 +231,17 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
 
 
 def _edge(grid: Costmap2D) -> Floats:
-    """The corners (4, 2) of a grid [m]."""
+    """Return the corners (4, 2) of a grid [m]."""
     (x, y), (width, height) = grid.origin, grid.size_m
     return np.array([(x, y), (x, y + height), (x + width, y + height), (x + width, y)])
 
 
 def _overlaps(a: Floats, b: Floats) -> bool:
-    """Whether the rectangles around two sets of points (n, 2) have something in common."""
+    """True if the bounding rectangles of two sets of points (n, 2) overlap."""
     return bool((a.min(axis=0) < b.max(axis=0)).all() and (b.min(axis=0) < a.max(axis=0)).all())
 
 
 def _span(points: Floats) -> str:
-    """The rectangle around points (n, 2), in words."""
+    """Format the bounding rectangle of points (n, 2)."""
     (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
     return f"from ({x0:.2f}, {y0:.2f}) to ({x1:.2f}, {y1:.2f})"

@@ -1,4 +1,4 @@
-"""The polygon of an area to explore: how it is clicked, and whether it is one."""
+"""The polygon of an area to explore: selection by clicks, and validation."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from rosmini.core.geometry.polygons import Floats, crossing_sides, inside, sides
 Point = tuple[float, float]
 
 NEAR = 0.1
-"""A click closes the polygon this near its first vertex, as a share of the mean length of its edges."""
+"""A click this close to the first vertex closes the polygon, as a fraction of the mean edge length."""
 
 
 class Step(Enum):
-    """What a click has done."""
+    """The effect of a click."""
 
     ADDED = "added"
     CLOSED = "closed"
@@ -25,12 +25,12 @@ class Step(Enum):
 
 
 def has_inside(vertices: Floats, point: Point) -> bool:
-    """Whether a point is inside the polygon (n, 2)."""
+    """True if a point is inside the polygon (n, 2)."""
     return bool(inside(np.array([point]), sides_of(vertices))[0])
 
 
 def fault(vertices: Floats) -> str | None:
-    """Why these vertices (n, 2) bound no area; None if they do."""
+    """Return why these vertices (n, 2) enclose no valid area; None if they do."""
     if len(vertices) < 3:
         return f"a polygon of {len(vertices)} vertices bounds no area: at least 3 are needed"
     if not np.isfinite(vertices).all():
@@ -46,28 +46,28 @@ def fault(vertices: Floats) -> str | None:
 
 
 class Selection:
-    """A polygon that grows by clicks: vertices, then one near the first, which closes it, then a point inside.
+    """A polygon selected by clicks: vertices, one near the first to close it, and finally a point inside.
 
-    `step, text = selection.click("map", x, y)`; after a fault it begins again.
+    Use `step, text = selection.click("map", x, y)`; an invalid click restarts the selection.
     """
 
     def __init__(self) -> None:
         self.frame = "map"
         self.vertices: list[Point] = []
         self.is_closed = False
-        """Whether the next click is the point to start from."""
+        """True if the next click is the start point."""
 
     @property
     def polygon(self) -> Floats:
-        """Its vertices (n, 2)."""
+        """The vertices (n, 2)."""
         return np.array(self.vertices, dtype=np.float64).reshape(-1, 2)
 
     def clear(self) -> None:
-        """Begin again."""
+        """Restart the selection."""
         self.vertices, self.is_closed = [], False
 
     def click(self, frame: str, x: float, y: float) -> tuple[Step, str]:
-        """Take a point [m]: what it has done, and what there is to say. After `COMPLETE`, `clear` it."""
+        """Add a point [m]; return its effect and a message for the user. After `COMPLETE`, call `clear`."""
         if not self.vertices:
             self.frame = frame
         elif frame != self.frame:

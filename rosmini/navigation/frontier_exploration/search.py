@@ -1,15 +1,15 @@
-"""Frontiers: where what is known to be free borders on the unknown.
+"""Frontiers: borders between known free cells and unknown cells.
 
-A frontier cell is unknown and has a free cell on one of its four sides; a frontier is a set of such cells that are
-neighbours, corners included (Yamauchi 1997, with the roles that the packages `frontier_exploration` and `explore_lite`
-give to the cells). The search spreads from the robot over cells where its centre may be, so a frontier that none of
-them leads to is not found.
+A frontier cell is unknown and has a free cell on one of its four sides; a frontier is a connected set of such cells,
+corners included (Yamauchi 1997, with the roles that the packages `frontier_exploration` and `explore_lite` give to the
+cells). The search spreads from the robot over the cells where its centre may be, so it does not find frontiers that
+the robot cannot reach.
 
-From the originals differ: they spread over free cells only, from the nearest one, and end early where that one is shut
-in, between the legs of a chair or behind a door in which inflation leaves no free cell. The cell that a frontier was
-found by counts for its centroid and its distance, too. There the sum leaves it out and is divided by all, so that small
-frontiers have centroids nearer to the map's origin. And the middle is in the middle. There it is the cell nearest to
-the robot, which most often lies at the end of a wall, where the robot that is sent there gets stuck.
+There are three differences from the originals. They spread only over free cells, from the nearest one, and end early if
+that one is enclosed, between the legs of a chair or behind a door where inflation leaves no free cell. The first cell
+of a frontier counts here for its centroid and its distance. There the sum omits it but is divided by the full count, so
+that small frontiers have centroids nearer to the map's origin. And the middle is in the middle here. There it is the
+cell nearest to the robot, usually at the end of a wall, where a robot that is sent there gets stuck.
 """
 
 from __future__ import annotations
@@ -33,38 +33,38 @@ Ints = NDArray[np.int64]
 Point = tuple[float, float]
 
 TOLERANCE = 5
-"""Goals nearer than so many cells, along both axes, to one that was given up count as given up, as in explore_lite."""
+"""Goals within this many cells of one that was given up, along both axes, also count, as in explore_lite."""
 TRIES = 2
-"""A goal that was given up so often is given up for good. What was in the way may be gone: a person, or a shut door."""
+"""Number of failures after which a goal is given up permanently; after the first, the obstacle may have moved."""
 SOME = 5
-"""So many places are told."""
+"""Maximum number of positions in a message."""
 
 
 @dataclass(frozen=True, eq=False)
 class Frontier:
-    """Cells (n, 2) of one frontier, each (mx, my), the one first; lengths in metres."""
+    """The cells (n, 2) of a frontier, each (mx, my), in the order of discovery; lengths are in metres."""
 
     cells: Ints
-    """In the order in which they were found."""
+    """The cells in the order of discovery."""
     points: NDArray[np.float64]
-    """Their middles (n, 2) [m]."""
+    """The centres of the cells (n, 2) [m]."""
     min_distance: float
-    """From the middle of the robot's cell to the nearest [m]."""
+    """Distance from the centre of the robot's cell to the nearest cell [m]."""
     initial: Point
-    """The cell that the search met first."""
+    """The cell that the search found first."""
     middle: Point
     """The cell nearest to the centroid."""
     centroid: Point
-    """The mean of all; it need not be in one of the cells."""
+    """The mean of all cells; it need not be in one of them."""
 
     @property
     def size(self) -> int:
-        """How many cells it has."""
+        """The number of cells."""
         return len(self.cells)
 
 
 def frontier_cells(costs: NDArray[np.uint8]) -> Bools:
-    """Which cells (h, w) of a grid of costs are unknown beside a free one."""
+    """Return True for each cell (h, w) of a cost grid that is unknown and next to a free one."""
     free = np.pad(costs == FREE_SPACE, 1)
     beside = free[:-2, 1:-1] | free[2:, 1:-1] | free[1:-1, :-2] | free[1:-1, 2:]
     cells: Bools = beside & (costs == NO_INFORMATION)
@@ -72,10 +72,10 @@ def frontier_cells(costs: NDArray[np.uint8]) -> Bools:
 
 
 def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
-    """The frontiers that a robot gets to from a point [m], in the order in which the search meets them.
+    """Return the frontiers that a robot can reach from a point [m], in the order of discovery.
 
-    It begins at the cell nearest to the point in which the robot's centre may be. Raises `IndexError` if the point is
-    outside of the grid.
+    The search starts at the cell nearest to the point where the robot's centre may be. Raises `IndexError` if the point
+    is outside the grid.
     """
     cell = grid.world_to_map(x, y)
     if cell is None:
@@ -90,7 +90,7 @@ def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
 
 
 def places(points: Iterable[Point]) -> str:
-    """Points [m] as text, `SOME` at most.
+    """Format points [m], at most `SOME` of them.
 
     >>> places([(1.0, 2.0), (0.5, 0.25)])
     '(1.00, 2.00), (0.50, 0.25)'
@@ -101,7 +101,7 @@ def places(points: Iterable[Point]) -> str:
 
 
 def _measured(grid: Costmap2D, cells: Ints, here: Point) -> Frontier:
-    """A frontier of these cells, seen from `here` [m]."""
+    """Return the frontier of these cells, with its distance from `here` [m]."""
     points = np.array(grid.origin) + (cells + 0.5) * grid.resolution
     distances = np.hypot(points[:, 0] - here[0], points[:, 1] - here[1])
     ix, iy = points[0].tolist()
@@ -111,8 +111,8 @@ def _measured(grid: Costmap2D, cells: Ints, here: Point) -> Frontier:
 
 
 def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:
-    """The cells (n, 2) of each frontier that is met from the cell `start` (row, column)."""
-    # With a rim of walls every neighbour is in the array, and a cell is one number.
+    """Yield the cells (n, 2) of each frontier in the order of discovery from the cell `start` (row, column)."""
+    # With a rim of obstacles every neighbour has a valid index, and a cell is one number.
     padded = np.pad(costs, 1, constant_values=LETHAL_OBSTACLE)
     width = padded.shape[1]
     waiting = bytearray(frontier_cells(padded).tobytes())
@@ -122,7 +122,7 @@ def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:
             continue
         waiting[first] = 0
         found = [first]
-        for cell in found:  # it grows meanwhile
+        for cell in found:  # the list grows during the loop
             for step in around:
                 if waiting[cell + step]:
                     waiting[cell + step] = 0
@@ -132,7 +132,7 @@ def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:
 
 
 def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
-    """The unknown cells beside those that a breadth-first search from a cell reaches, in order, some repeatedly."""
+    """Return the unknown cells next to those that a breadth-first search reaches, in order and with duplicates."""
     costs = padded.ravel()
     unknown, is_open = costs == NO_INFORMATION, costs < INSCRIBED_INFLATED_OBSTACLE
     steps = np.array([-1, 1, -padded.shape[1], padded.shape[1]])
@@ -144,7 +144,7 @@ def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
         beside = (wave[:, None] + steps).ravel()
         met += beside[unknown[beside]].tolist()
         fresh = beside[is_open[beside]]
-        # Of a cell that several led to the first stays: a queue would have it there.
+        # Keep the first occurrence of each cell, as a queue would.
         rank[fresh[::-1]] = np.arange(len(fresh))[::-1]
         wave = fresh[rank[fresh] == np.arange(len(fresh))]
         is_open[wave] = False
@@ -153,15 +153,15 @@ def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
 
 @dataclass
 class Blacklist:
-    """Goals that were given up, or left [m], one as often as that happened."""
+    """Goals [m] that were given up or replaced, with one entry for each time."""
 
     points: list[Point] = field(default_factory=list)
 
     def count(self, point: Point, resolution: float) -> int:
-        """How often a goal next to this point was given up."""
+        """Return how often goals near this point were given up."""
         reach = TOLERANCE * resolution
         return sum(abs(point[0] - x) < reach and abs(point[1] - y) < reach for x, y in self.points)
 
     def has(self, point: Point, resolution: float) -> bool:
-        """Whether a point was given up for good."""
+        """True if a point was given up permanently."""
         return self.count(point, resolution) >= TRIES

@@ -1,4 +1,4 @@
-"""global_planner: Dijkstra and A* in several forms (http://wiki.ros.org/global_planner)."""
+"""global_planner: several forms of Dijkstra's algorithm and A* (http://wiki.ros.org/global_planner)."""
 
 from __future__ import annotations
 

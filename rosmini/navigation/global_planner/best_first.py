@@ -1,8 +1,8 @@
-"""A* over a grid of costs, as global_planner has it: a heap of cells, ranked by potential and distance to the goal.
+"""A* on a cost grid as in global_planner: a heap of cells, ranked by potential plus distance to the goal.
 
-A cell gets its potential when the first of its neighbours is taken from the heap, and keeps it: that is quick, and the
-path is not always the cheapest (http://wiki.ros.org/global_planner). One defect of the original is not copied. There a
-cell's cost and `neutral_cost` are added in 8 bits, so that costs from 206 on wrap around to cheap ones.
+A cell gets its potential when the first of its neighbours is taken from the heap, and keeps it: this is fast, but the
+path is not always the cheapest (http://wiki.ros.org/global_planner). One defect of the original is not copied: it adds
+a cell's cost and `neutral_cost` in 8 bits, so that costs of 206 and above wrap around to low ones.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rosmini.navigation.navfn.wave import HIGH, interpolated
 
 
 def push(heap: NDArray[np.int32], ranks: NDArray[np.float32], size: int, cell: int, rank: float) -> None:
-    """Put a cell into a heap of `size` cells whose least one is first."""
+    """Insert a cell into a heap of `size` cells with the lowest rank first."""
     at = size
     while at > 0:
         above = (at - 1) // 2
@@ -31,7 +31,7 @@ def push(heap: NDArray[np.int32], ranks: NDArray[np.float32], size: int, cell: i
 
 
 def sift(heap: NDArray[np.int32], ranks: NDArray[np.float32], size: int) -> None:
-    """Make a heap of `size` cells again of one whose first cell has been taken: the last one takes its place."""
+    """Restore a heap of `size` cells after its first cell has been taken; the last cell replaces it."""
     cell, rank = heap[size], ranks[size]
     at = 0
     while 2 * at + 1 < size:
@@ -58,23 +58,23 @@ def best_first(
     heuristic: float,
     count: int,
 ) -> int:
-    """Take at most `count` cells from the heap; the arrays hold everything, so that the next call goes on.
+    """Take up to `count` cells from the heap; the arrays hold the whole state, so that the next call continues.
 
     Args:
-        costs: of all cells, row after row; the outermost are lethal.
-        table: what it costs to enter a cell of each cost [256]; infinite where no way leads.
-        potential: of the cells, changed in place.
-        heap: the cells that wait, the least rank first.
-        ranks: their ranks.
-        state: how many wait, how many have been taken [2].
-        width: cells in a row.
-        quadratic: whether potentials are interpolated between two neighbours, or come from the cell before.
+        costs: the costs of all cells, row by row; the outermost must be lethal.
+        table: the cost of entering a cell by cost value [256]; infinite if impassable.
+        potential: the potential of the cells, modified in place.
+        heap: the waiting cells, lowest rank first.
+        ranks: the ranks of the waiting cells.
+        state: number of waiting cells, number of cells taken [2].
+        width: number of cells in a row.
+        quadratic: 1 to interpolate potentials between two neighbours, 0 to use the preceding cell alone.
         stop: the goal.
-        heuristic: what a cell of distance (along rows and columns) to the goal adds to a rank.
-        count: so many cells.
+        heuristic: the addition to a rank per cell of Manhattan distance to the goal.
+        count: maximum number of cells to take.
 
     Returns:
-        0 if there is more to do, 1 if `stop` was taken, 2 if no cell is left.
+        0 if cells are left, 1 if `stop` was taken, 2 if no cell is waiting.
 
     """
     size, taken, result = state[0], 0, 0
@@ -111,7 +111,7 @@ def best_first(
 
 @cache
 def compiled_best_first() -> Callable[..., int]:
-    """`best_first` as machine code, or as it is without numba."""
+    """Return `best_first` compiled by numba, or the plain function if numba is not installed."""
     try:
         import numba
     except ImportError:

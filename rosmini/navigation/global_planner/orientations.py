@@ -12,17 +12,17 @@ from rosmini.core.geometry.angles import normalize_angle
 NONE, FORWARD, INTERPOLATE, FORWARD_THEN_INTERPOLATE, BACKWARD, LEFTWARD, RIGHTWARD = range(7)
 
 TURNED = {FORWARD: 0.0, BACKWARD: math.pi, LEFTWARD: -math.pi / 2, RIGHTWARD: math.pi / 2}
-"""By how much a heading differs from that of the path."""
+"""Rotation of the heading relative to the path's direction."""
 
 Poses = NDArray[np.float64]
 
 
 def orient(poses: Poses, mode: int, start_yaw: float, window: int = 1) -> Poses:
-    """The poses (n, 3) with other headings; the last one, the goal's, stays.
+    """Return the poses (n, 3) with new headings; the last one, the goal's, is kept.
 
-    `mode` is one of the constants above; `window` is how many points before and behind give the path's direction.
+    `mode` is one of the constants above; `window` is the number of points on both sides that give the path's direction.
     `INTERPOLATE` blends from `start_yaw` to the goal's heading, and `FORWARD_THEN_INTERPOLATE` does so on the last
-    stretch that is straight. (There the original counts from the plan's first point, so that headings jump.)
+    straight part. (The original counts from the plan's first point in this mode, so that headings jump.)
     """
     made = np.array(poses, dtype=np.float64)
     last = len(made) - 1
@@ -43,7 +43,7 @@ def orient(poses: Poses, mode: int, start_yaw: float, window: int = 1) -> Poses:
 
 
 def _along(poses: Poses, window: int) -> NDArray[np.float64]:
-    """The direction of the path at each point, from the point `window` before to the one `window` behind."""
+    """Return the path's direction at each point, between the points `window` before and `window` after it."""
     index = np.arange(len(poses))
     before = np.maximum(0, index - window)
     behind = np.minimum(len(poses) - 1, index + window)
@@ -52,7 +52,7 @@ def _along(poses: Poses, window: int) -> NDArray[np.float64]:
 
 
 def _straight_from(poses: Poses) -> int:
-    """The first point of the last stretch on which the direction changes by no more than 0.35 rad."""
+    """Return the first point of the last part on which the direction differs by at most 0.35 rad."""
     index = len(poses) - 3
     if index <= 0:
         return 0

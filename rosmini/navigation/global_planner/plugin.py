@@ -29,7 +29,7 @@ OFF_MAP_GOAL = (
 
 @dataclass(frozen=True)
 class GlobalPlannerConfig(Parameters):
-    """The parameters of `global_planner/GlobalPlanner` that can be changed while it runs."""
+    """The parameters of `global_planner/GlobalPlanner` that can change at run time."""
 
     dynamic = True
 
@@ -70,10 +70,10 @@ class GlobalPlannerParameters(GlobalPlannerConfig):
 
 
 class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
-    """Dijkstra or A*, interpolated or not, down the gradient or from cell to cell.
+    """Plans with Dijkstra's algorithm or A*, interpolated or not, down the gradient or from cell to cell.
 
     Topics: `~NAME/plan` (nav_msgs/Path), `~NAME/potential` (nav_msgs/OccupancyGrid; -1 where the search has not been).
-    Service: `~NAME/make_plan` (nav_msgs/GetPlan). Costs can be changed by dynamic_reconfigure.
+    Service: `~NAME/make_plan` (nav_msgs/GetPlan). The costs can be changed with dynamic_reconfigure.
     """
 
     def _read_parameters(self) -> None:
@@ -128,7 +128,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
         return GlobalAStar(self.grid.costs, begin, end, **options)
 
     def _turn(self, plan: Poses, start: Any) -> None:
-        """Give the poses their headings."""
+        """Set the headings of the poses."""
         poses = np.zeros((len(plan), 3))
         poses[:, :2] = [(each.pose.position.x, each.pose.position.y) for each in plan]
         poses[-1, 2] = _yaw(plan[-1])
@@ -140,7 +140,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
             q.x, q.y, q.z, q.w = quaternion_from_yaw(float(yaw))
 
     def _publish_potential(self, search: Search) -> None:
-        """Publish the potential, as shares of the highest one."""
+        """Publish the potential, scaled by the highest one."""
         message = self._grid_message()
         message.header.stamp, message.header.frame_id = self.now(), self.costmap.global_frame
         message.info.resolution = self.grid.resolution

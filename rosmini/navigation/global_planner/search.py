@@ -1,9 +1,9 @@
-"""The searches of global_planner: Dijkstra by navfn's wave, and A* (http://wiki.ros.org/global_planner).
+"""The searches of global_planner: Dijkstra with navfn's wave, and A* (http://wiki.ros.org/global_planner).
 
-Points may lie between the middles of cells (`precise`): then Dijkstra begins in the free cells around the start, each
-with the cost of the way to its middle. The original begins in obstacles too, and gives two neighbours of a start in the
-middle of a cell the potential 0. A cell of cost 252 is passable here, though the original's Dijkstra treats it as
-lethal: `lethal_cost` is the first cost that is.
+Points may lie between cell centres (`precise`): Dijkstra then starts in the free cells around the start, each with the
+cost of the distance to its centre. The original also starts in obstacles, and sets the potential of two neighbours to 0
+if the start is a cell centre. A cell of cost 252 is passable here, although the original's Dijkstra treats it as
+lethal: `lethal_cost` is the lowest lethal cost.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ NEUTRAL_COST = 50
 COST_FACTOR = 3.0
 
 NEAR_GOAL = 2
-"""So many cells around the goal are given a potential when it has been reached, for the gradient."""
+"""Distance [cells] around a reached goal within which cells get a potential, for the gradient."""
 
 
 def dijkstra_table(
@@ -32,7 +32,7 @@ def dijkstra_table(
     neutral_cost: int = NEUTRAL_COST,
     cost_factor: float = COST_FACTOR,
 ) -> NDArray[np.float32]:
-    """What Dijkstra pays for entering a cell of each cost [256]: neutral + factor * cost, and less than lethal."""
+    """Return Dijkstra's cost of entering a cell by cost value [256]: neutral + factor * cost, below lethal."""
     costs = np.arange(256, dtype=np.float32)
     table = np.minimum(costs * np.float32(cost_factor) + neutral_cost, lethal_cost - 1)
     table[~_passable(allow_unknown, lethal_cost)] = np.inf
@@ -42,7 +42,7 @@ def dijkstra_table(
 def a_star_table(
     allow_unknown: bool, lethal_cost: int = LETHAL_COST, neutral_cost: int = NEUTRAL_COST
 ) -> NDArray[np.float32]:
-    """What A* pays for entering a cell of each cost [256]: cost + neutral; `cost_factor` has no effect, as in ROS."""
+    """Return A*'s cost of entering a cell by cost value [256]: cost + neutral, without `cost_factor`, as in ROS."""
     table = np.arange(256, dtype=np.float32) + neutral_cost
     table[~_passable(allow_unknown, lethal_cost)] = np.inf
     return table
@@ -55,7 +55,7 @@ def _passable(allow_unknown: bool, lethal_cost: int) -> NDArray[np.bool_]:
 
 
 def _fill_around(search: Search, goal: tuple[int, int]) -> None:
-    """Give the cells around a goal that has been reached a potential, as far as ways lead there."""
+    """Give the passable cells around a reached goal a potential."""
     flat, table, row = search.potential_with_rim, search.table, search.row
     costs = search.costs.ravel()
     for y in range(max(0, goal[1] - NEAR_GOAL), min(search.height, goal[1] + NEAR_GOAL + 1)):
@@ -68,7 +68,7 @@ def _fill_around(search: Search, goal: tuple[int, int]) -> None:
 
 
 class GlobalDijkstra(WaveSearch):
-    """Dijkstra of global_planner: the wave runs from the start."""
+    """The Dijkstra search of global_planner; the wave spreads from the start."""
 
     def __init__(
         self,
@@ -86,7 +86,7 @@ class GlobalDijkstra(WaveSearch):
         neutral_cost: int = NEUTRAL_COST,
         cost_factor: float = COST_FACTOR,
     ) -> None:
-        """Prepare it. Raises `OutsideMap` if start or goal is not on the grid."""
+        """Prepare the search. Raises `OutsideMap` if start or goal is outside the grid."""
         self.precise, self.neutral_cost = precise, neutral_cost
         super().__init__(
             outlined(costs) if outline else costs,
@@ -107,7 +107,7 @@ class GlobalDijkstra(WaveSearch):
         own_x, own_y = cell_of(self.start)
         next_x, next_y = math.floor(x) + math.ceil(x) - own_x, math.floor(y) + math.ceil(y) - own_y
         cells = {(own_x, own_y)} | {c for c in ((next_x, own_y), (own_x, next_y)) if self._free(*c)}
-        # The cell across the corner counts only if a way leads to it through one of those beside the start's own.
+        # The diagonal cell counts only if it can be reached through one of the two cells beside the start's cell.
         if len(cells) > 1 and self._free(next_x, next_y):
             cells.add((next_x, next_y))
         return {
@@ -126,7 +126,7 @@ class GlobalDijkstra(WaveSearch):
 
 
 class GlobalAStar(Search):
-    """A* of global_planner."""
+    """The A* search of global_planner."""
 
     def __init__(
         self,
@@ -142,7 +142,7 @@ class GlobalAStar(Search):
         lethal_cost: int = LETHAL_COST,
         neutral_cost: int = NEUTRAL_COST,
     ) -> None:
-        """Prepare it. Raises `OutsideMap` if start or goal is not on the grid."""
+        """Prepare the search. Raises `OutsideMap` if start or goal is outside the grid."""
         self.precise, self.neutral_cost = precise, neutral_cost
         table = a_star_table(allow_unknown, lethal_cost, neutral_cost)
         costs = outlined(costs) if outline else costs
@@ -156,7 +156,7 @@ class GlobalAStar(Search):
 
     @property
     def expanded(self) -> int:
-        """How many cells have been taken from the heap."""
+        """The number of cells taken from the heap."""
         return int(self._state[1])
 
     def _expand(self, count: int) -> int:

@@ -1,8 +1,8 @@
-"""How large a published map is: what `xmin` to `ymax` say at first, and more when the robot sees farther.
+"""The size of a published map: initially from `xmin` to `ymax`, and more when the robot sees farther.
 
 As in the original the size is a whole number of blocks of 32 cells (20 m at 0.05 m are 384 cells, not 400), and a map
-that has to grow gets 10 m more than it needs. Unlike there, corners of cells lie on multiples of the resolution, where
-OccupancyGrid has them (the original's published map lies half a cell off).
+that has to grow gets 10 m more than it needs. Unlike there, cell corners are multiples of the resolution, as in
+OccupancyGrid (the original's published map is shifted by half a cell).
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from .maps import SIDE
 from .slam import GridSlam
 
 ENLARGE = 10.0
-"""A map that has to grow gets so much more [m]."""
+"""Additional margin of a map that has to grow [m]."""
 
 
 class Extent(NamedTuple):
-    """Cells from (column, row), counted on the lattice of `SharedMaps`."""
+    """A rectangle of cells from (column, row) on the lattice of `SharedMaps`."""
 
     column: int
     row: int
@@ -32,7 +32,7 @@ class Extent(NamedTuple):
 
 
 def first_extent(xmin: float, ymin: float, xmax: float, ymax: float, delta: float) -> Extent:
-    """Where a map begins; all in metres. Raises `ParameterError` for a map of no cells."""
+    """Return the initial extent of a map, given in metres. Raises `ParameterError` for a map without cells."""
     if not (xmin < xmax and ymin < ymax):
         raise ParameterError(
             f"a map from xmin {xmin} to xmax {xmax} m and from ymin {ymin} to ymax {ymax} m has no cells: xmin and "
@@ -47,7 +47,7 @@ def first_extent(xmin: float, ymin: float, xmax: float, ymax: float, delta: floa
 
 
 def grown(extent: Extent, seen: Extent, delta: float) -> Extent:
-    """An extent that has room for what was seen, too."""
+    """Return the extent enlarged to contain what was seen."""
     if not (seen.width and seen.height):
         return extent
     column, width = _grown(extent.column, extent.width, seen.column, seen.width, delta)
@@ -63,7 +63,7 @@ def _grown(low: int, size: int, from_: int, count: int, delta: float) -> tuple[i
 
 
 def published(slam: GridSlam, extent: Extent, threshold: float) -> tuple[NDArray[np.int8], Extent]:
-    """The best particle's map (h, w) as nav_msgs/OccupancyGrid has it, and its extent, which may have grown."""
+    """Return the best particle's map (h, w) as nav_msgs/OccupancyGrid values, and its extent, which may have grown."""
     shares, seen = known(slam, slam.best)
     extent = grown(extent, seen, slam.settings.delta)
     cells = np.full((extent.height, extent.width), -1, dtype=np.int8)
@@ -75,7 +75,7 @@ def published(slam: GridSlam, extent: Extent, threshold: float) -> tuple[NDArray
 
 
 def known(slam: GridSlam, particle: int) -> tuple[NDArray[np.float64], Extent]:
-    """The occupancy of a particle's map, -1 where unknown, cut to what was seen."""
+    """Return the occupancy of a particle's map, -1 where unknown, cropped to the known cells."""
     shares, _ = slam.maps.occupancy(particle)
     rows, columns = np.flatnonzero((shares >= 0).any(axis=1)), np.flatnonzero((shares >= 0).any(axis=0))
     if not len(rows):

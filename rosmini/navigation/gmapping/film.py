@@ -1,4 +1,4 @@
-"""What the filter held after each scan, so that one can watch a map grow and particles die."""
+"""The filter's state after each scan, to show how a map grows and particles die out."""
 
 from __future__ import annotations
 
@@ -14,34 +14,34 @@ from .extent import known
 from .slam import GridSlam, Report
 
 OCCUPIED = 0.25
-"""A cell is occupied if more than this share of its visits were ends: the default of `occ_thresh`."""
+"""A cell is occupied if more than this fraction of its visits were beam ends: the default of `occ_thresh`."""
 
 
 class Frame(NamedTuple):
-    """One moment."""
+    """The filter's state at one time."""
 
     time: float
-    """[s]"""
+    """Time [s]."""
     pose: Pose
-    """Of the robot, as the best particle has it."""
+    """The robot's pose according to the best particle."""
     cells: NDArray[np.int8]
-    """(h, w), the best particle's map: 0 free, 100 occupied, -1 unknown."""
+    """The best particle's map (h, w): 0 free, 100 occupied, -1 unknown."""
     corner: tuple[float, float]
-    """Of cell (0, 0) [m]."""
+    """Lower left corner of cell (0, 0) [m]."""
     branches: tuple[NDArray[np.float64], ...]
-    """The paths of all particles, as `GridSlam.branches` has them."""
+    """The paths of all particles, from `GridSlam.branches`."""
     report: Report
 
 
 class Film:
-    """Frames of a filter: `take` one after each scan that was taken in."""
+    """A sequence of frames of a filter; call `take` after each processed scan."""
 
     def __init__(self, slam: GridSlam, threshold: float = OCCUPIED) -> None:
         self.slam, self.threshold = slam, threshold
         self.frames: list[Frame] = []
 
     def take(self, report: Report) -> None:
-        """Keep how it is now, after the scan that `GridSlam.process` reported."""
+        """Store the current state after a scan; `report` is the result of `GridSlam.process`."""
         slam = self.slam
         shares, extent = known(slam, slam.best)
         cells = np.where(shares < 0, -1, np.where(shares > self.threshold, 100, 0)).astype(np.int8)
@@ -53,9 +53,9 @@ class Film:
 
     @property
     def effective(self) -> NDArray[np.float64]:
-        """(frames,): how many particles counted at each scan, before any resampling (Neff)."""
+        """The effective number of particles at each scan (frames,), before any resampling (Neff)."""
         return np.array([frame.report.effective for frame in self.frames])
 
     def show(self, **options: Any) -> Any:
-        """A player: the map grows, and paths fork and die; `options`: see `rosmini.viz.slam_pictures`."""
+        """Draw a player in which the map grows and paths fork and end; for options see `rosmini.viz.slam_pictures`."""
         return show("gmapping_film", self, **options)

@@ -1,7 +1,7 @@
-"""The maps of all particles: cut into patches, of which equal ones are held once, and copied when one changes.
+"""The maps of all particles, divided into patches; equal patches are shared, and copied when one changes.
 
-A cell counts how often beams ended in it and how often they passed or ended, and has the mean of the ends: GMapping's
-point accumulator. Its occupancy is the quotient of the two counts, -1 if no beam ever came.
+A cell counts the beams that ended in it and those that passed or ended, and stores the mean of the ends: GMapping's
+point accumulator. Its occupancy is the ratio of the two counts, or -1 without any beam.
 """
 
 from __future__ import annotations
@@ -22,22 +22,22 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
 SIDE = 32
-"""Cells along the side of a patch."""
+"""Number of cells along the side of a patch."""
 FULL = 0.1
-"""A cell is full if more than this share of its visits were ends."""
+"""A cell is full if more than this fraction of its visits were beam ends."""
 LARGEST = 1 << 20
-"""Patches of a map: 1.6 km x 1.6 km with cells of 5 cm."""
+"""Maximum number of patches in a map: 1.6 km x 1.6 km with cells of 5 cm."""
 NONE = 0
-"""In a table: the patch that stays empty, where no beam ever came."""
+"""Index in a table of the empty patch, for areas without any beam."""
 
 PATCH_BYTES = SIDE * (SIDE * (4 + 4 + 16) + 8)
-"""The memory of one: hits, visits, mean ends, and which cells are full."""
+"""Memory of a patch [bytes]: hits, visits, mean ends, and bits of full cells."""
 
 REGISTER = f"{__name__}:compiled_register"
 
 
 class Pool(NamedTuple):
-    """The arrays of `SharedMaps`, for loops."""
+    """The arrays of `SharedMaps`, for the compiled loops."""
 
     tables: Any
     hits: Any
@@ -51,46 +51,46 @@ class Pool(NamedTuple):
 
 
 class Scan(NamedTuple):
-    """What is written into maps."""
+    """A scan to be written into the maps."""
 
     ranges: Any
     bearings: Any
     usable: float
     touched: Any
-    """(rows, columns) of patches: room to mark those that beams cross."""
+    """Patches (rows, columns): workspace to mark those that beams cross."""
 
 
 class SharedMaps:
-    """The maps of `count` particles, of cells of `resolution` [m].
+    """The maps of `count` particles, with cells of `resolution` [m].
 
-    Cell (0, 0) of a table's first patch is at `low` (column, row) of a lattice whose corner is the origin of the world,
-    so that maps may grow to all sides without a cell that moves.
+    Cell (0, 0) of a table's first patch is at `low` (column, row) on a lattice whose corner is the world's origin, so
+    maps can grow on all sides without moving a cell.
     """
 
     def __init__(self, count: int, resolution: float) -> None:
         self.resolution = resolution
         self.low = (0, 0)
         self.tables: Ints = np.full((count, 0, 0), NONE, dtype=np.int32)
-        """(particles, rows, columns) of patches: the number of each in the pool."""
+        """Indices of patches in the pool (particles, rows, columns)."""
         self.hits: Ints = np.zeros((1, SIDE, SIDE), dtype=np.int32)
-        """(patches, rows, columns): how often a beam ended in the cell."""
+        """Number of beams that ended in each cell (patches, rows, columns)."""
         self.visits: Ints = np.zeros((1, SIDE, SIDE), dtype=np.int32)
-        """How often a beam passed it or ended in it."""
+        """Number of beams that passed or ended in each cell."""
         self.means: Floats = np.zeros((1, SIDE, SIDE, 2))
-        """The mean of the ends [m]."""
+        """Mean of the beam ends in each cell [m]."""
         self.full: NDArray[np.int64] = np.zeros((1, SIDE), dtype=np.int64)
-        """(patches, rows): a bit for each column, 1 where ends are more than the share `FULL` of the visits.
+        """Bits of full cells (patches, rows), one per column: 1 if ends are more than the fraction `FULL` of visits.
 
-        It is what a matcher looks for, and a patch's are next to one another."""
+        A matcher reads these bits, and those of a patch are adjacent in memory."""
         self.owners: NDArray[np.int64] = np.zeros(1, dtype=np.int64)
-        """(patches,): how many maps each belongs to; 0 for the empty one, and for what is free."""
+        """Number of maps that share each patch (patches,); 0 for the empty patch and unused ones."""
 
     # -- room ----------------------------------------------------------------------------------------------------
 
     def cover(self, left: float, bottom: float, right: float, top: float) -> None:
-        """Let all maps reach over this box [m], and a patch farther, so that what is around a cell is a cell.
+        """Extend all maps to cover this box [m] and one patch more, so that every cell inside has neighbours.
 
-        Raises `RosminiError` for a box that is none, and for maps that would be too large; then they stay as they were.
+        Raises `RosminiError` for an invalid box and for maps that would be too large; the maps are then unchanged.
         """
         block = SIDE * self.resolution
         if not np.isfinite((left, bottom, right, top)).all():
@@ -116,7 +116,7 @@ class SharedMaps:
             self.low = ((here_x - west) * SIDE, (here_y - south) * SIDE)
 
     def _enlarge(self, count: int) -> None:
-        """Get more patches: at least so many."""
+        """Add at least `count` patches."""
         more = max(count, len(self.hits) // 2, 64)
         grow = ((0, more), (0, 0), (0, 0))
         self.hits, self.visits = np.pad(self.hits, grow), np.pad(self.visits, grow)
@@ -125,21 +125,21 @@ class SharedMaps:
 
     @property
     def bytes_used(self) -> int:
-        """The memory of all patches that belong to a map."""
+        """The memory of all patches that belong to a map [bytes]."""
         return int((self.owners > 0).sum()) * PATCH_BYTES
 
     # -- change --------------------------------------------------------------------------------------------------
 
     def choose(self, indices: NDArray[np.int64]) -> None:
-        """Go on with the maps of these particles; one that is chosen twice is not copied until it changes."""
+        """Continue with the maps of these particles; duplicates are not copied until they change."""
         self.tables = np.ascontiguousarray(self.tables[indices])
         self.owners = np.bincount(self.tables[self.tables != NONE], minlength=len(self.hits)).astype(np.int64)
 
     def register(self, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float) -> None:
-        """Write a scan into each map, seen from that particle's laser pose (n, 3).
+        """Write a scan into each map, from that particle's laser pose (n, 3).
 
-        `ranges` (b,) [m] that are 0, above the laser's maximum or not finite are left out before; those of `usable` [m]
-        and above clear the way so far, and end nowhere.
+        `ranges` (b,) [m] must not contain 0, values above the laser's maximum, or infinite values; ranges of at least
+        `usable` [m] clear the cells up to there, without an end.
         """
         if not len(ranges):
             return
@@ -156,14 +156,14 @@ class SharedMaps:
 
     @property
     def pool(self) -> Pool:
-        """The arrays as they are now."""
+        """The current arrays."""
         grids = self.hits, self.visits, self.means, self.full
         return Pool(self.tables, *grids, self.owners, *self.low, self.resolution)
 
     # -- the map -------------------------------------------------------------------------------------------------
 
     def occupancy(self, particle: int) -> tuple[Floats, tuple[float, float]]:
-        """The occupancy (h, w) of one map, -1 where unknown, and the lower left corner of cell (0, 0) [m]."""
+        """Return the occupancy (h, w) of a map, -1 where unknown, and the lower left corner of cell (0, 0) [m]."""
         table = self.tables[particle]
         rows, columns = table.shape
         found = np.full((rows * SIDE, columns * SIDE), -1.0)
@@ -176,7 +176,7 @@ class SharedMaps:
 
 
 def trace(n: int, pose: Any, pool: Any, scan: Any, write: bool) -> None:
-    """Go along each beam from cell to cell (Bresenham); mark the patches on the way, or write into their cells."""
+    """Follow each beam from cell to cell (Bresenham); mark the patches on the way, or write into their cells."""
     per_metre, low_x, low_y = 1.0 / pool.resolution, pool.low_x, pool.low_y
     x, y, heading, usable = pose[0], pose[1], pose[2], scan.usable
     from_x, from_y = math.floor(x * per_metre) - low_x, math.floor(y * per_metre) - low_y
@@ -204,7 +204,7 @@ def trace(n: int, pose: Any, pool: Any, scan: Any, write: bool) -> None:
 
 
 def count(patch: int, i: int, j: int, is_end: bool, x: float, y: float, pool: Any) -> None:
-    """A beam passes a cell, or ends in it at a point."""
+    """Count a beam that passes a cell, or ends in it at a point."""
     pool.visits[patch, i, j] += 1
     if is_end:
         pool.hits[patch, i, j] += 1
@@ -219,7 +219,7 @@ def count(patch: int, i: int, j: int, is_end: bool, x: float, y: float, pool: An
 
 
 def own(n: int, row: int, column: int, patch: int, pool: Any) -> None:
-    """Give a map a patch of its own, a copy of the one that it has."""
+    """Give a map its own copy of a shared patch."""
     old = pool.tables[n, row, column]
     for i in range(32):
         pool.full[patch, i] = pool.full[old, i]
@@ -235,7 +235,7 @@ def own(n: int, row: int, column: int, patch: int, pool: Any) -> None:
 
 
 def register(pool: Any, scan: Any, poses: Any, free: Any, first: int) -> int:
-    """Write into the maps from `first` on; returns the number of the one that patches do not suffice for, or of all."""
+    """Write into the maps from `first` on; return the index of the first one without enough patches, or the count."""
     taken = 0
     for n in range(first, len(poses)):
         for row in range(scan.touched.shape[0]):
@@ -256,7 +256,7 @@ def register(pool: Any, scan: Any, poses: Any, free: Any, first: int) -> int:
 
 @cache
 def compiled_register() -> Callable[..., int]:
-    """`register` as machine code, or as it is without numba."""
+    """Return `register` compiled by numba, or the plain function if numba is not installed."""
     try:
         from numba import float64, int32, int64, types, uint8
     except ImportError:

@@ -1,11 +1,11 @@
-"""Puts a scan on a map: GMapping's scan matcher.
+"""Matches a scan with a map: GMapping's scan matcher.
 
-The score of a pose is how near the ends of its beams are to the mean ends in the cells around them. A search goes
-downhill from the odometry's pose, in steps that are halved when none is better (Grisetti et al., 2007, section IV; the
-"vasco" matcher).
+The score of a pose depends on the distances from its beam ends to the mean ends in the surrounding cells. A search
+climbs from the odometry's pose, in steps that are halved when none improves the score (Grisetti et al., 2007, section
+IV; the "vasco" matcher).
 
-One defect of the original is not copied: it looks for the free cell before the end of a beam in a place that has
-nothing to do with the beam (half the map away), so that this test passes nearly always.
+One defect of the original is not copied: it looks for the free cell before the end of a beam in an unrelated place,
+half the map away, so that this test nearly always passes.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ MATCH = f"{__name__}:compiled_match"
 
 
 class Matched(NamedTuple):
-    """What a matcher found for each particle."""
+    """The result of matching for each particle."""
 
     poses: Floats
-    """(n, 3) of the laser: the best found, or the one that was given where that one scores too little."""
+    """Laser poses (n, 3): the best ones found, or the given one where the best one's score is too low."""
     scores: Floats
-    """(n,): the best found, the sum over beams of how well each fits, from 0 to 1."""
+    """Best scores found (n,): the sum over all beams of their fits, each from 0 to 1."""
     log_likelihoods: Floats
-    """(n,), of `poses`."""
+    """Log-likelihoods (n,) of `poses`."""
 
 
 class Grids(NamedTuple):
-    """What a matcher reads of `SharedMaps`."""
+    """The arrays of `SharedMaps` that a matcher reads."""
 
     tables: Any
     means: Any
@@ -52,20 +52,20 @@ class Grids(NamedTuple):
 
 
 class Beams(NamedTuple):
-    """The beams that are matched, of length b."""
+    """The b beams that are matched."""
 
     ranges: Any
     cosines: Any
     sines: Any
-    """Of the bearings."""
+    """Cosines and sines of the bearings (b,)."""
     ends: Any
-    """(b, 2): `aim` writes the ends seen from the laser into it, along the axes of the map [m]."""
+    """Beam ends relative to the laser along the map's axes (b, 2) [m]; written by `aim`."""
     before: Any
-    """(b, 2), likewise: how many cells before its end the way of a beam has to be free."""
+    """Offsets to the cell before the end, which must be free (b, 2) [cells]; written by `aim`."""
 
 
 class Rule(NamedTuple):
-    """How ends are scored, and how a better pose is looked for."""
+    """Parameters of scoring and of the search."""
 
     size: int
     sigma: float
@@ -78,7 +78,7 @@ class Rule(NamedTuple):
 
 @dataclass(frozen=True)
 class Matcher:
-    """The matcher's parameters, by their names at http://wiki.ros.org/gmapping#Parameters."""
+    """The matcher's parameters, named as in http://wiki.ros.org/gmapping#Parameters."""
 
     sigma: float = 0.05
     kernel_size: int = 1
@@ -88,16 +88,16 @@ class Matcher:
     lsigma: float = 0.075
     lskip: int = 0
     minimum_score: float = -1.0
-    """A pose that scores no more is not taken; with -1 every one is."""
+    """A pose with at most this score is rejected; -1 accepts all."""
     no_hit: float = -0.5
-    """The log-likelihood of a beam that ends near nothing, before the division by `lsigma`."""
+    """Log-likelihood of a beam without an end nearby, before the division by `lsigma`."""
 
     def match(
         self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float
     ) -> Matched:
-        """Improve the pose of the laser (n, 3) on each particle's map.
+        """Improve the laser pose (n, 3) on each particle's map.
 
-        `ranges` (b,) [m] above `usable` and of 0 are left out.
+        `ranges` (b,) [m] of 0 and above `usable` are ignored.
         """
         poses = np.ascontiguousarray(laser_poses, dtype=np.float64).copy()
         result = np.zeros((len(poses), 2))
@@ -109,12 +109,12 @@ class Matcher:
     def score(
         self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float
     ) -> Matched:
-        """Score poses as they are, without looking for better ones."""
+        """Score the given poses without improving them."""
         still = replace(self, lstep=0.0, astep=0.0, iterations=0)
         return still.match(maps, laser_poses, ranges, bearings, usable)
 
     def beams(self, ranges: Floats, bearings: Floats, usable: float) -> Beams:
-        """Those that are matched."""
+        """Return the beams that are matched."""
         chosen = (ranges > 0) & (ranges <= usable)
         if self.lskip:
             chosen &= np.arange(len(ranges)) % (self.lskip + 1) == self.lskip
@@ -129,7 +129,7 @@ class Matcher:
 
     @property
     def rule(self) -> Rule:
-        """What the loops take of it."""
+        """The parameters in the form that the loops need."""
         return Rule(
             self.kernel_size,
             self.sigma,
@@ -142,18 +142,18 @@ class Matcher:
 
 
 def grids_of(maps: SharedMaps) -> Grids:
-    """The arrays of `maps` as they are now."""
+    """Return the current arrays of `maps`."""
     return Grids(maps.tables, maps.means, maps.full, *maps.low, maps.resolution)
 
 
 NOWHERE = 1e300
-"""How far an end is from the nearest one where there is none."""
+"""Squared distance of a beam end without another end nearby."""
 FREE_RATIO = math.sqrt(2)
-"""So many cells before the end of a beam the way has to be free."""
+"""Distance [cells] before the end of a beam at which the cell must be free."""
 
 
 def aim(heading: float, beams: Any) -> None:
-    """Turn the ends of `beams` by the laser's heading."""
+    """Rotate the beam ends by the laser's heading."""
     ahead_x, ahead_y = math.cos(heading), math.sin(heading)
     for b in range(len(beams.ranges)):
         cos = ahead_x * beams.cosines[b] - ahead_y * beams.sines[b]
@@ -164,16 +164,16 @@ def aim(heading: float, beams: Any) -> None:
 
 
 def window(n: int, row: int, west: int, east: int, tables: Any, full: Any) -> int:
-    """A bit for each cell of a row of particle `n`'s map, the first for column `west`: 1 if the cell is full."""
+    """Return the bits of full cells in a row of particle `n`'s map, from column `west` on."""
     here, there = tables[n, row >> 5, west >> 5], tables[n, row >> 5, east >> 5]
     both: int = full[here, row & 31] | (full[there, row & 31] << 32)
     return both >> (west & 31)
 
 
 def fit(n: int, x: float, y: float, grids: Any, beams: Any, rule: Any, least: float) -> tuple[float, float]:
-    """Score and log-likelihood of a position on the map of particle `n`, with beams that are aimed.
+    """Return score and log-likelihood of a position on particle `n`'s map, for beams rotated by `aim`.
 
-    A score of no more than `least` is of no use: as soon as the beams that remain cannot lift it above, it is left.
+    A score of at most `least` is useless: evaluation stops as soon as the remaining beams cannot raise it above that.
     """
     tables, full, means, ends, before = grids.tables, grids.full, grids.means, beams.ends, beams.before
     size, edge, count = rule.size, rule.size + 2, len(ends)
@@ -186,7 +186,7 @@ def fit(n: int, x: float, y: float, grids: Any, beams: Any, rule: Any, least: fl
         column, row = math.floor(end_x * per_metre) - grids.low_x, math.floor(end_y * per_metre) - grids.low_y
         best, first, last = NOWHERE, row - size, row + size + 1
         if row < edge or row >= rows or column < edge or column >= columns:
-            first = last  # beyond what anybody has seen
+            first = last  # beyond the known area
         west, east = column - size, column + size
         for i in range(first, last):
             here = there = tables[n, i >> 5, west >> 5]
@@ -214,7 +214,7 @@ def fit(n: int, x: float, y: float, grids: Any, beams: Any, rule: Any, least: fl
 
 
 def climb(n: int, pose: Any, grids: Any, beams: Any, rule: Any) -> float:
-    """Go from `pose` (3,) to better ones in steps that are halved when none is better; returns the last one's score."""
+    """Climb from `pose` (3,), which is modified, in steps that are halved when none is better; return the score."""
     aim(pose[2], beams)
     score = fit(n, pose[0], pose[1], grids, beams, rule, -1.0)[0]
     step, turn, refined, before, last = rule.lstep, rule.astep, 0, -1.0, -1
@@ -227,7 +227,7 @@ def climb(n: int, pose: Any, grids: Any, beams: Any, rule: Any) -> float:
         back, last = last, -1
         for move in range(6):
             if move == back:
-                continue  # it came from there
+                continue  # the previous position
             sign = 1.0 if move % 2 == 0 else -1.0
             try_x = x + sign * step if move < 2 else x
             try_y = y + sign * step if 2 <= move < 4 else y
@@ -242,7 +242,7 @@ def climb(n: int, pose: Any, grids: Any, beams: Any, rule: Any) -> float:
 
 
 def match(grids: Any, beams: Any, rule: Any, minimum: float, poses: Any, result: Any) -> None:
-    """See `Matcher.match`: better poses into `poses`, score and log-likelihood into `result`."""
+    """Run `Matcher.match` with scalar loops: improve `poses`, and write score and log-likelihood into `result`."""
     pose = np.zeros(3)
     for n in range(poses.shape[0]):
         pose[0], pose[1], pose[2] = poses[n, 0], poses[n, 1], poses[n, 2]
@@ -255,7 +255,7 @@ def match(grids: Any, beams: Any, rule: Any, minimum: float, poses: Any, result:
 
 @cache
 def compiled_match() -> Callable[..., None]:
-    """`match` as machine code, or as it is without numba."""
+    """Return `match` compiled by numba, or the plain function if numba is not installed."""
     try:
         from numba import float64, int32, int64, types, void
     except ImportError:

@@ -1,7 +1,7 @@
 """`gmapping/slam_gmapping`: the filter as a node (http://wiki.ros.org/gmapping).
 
-It takes `scan` and `tf`, and publishes `map`, `map_metadata`, `~entropy` and the transform from the map to the
-odometry's frame; `dynamic_map` returns the map. A scan waits until its transforms are there.
+It subscribes to `scan` and `tf`, and publishes `map`, `map_metadata`, `~entropy` and the transform from the map to the
+odometry frame; the service `dynamic_map` returns the map. A scan waits until its transforms are available.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 PATIENCE = 0.5
-"""So long a scan waits for its transforms [s]."""
+"""Maximum time that a scan waits for its transforms [s]."""
 
 
 class SlamGmapping:
-    """Mapping and localisation in one, as a node of a graph."""
+    """Simultaneous localisation and mapping as a node."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
         self.parameters = p = GmappingParameters.read(node)
         self.slam: GridSlam | None = None
-        """The filter, from the first scan on: `slam.show()` draws its maps and paths."""
+        """The filter, or None before the first scan; `slam.show()` draws its maps and paths."""
         self._extent = first_extent(p.xmin, p.ymin, p.xmax, p.ymax, p.delta)
         self._upside_down = False
         self._beams = self._scans = 0
@@ -46,7 +46,7 @@ class SlamGmapping:
         self._last_stamp_ns = 0
         self._map: Any = None
         self._sent = Time(0)
-        """The stamp of the last transform."""
+        """Stamp of the last transform."""
         self.buffer = Buffer(node)
         self.listener = TransformListener(node, self.buffer)
         self.broadcaster = TransformBroadcaster(node)
@@ -91,7 +91,7 @@ class SlamGmapping:
         self._take(self.slam, message, odometry)
 
     def _begin(self, message: Any) -> GridSlam:
-        """Learn from the first scan where the laser is, and how far it sees."""
+        """Create the filter from the first scan, which gives the laser's pose and range."""
         p, frame = self.parameters, message.header.frame_id.lstrip("/")
         found = self.buffer.lookup_transform(p.base_frame, frame, Time(0), PATIENCE)
         q = found.transform.rotation
@@ -116,7 +116,7 @@ class SlamGmapping:
 
     def _take(self, slam: GridSlam, message: Any, odometry: Pose) -> None:
         ranges = np.asarray(message.ranges, dtype=np.float64)
-        # What is nearer than the laser can measure would be an end; the mapper takes it for nothing hit.
+        # A range below the laser's minimum would count as a hit; the mapper treats it as no hit.
         ranges = np.where(ranges < message.range_min, message.range_max, ranges)
         bearings = message.angle_min + message.angle_increment * np.arange(len(ranges))
         bearings = -bearings if self._upside_down else bearings
@@ -175,14 +175,14 @@ class SlamGmapping:
         p = self.parameters
         delay = p.transform_publish_period if p.tf_delay is None else p.tf_delay
         when = self.node.now() + Duration.from_sec(delay)
-        if when == self._sent:  # a slow /clock stands still between two turns of the timer
+        if when == self._sent:  # a slow /clock may not advance between two calls of the timer
             return
         self._sent = when
         self.broadcaster.send_rigid(p.map_frame, p.odom_frame, from_yaw(*self._correction), when)
 
 
 def check(message: Any, longest: float | None) -> None:
-    """Raises `RosminiError` for a scan that says nothing of where its beams ended; `longest` is ~maxRange."""
+    """Raise `RosminiError` for a scan with unusable numbers; `longest` is ~maxRange."""
     reach = message.range_max if longest is None else min(message.range_max, longest)
     numbers = message.angle_min, message.angle_increment, message.range_min, reach
     if (

@@ -10,7 +10,7 @@ from .matching import Matcher
 from .slam import Settings
 
 Text = str
-"""Since a parameter is called `str`."""
+"""An alias of `str`, which is also the name of a parameter."""
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class GmappingParameters(Parameters):
     """The private parameters."""
 
     allowed = ("inverted_laser", "enovation")
-    """What real files carry, and slam_gmapping has not read since it learned from tf how a laser is mounted."""
+    """Names in files for real robots that slam_gmapping ignores since it reads the laser's mounting from tf."""
 
     base_frame: Text = parameter("base_link", "the robot's frame")
     map_frame: Text = parameter("map", "the map's frame")
@@ -65,7 +65,7 @@ class GmappingParameters(Parameters):
     occ_thresh: float = parameter(0.25, "a cell is occupied if more than this share of its visits were ends")
 
     def settings(self, range_max: float) -> Settings:
-        """What the filter takes, with a laser that sees so far [m]."""
+        """Return the filter's settings for a laser with this maximum range [m]."""
         longest = range_max - 0.01 if self.maxRange is None else self.maxRange
         matcher = Matcher(
             self.sigma,

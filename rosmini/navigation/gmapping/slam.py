@@ -1,7 +1,7 @@
-"""The filter: paths that are drawn, matched, weighed and resampled, each with its map.
+"""The filter: sampled paths, each with a map, which are matched, weighted and resampled.
 
-Grisetti, Stachniss and Burgard (2007): the proposal is what the scan matcher makes of the odometry, weights come from
-the scan's likelihood, and particles are resampled only when too few of them count.
+Grisetti, Stachniss and Burgard (2007): the proposal is the odometry improved by the scan matcher, the weights are scan
+likelihoods, and particles are resampled only when their effective number is too small.
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ from .matching import Matcher
 Floats = NDArray[np.float64]
 
 GRAIN = 1 << 48
-"""Weights are drawn by whole parts of this, so that a last bit that differs changes nothing."""
+"""Weights are rounded to multiples of 1 / GRAIN, so that last-bit differences have no effect."""
 DIGITS = 6
-"""To so many digits log-likelihoods are rounded, for the same reason."""
+"""Number of decimals of log-likelihoods, for the same reason."""
 
 JUMP = 20.0
-"""An odometry that is so far from the one before [m] has jumped, as in the original."""
+"""As in the original, a change of the odometry by more than this distance [m] is a jump."""
 
 
 @dataclass(frozen=True)
 class Settings:
-    """The filter's parameters, by their names at http://wiki.ros.org/gmapping#Parameters."""
+    """The filter's parameters, named as in http://wiki.ros.org/gmapping#Parameters."""
 
     particles: int = 30
     delta: float = 0.05
     max_urange: float = 80.0
-    """Beams are used up to here [m] (`maxUrange`)."""
+    """Maximum range that is used [m] (`maxUrange`)."""
     max_range: float = 80.0
-    """Longer ranges have hit nothing [m] (`maxRange`)."""
+    """Longer ranges count as no hit [m] (`maxRange`)."""
     linear_update: float = 1.0
     angular_update: float = 0.5
     temporal_update: float = -1.0
@@ -56,7 +56,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class Node:
-    """A pose of the robot when a scan was taken in, and the one before: paths form a tree."""
+    """The robot's pose at a processed scan, and the previous one: paths form a tree."""
 
     pose: Pose
     time: float
@@ -65,25 +65,25 @@ class Node:
 
 @dataclass(frozen=True)
 class Report:
-    """What came of a scan that was taken in."""
+    """The result of a processed scan."""
 
     effective: float
-    """How many particles counted before resampling (Neff)."""
+    """Effective number of particles before resampling (Neff)."""
     resampled: bool
     scores: Floats
-    """The matcher's, of each particle."""
+    """The matcher's score for each particle."""
     unmatched: int
-    """How many particles kept the odometry's pose, for no better one scored above `minimum_score`."""
+    """Number of particles that kept the odometry's pose, because no pose scored above `minimum_score`."""
 
 
 class GridSlam:
-    """The filter.
+    """The particle filter.
 
     Args:
-        settings: its parameters.
+        settings: the filter's parameters.
         laser: the pose of the laser on the robot.
-        start: the robot's first pose in the map.
-        random: where its random numbers come from.
+        start: the robot's initial pose in the map.
+        random: the generator of all random numbers.
 
     """
 
@@ -102,10 +102,10 @@ class GridSlam:
         self.settings, self.laser, self.random = settings, laser, random
         self.maps = SharedMaps(settings.particles, settings.delta)
         self.poses: Floats = np.tile(np.asarray(start, dtype=float), (settings.particles, 1))
-        """(n, 3): where each particle takes the robot to be now."""
+        """The robot's current pose (n, 3) according to each particle."""
         self.log_weights: Floats = np.zeros(settings.particles)
         self.sums: Floats = np.zeros(settings.particles)
-        """The log-weight of each path since the start, by which the best one is chosen."""
+        """The total log-weight of each path, which determines the best one."""
         self.paths: list[Node | None] = [None] * settings.particles
         self.processed = 0
         self._odometry: Pose | None = None
@@ -115,7 +115,7 @@ class GridSlam:
     # -- motion --------------------------------------------------------------------------------------------------
 
     def move(self, odometry: Pose) -> None:
-        """Take in where the odometry is now: each particle moves, with an error of its own."""
+        """Update the odometry: each particle moves with a random error."""
         before, self._odometry = self._odometry, odometry
         if before is None:
             return
@@ -137,12 +137,12 @@ class GridSlam:
         self.poses[:, 2] = normalize_angle(self.poses[:, 2])
 
     def jumps_to(self, odometry: Pose) -> bool:
-        """Whether no robot can have driven there since the last odometry."""
+        """True if the odometry is too far from the last one for a robot to have driven there."""
         before = self._odometry
         return before is not None and math.dist(before[:2], odometry[:2]) > JUMP
 
     def wants(self, time: float) -> bool:
-        """Whether the robot has moved so much, or so long ago, that the next scan is taken in."""
+        """True if the robot has moved far enough, or enough time has passed, to process the next scan."""
         s = self.settings
         return (
             self.processed == 0
@@ -154,7 +154,7 @@ class GridSlam:
     # -- scans ---------------------------------------------------------------------------------------------------
 
     def process(self, ranges: Floats, bearings: Floats, odometry: Pose, time: float) -> Report | None:
-        """Take in a scan (b,) [m, rad] at an odometry and a time [s]; None if the robot has hardly moved."""
+        """Process a scan (b,) [m, rad] at an odometry pose and a time [s]; None if the robot has hardly moved."""
         self.move(odometry)
         if not self.wants(time):
             return None
@@ -193,14 +193,14 @@ class GridSlam:
 
     @property
     def weights(self) -> Floats:
-        """(n,), with the sum 1."""
+        """The particles' weights (n,), normalised to a sum of 1."""
         gain = self.settings.ogain * len(self.log_weights)
         raw: Floats = np.exp((self.log_weights - self.log_weights.max()) / gain)
         raw /= raw.sum()
         return raw
 
     def _select(self) -> tuple[float, bool]:
-        """Resample if too few particles count (Neff)."""
+        """Resample if the effective number of particles is too small; return that number and True if resampled."""
         weights = self.weights
         effective = float(1 / np.square(weights).sum())
         count = len(weights)
@@ -220,17 +220,17 @@ class GridSlam:
 
     @property
     def best(self) -> int:
-        """The particle whose path explains all scans best."""
+        """The index of the particle whose path explains all scans best."""
         return int(np.argmax(self.sums))
 
     @property
     def entropy(self) -> float:
-        """Of the particles' weights: how unsure the filter is of the pose (the topic `~entropy`)."""
+        """The entropy of the weights, which measures the uncertainty of the pose (the topic `~entropy`)."""
         weights = self.weights
         return float(-(weights * np.log(np.maximum(weights, 1e-300))).sum())
 
     def path(self, particle: int | None = None) -> list[Node]:
-        """The path of a particle, of the best one by default, from the first scan to the last."""
+        """Return the path of a particle, by default the best one, from the first scan to the last."""
         node = self.paths[self.best if particle is None else particle]
         found = []
         while node is not None:
@@ -239,7 +239,7 @@ class GridSlam:
         return found[::-1]
 
     def branches(self) -> tuple[Floats, ...]:
-        """The paths of all particles as lines (k, 2) [m], each stretch that several share but once."""
+        """Return the paths of all particles as lines (k, 2) [m]; shared parts appear once."""
         seen: set[int] = set()
         lines = []
         for node in self.paths:
@@ -255,7 +255,7 @@ class GridSlam:
         return tuple(lines)
 
     def forefathers(self) -> NDArray[np.int64]:
-        """(scans,): of how many particles of that time a path lives on."""
+        """Return for each scan (scans,) the number of its particles that still have descendants."""
         layer, counts = list(self.paths), []
         while layer and layer[0] is not None:
             alive = {id(node): node for node in layer}
@@ -264,5 +264,5 @@ class GridSlam:
         return np.array(counts[::-1], dtype=np.int64)
 
     def show(self, **options: Any) -> Any:
-        """Draw a particle's map, the best one's by default, and the paths of all: `rosmini.viz.slam_pictures`."""
+        """Draw a particle's map, by default the best one's, and all paths: see `rosmini.viz.slam_pictures`."""
         return show("gmapping", self, **options)

@@ -1,1 +1,1 @@
-"""How a robot leans, from its IMU, as a transform (http://wiki.ros.org/hector_imu_attitude_to_tf)."""
+"""A transform with a robot's roll and pitch, from its IMU (http://wiki.ros.org/hector_imu_attitude_to_tf)."""

@@ -1,7 +1,7 @@
 """`hector_imu_attitude_to_tf/imu_attitude_to_tf_node`: the roll and pitch of an IMU, on tf.
 
-A laser that leans sees the floor and the ceiling. A frame that stays level under the robot (`base_stabilized`) lets
-`hector_mapping`, which knows no IMU, see where its beams really ended.
+A tilted laser sees the floor and the ceiling. A frame that stays level under the robot (`base_stabilized`) allows
+`hector_mapping`, which does not use an IMU, to determine the true beam ends.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ class AttitudeParameters(Parameters):
 
 
 def leaning(x: float, y: float, z: float, w: float) -> Rigid:
-    """An orientation without its heading. Raises `InvalidArgumentException` for a quaternion that is none."""
+    """Return an orientation's transform without yaw. Raises `InvalidArgumentException` for an invalid quaternion."""
     roll, pitch, _ = rpy(rigid((0.0, 0.0, 0.0), (x, y, z, w)))
     return from_rpy((0.0, 0.0, 0.0), roll, pitch, 0.0)
 
 
 class ImuAttitudeToTf:
-    """Says with each message of `imu_topic` how the robot's frame leans in the level one."""
+    """Publishes, for each message on `imu_topic`, the tilt of the robot's frame relative to the level frame."""
 
     def __init__(self, node: Node) -> None:
         self.node = node

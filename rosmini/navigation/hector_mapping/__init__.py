@@ -1,8 +1,8 @@
-"""A map from a laser alone: scans are matched with the map so far, on several scales (http://wiki.ros.org/hector_mapping).
+"""Mapping with a laser alone, by matching scans with maps on several scales (http://wiki.ros.org/hector_mapping).
 
 Kohlbrecher, Meyer, von Stryk and Klingauf, A flexible and scalable SLAM system with full 3D motion estimation (SSRR
-2011). `grid` is one map with its update, `matching` puts a scan on it, `slam` has the scales, `scans` makes points of
-ranges; `node` is apart.
+2011). `grid` is a map and its update, `matching` matches a scan with a map, `slam` combines the scales, `scans`
+converts ranges to points; `node` is separate.
 """
 
 from __future__ import annotations

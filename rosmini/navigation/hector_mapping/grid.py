@@ -1,4 +1,4 @@
-"""One map of hector_mapping: logarithms of odds, and the probabilities that the matcher interpolates between."""
+"""A map of hector_mapping: log-odds, and the probabilities that the matcher interpolates."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ Singles = NDArray[np.float32]
 Integers = NDArray[np.int64]
 
 MOST = 50.0
-"""Log-odds of a cell that are not below this are not raised, as in the original; downwards there is no bound."""
+"""Log-odds of this value or more are not raised, as in the original; there is no lower bound."""
 
 
 def log_odds(probability: float) -> float:
-    """The logarithm of the odds. Raises `RosminiError` for what is no probability between 0 and 1."""
+    """Return the logarithm of the odds. Raises `RosminiError` unless the probability is between 0 and 1."""
     if not 0 < probability < 1:
         raise RosminiError(f"the update factor {probability} has to be a probability between 0 and 1")
     return math.log(probability / (1 - probability))
 
 
 class OccupancyGrid:
-    """Cells (h, w) of `resolution` [m], row 0 at the bottom; the middle of cell (0, 0) is at `origin` [m].
+    """Cells (h, w) of `resolution` [m], row 0 at the bottom; the centre of cell (0, 0) is at `origin` [m].
 
-    `free` and `occupied` are the probabilities of being occupied that one scan gives to a cell that a beam passes, and
-    to one in which a beam ends (`update_factor_free`, `update_factor_occupied`).
+    `free` and `occupied` are the occupancy probabilities that a single scan gives to a cell that a beam passes, and to
+    a cell in which a beam ends (`update_factor_free`, `update_factor_occupied`).
     """
 
     def __init__(
@@ -51,18 +51,18 @@ class OccupancyGrid:
         return f"<OccupancyGrid: {width} x {height} cells of {self.resolution:g} m>"
 
     def __contains__(self, point: tuple[float, float]) -> bool:
-        """Whether a point [m] is in a cell of the map."""
+        """True if a point [m] is in a cell of the map."""
         (x, y), (height, width) = self.cells(np.asarray(point)), self.odds.shape
         return bool(-0.5 <= x < width - 0.5 and -0.5 <= y < height - 0.5)
 
     def cells(self, points: Floats) -> Floats:
-        """Points (..., 2) [m] in cells: whole numbers are middles."""
+        """Convert points (..., 2) [m] to cells; whole numbers are cell centres."""
         return (points - self.origin) / self.resolution
 
     def update(self, start: tuple[float, float], ends: Floats) -> None:
-        """Take in beams from `start` to `ends` (b, 2) [m]; each cell changes once, and what is hit is not passed.
+        """Add beams from `start` to `ends` (b, 2) [m]; each cell changes once, and a hit takes precedence over passing.
 
-        A beam that ends outside the map, or in the cell in which it begins, changes nothing.
+        A beam that ends outside the map, or in the cell where it starts, changes nothing.
         """
         first = _nearest(self.cells(np.asarray(start)))
         last = _nearest(self.cells(ends))
@@ -71,7 +71,7 @@ class OccupancyGrid:
         if not (0 <= first[0] < width and 0 <= first[1] < height and inside.any()):
             return
         last = last[inside]
-        # Only the part of the map that these beams can touch is looked at.
+        # Process only the part of the map that these beams can touch.
         left, low = np.minimum(last.min(axis=0), first)
         right, high = np.maximum(last.max(axis=0), first) + 1
         kinds = np.zeros((high - low, right - left), dtype=np.int8)
@@ -82,12 +82,12 @@ class OccupancyGrid:
         odds[kinds == 1] += self._free
         odds[(kinds == 2) & (odds < MOST)] += self._occupied
         changed = kinds > 0
-        # Odds below this are no other probability, and odds have an upper bound: no overflow.
+        # The bounds avoid overflow: the lower one here does not change the probability, and MOST is the upper one.
         some = np.exp(np.maximum(odds[changed].astype(np.float64), -80.0))
         self.probabilities[low:high, left:right][changed] = some / (1 + some)
 
     def as_map(self) -> GridMap:
-        """Occupied where that is likelier than free, free where not, unknown where nothing was seen."""
+        """Convert to a grid map: occupied if that is likelier than free, free if not, unknown where both are equal."""
         found = np.full(self.odds.shape, UNKNOWN, dtype=np.int8)
         found[self.odds < 0], found[self.odds > 0] = FREE, OCCUPIED
         half = self.resolution / 2
@@ -100,16 +100,16 @@ def _nearest(cells: Floats) -> Integers:
 
 
 def passed_cells(first: Integers, last: Integers) -> tuple[Integers, Integers]:
-    """Columns and rows of the cells on straight lines from `first` (2,) to each of `last` (n, 2), without the last.
+    """Return columns and rows of the cells on lines from `first` (2,) to each of `last` (n, 2), without the last cells.
 
-    One cell a step along the longer side (Bresenham, Algorithm for computer control of a digital plotter, 1965).
+    One cell per step along the longer side (Bresenham, Algorithm for computer control of a digital plotter, 1965).
     """
     span = (last - first).astype(np.float64)
     steps = np.abs(span).max(axis=1)
     count = steps.astype(np.int64)
     before = np.cumsum(count) - count
     step = np.arange(before[-1] + count[-1]) - np.repeat(before, count)
-    # Whole numbers of one over `steps`, and half of one more, so that rounding decides nothing.
+    # Half a unit more than the numerator, so that rounding errors have no effect.
     half = (steps // 2 + 0.5) / steps
     columns, rows = (
         first[axis]

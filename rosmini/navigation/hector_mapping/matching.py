@@ -1,7 +1,7 @@
-"""Puts a scan on a map: Gauss-Newton on the interpolated probabilities (Kohlbrecher et al., 2011, section IV).
+"""Matches a scan with a map: Gauss-Newton on interpolated probabilities (Kohlbrecher et al., 2011, section IV).
 
-The ends of all beams shall lie where the map is occupied. One defect of the original is not copied: there the
-derivatives along x are interpolated by the fraction of x where that of y was meant, and the other way round.
+It moves the beam ends onto occupied cells. One defect of the original is not copied: it interpolates the derivatives
+along x by the fraction of x where that of y is needed, and vice versa.
 """
 
 from __future__ import annotations
@@ -24,35 +24,35 @@ from .grid import OccupancyGrid
 Floats = NDArray[np.float64]
 
 LARGEST_TURN = 0.2
-"""A step turns no further [rad]."""
+"""Maximum rotation of a step [rad]."""
 NOTHING_KNOWN = 1e6
-"""The variance of what a match tells nothing of [m2, rad2]."""
+"""Variance of a quantity that a match does not determine [m2, rad2]."""
 
 
 class Matched(NamedTuple):
-    """What a matcher found."""
+    """The result of matching."""
 
     pose: Pose
     hessian: Floats
-    """(3, 3) of x, y [m] and heading [rad], at the last step; zeros if there was nothing to match with."""
+    """Hessian (3, 3) of x, y [m] and heading [rad] at the last step; zeros if there was nothing to match."""
     spread: float
-    """The mean square of what the ends lacked of being on something occupied, before the last step."""
+    """Mean square of the residuals (1 - occupancy at the ends), before the last step."""
     steps: int
 
     @property
     def covariance(self) -> Floats:
-        """(3, 3) of x, y [m2] and heading [rad2]: the inverse curvature, scaled by the spread (the paper's eq. 14).
+        """Covariance (3, 3) of x, y [m2] and heading [rad2]: the inverse Hessian scaled by the spread (eq. 14).
 
-        The original publishes the curvature itself, in cells.
+        The original publishes the Hessian itself, in cells.
         """
         known = self.hessian / max(self.spread, 1e-6)
         return inverse_matrix(known + np.eye(3) / NOTHING_KNOWN)
 
 
 def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> Matched:
-    """Improve a pose [m, m, rad] so that `points` (n, 2) [m], in the robot's frame, lie on what is occupied.
+    """Improve a pose [m, m, rad] so that `points` (n, 2) [m], in the robot's frame, are on occupied cells.
 
-    There is one step more than `iterations`, as in the original. It ends early where there is nothing to climb.
+    As in the original there is one step more than `iterations`. Matching ends early where the gradient is zero.
     """
     resolution = grid.resolution
     start = np.array([*grid.cells(np.asarray(pose[:2], dtype=np.float64)), pose[2]])
@@ -72,9 +72,9 @@ def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> M
 
 
 def surface(probabilities: Any, x: float, y: float) -> tuple[float, float, float]:
-    """The map (h, w) as a surface at x, y [cells]: probability, and its derivatives along x and y [1/cell].
+    """Return the map's (h, w) interpolated probability at x, y [cells], and its derivatives along x and y [1/cell].
 
-    Between the middles of four cells it is bilinear; outside the map it is 0.
+    The interpolation is bilinear between the centres of four cells; outside the map everything is 0.
     """
     height, width = probabilities.shape
     if not (0.0 <= x < width - 1.0 and 0.0 <= y < height - 1.0):
@@ -88,15 +88,15 @@ def surface(probabilities: Any, x: float, y: float) -> tuple[float, float, float
 
 
 def climb(probabilities: Any, ends: Any, pose: Any, most: int, result: Any) -> None:
-    """Make at most `most` steps of Gauss-Newton.
+    """Make up to `most` steps of Gauss-Newton.
 
     Args:
         probabilities: the map (h, w).
-        ends: of the beams (n, 2), in the robot's frame [cells].
-        pose: x, y [cells] and heading [rad]; changed.
-        most: so many steps.
-        result: (8), changed: the curvature's xx, xy, xt, yy, yt, tt at the last step [cells, rad], the mean square of
-            what the ends lacked there, and the steps that were made.
+        ends: the beam ends (n, 2), in the robot's frame [cells].
+        pose: x, y [cells] and heading [rad]; modified in place.
+        most: maximum number of steps.
+        result: (8), modified in place: the Hessian's xx, xy, xt, yy, yt, tt at the last step [cells, rad], the mean
+            square of the residuals there, and the number of steps.
 
     """
     height, width = probabilities.shape
@@ -113,7 +113,7 @@ def climb(probabilities: Any, ends: Any, pose: Any, most: int, result: Any) -> N
             spread += lacking * lacking
         result[0], result[1], result[2], result[3], result[4], result[5] = xx, xy, xt, yy, yt, tt
         result[6] = spread / max(1, ends.shape[0])
-        # Solved by minors: the curvature is symmetric.
+        # Solve with cofactors: the Hessian is symmetric.
         ixx, ixy, ixt = yy * tt - yt * yt, xt * yt - xy * tt, xy * yt - yy * xt
         determinant = xx * ixx + xy * ixy + xt * ixt
         if xx == 0.0 or yy == 0.0 or determinant == 0.0:
@@ -122,7 +122,7 @@ def climb(probabilities: Any, ends: Any, pose: Any, most: int, result: Any) -> N
         x = pose[0] + (ixx * bx + ixy * by + ixt * bt) / determinant
         y = pose[1] + (ixy * bx + iyy * by + iyt * bt) / determinant
         turn = (ixt * bx + iyt * by + itt * bt) / determinant
-        # Where nothing holds the robot along a wall, the curvature is all but 0, and what comes out is no step.
+        # If the robot could slide along a wall, the Hessian is nearly singular, and the result is not a valid step.
         if not (0.0 <= x < width and 0.0 <= y < height and abs(turn) < math.inf):
             return
         pose[0], pose[1] = x, y
@@ -132,7 +132,7 @@ def climb(probabilities: Any, ends: Any, pose: Any, most: int, result: Any) -> N
 
 @cache
 def compiled_climb() -> Callable[..., None]:
-    """`climb` as machine code, or as it is without numba."""
+    """Return `climb` compiled by numba, or the plain function if numba is not installed."""
     try:
         from numba import float32, float64, int64, void
     except ImportError:

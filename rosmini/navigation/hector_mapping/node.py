@@ -1,9 +1,9 @@
 """`hector_mapping/hector_mapping`: the mapper as a node (http://wiki.ros.org/hector_mapping).
 
-It takes `scan`, and from `tf` where the laser is on the robot; odometry it needs none. It publishes `map`,
-`map_metadata`, `slam_out_pose`, `poseupdate`, and on tf the pose and the odometry's frame. Unlike the original it sends
-no transform from map to odom when it cannot look the odometry up (that one then takes it for zero), and on
-`poseupdate` there is a covariance and not its inverse.
+It subscribes to `scan`, and reads the laser's pose on the robot from `tf`; it needs no odometry. It publishes `map`,
+`map_metadata`, `slam_out_pose`, `poseupdate`, and on tf the pose and the odometry frame. Unlike the original it sends
+no transform from map to odom if it cannot look up the odometry (the original then uses zero), and `poseupdate`
+contains the covariance instead of its inverse.
 """
 
 from __future__ import annotations
@@ -33,15 +33,15 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 PATIENCE = 0.5
-"""So long a scan waits for a transform [s]."""
+"""Maximum time that a scan waits for a transform [s]."""
 BACK_NS = 1_000_000_000
-"""A scan that is older than the one before by more comes from another run: a bag that loops, a clock set back."""
+"""A scan that is older than its predecessor by more than this is from another run: a bag in a loop, a clock reset."""
 PLACES = (0, 1, 5)
-"""Where x, y and the heading stand in a covariance of six by six."""
+"""Indices of x, y and heading in a six by six covariance."""
 
 
 class HectorMapping:
-    """Mapping and localisation without odometry, as a node of a graph."""
+    """Mapping and localisation without odometry, as a node."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -54,13 +54,13 @@ class HectorMapping:
             )
         self.paused = False
         self._start: Pose | None = None
-        """Where somebody says that the robot is, until the next scan."""
+        """The pose given by a user, until the next scan."""
         self._correction: Rigid | None = None
-        """The odometry's frame in the map."""
+        """The pose of the odometry frame in the map."""
         self._last_stamp_ns = 0
         self._map: Any = None
         self._mapped: int | None = None
-        """How often the maps had changed when that was made."""
+        """The number of map updates when the message was created."""
         self.buffer = Buffer(node)
         self.listener = TransformListener(node, self.buffer)
         self.broadcaster = TransformBroadcaster(node)
@@ -136,7 +136,7 @@ class HectorMapping:
             self._reset()
 
     def _ends(self, message: Any) -> tuple[NDArray[np.float64], tuple[float, float]]:
-        """Where the beams of a scan ended, and where the laser was, in the robot's frame."""
+        """Return the beam ends of a scan and the laser's position, in the robot's frame."""
         p, frame = self.parameters, message.header.frame_id.lstrip("/")
         ranges = np.asarray(message.ranges, dtype=np.float64)
         numbers = (message.angle_min, message.angle_increment, message.range_min, message.range_max)
@@ -171,10 +171,10 @@ class HectorMapping:
         return transform_of(self.buffer.lookup_transform(target, source, stamp, PATIENCE))
 
     def _guess(self, stamp: Time) -> Pose | None:
-        """Where to begin the search; None: where the robot was.
+        """Return the start of the search, or None to start at the last pose.
 
-        What tf has is the odometry on top of what this node said last. The original asks for all of it at the scan's
-        time, which nobody has said yet if this node is the one that says it; then it begins where the robot was.
+        The estimate from tf is the odometry added to this node's last result. The original looks up the full transform
+        at the scan's time, which does not exist yet if this node publishes it, and then starts at the last pose.
         """
         p, start = self.parameters, self._start
         if start is not None:
@@ -244,7 +244,7 @@ class HectorMapping:
             self.broadcaster.send_rigid(p.map_frame, p.tf_map_scanmatch_transform_frame_name, placed, stamp)
 
     def _covariance(self) -> NDArray[np.float64]:
-        """(6, 6); zeros where the first scan says where the map begins, or somebody said where the robot is."""
+        """Return the covariance (6, 6); zeros before the first match, and if a user gave the pose."""
         found = np.zeros((6, 6))
         if self.slam.matched is not None:
             found[np.ix_(PLACES, PLACES)] = np.clip(
@@ -262,7 +262,7 @@ class HectorMapping:
         self._maps.publish(self._map)
 
     def _publish_cloud(self, header: Any, ends: NDArray[np.float64]) -> None:
-        """The ends (n, 2), in the laser's frame."""
+        """Publish the beam ends (n, 2), in the laser's frame."""
         point = message_class("geometry_msgs/Point32")
         cloud = message_class("sensor_msgs/PointCloud")(header=header)
         cloud.points = [point(x=x, y=y) for x, y in ends.tolist()]

@@ -15,7 +15,7 @@ class HectorMappingParameters(Parameters):
     """The private parameters."""
 
     allowed = ("pub_drawings", "pub_debug_output", "static_laser_frame_ids")
-    """What real files carry: pictures and numbers for the makers of the original, and a cache of its own for tf."""
+    """Names in files for real robots: debugging output of the original, and its own cache of transforms."""
 
     base_frame: str = parameter("base_link", "the robot's frame, level with the ground")
     map_frame: str = parameter("map", "the map's frame")
@@ -59,11 +59,11 @@ class HectorMappingParameters(Parameters):
     pose_update_topic: str = parameter("poseupdate", "where the pose goes, with its covariance")
 
     def settings(self) -> Settings:
-        """What the mapper takes."""
+        """Return the mapper's settings."""
         return Settings(**{one.name: getattr(self, one.name) for one in fields(Settings)})
 
     def limits(self) -> Limits:
-        """Which ends it takes."""
+        """Return the limits of the beam ends that are used."""
         return Limits(
             self.laser_min_dist, self.laser_max_dist, self.laser_z_min_value, self.laser_z_max_value
         )

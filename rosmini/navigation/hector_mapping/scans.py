@@ -1,4 +1,4 @@
-"""Where the beams of a scan ended, as points that the matcher takes."""
+"""The beam ends of a scan, as points for the matcher."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from rosmini.core.tf.rigid import Rigid, transform_points
 Floats = NDArray[np.float64]
 
 FARTHEST = 30.0
-"""Ranges from here on are not looked at [m]."""
+"""Ranges of at least this length are ignored [m]."""
 BEHIND2 = 0.5
-"""Behind the laser, ends that are nearer than the root of this [m] are taken for the robot itself."""
+"""Squared distance [m2] below which beam ends behind the laser are taken for the robot itself."""
 MARGIN = 0.1
-"""Without tf, ranges this near to the longest that the laser measures are left out [m]."""
+"""Without tf, ranges within this distance of the laser's maximum are ignored [m]."""
 
 
 class Limits(NamedTuple):
-    """What is looked at: distances from the laser, and heights above it [m]."""
+    """Limits of the beam ends that are used: distances from the laser, and heights above it [m]."""
 
     nearest: float = 0.4
     farthest: float = 30.0
@@ -31,14 +31,14 @@ class Limits(NamedTuple):
 def scan_ends(
     ranges: Floats, bearings: Floats, measurable: tuple[float, float], mount: Rigid, limits: Limits
 ) -> Floats:
-    """The ends (n, 2) [m] of beams, in the frame in which `mount` places the laser, seen from above.
+    """Return the beam ends (n, 2) [m], in the frame in which `mount` places the laser, seen from above.
 
     Args:
-        ranges: the beams' lengths (b,) [m]; what is not a number in the measurable span is left out.
-        bearings: their directions (b,) [rad].
+        ranges: lengths of the beams (b,) [m]; values outside the measurable interval are ignored.
+        bearings: directions of the beams (b,) [rad].
         measurable: the laser's range_min and range_max [m].
-        mount: the laser's transform; a laser that is tilted has ends of various heights.
-        limits: distances and heights that are looked at.
+        mount: the laser's transform; if the laser is tilted, the ends have different heights.
+        limits: distances and heights of the ends that are used.
 
     """
     kept = (ranges >= measurable[0]) & (ranges < min(measurable[1], FARTHEST))
@@ -53,7 +53,7 @@ def scan_ends(
 
 
 def plain_ends(ranges: Floats, bearings: Floats, measurable: tuple[float, float]) -> Floats:
-    """The ends (n, 2) [m] in the frame of the laser itself, for a robot that is its laser."""
+    """Return the beam ends (n, 2) [m] in the laser's frame, for a robot whose frame is that of the laser."""
     kept = (ranges > measurable[0]) & (ranges < measurable[1] - MARGIN)
     lengths, turned = ranges[kept], bearings[kept]
     return np.column_stack([lengths * np.cos(turned), lengths * np.sin(turned)])

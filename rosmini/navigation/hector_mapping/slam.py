@@ -1,4 +1,4 @@
-"""Maps of several scales, and when they change: hector_mapping without a graph."""
+"""Maps on several scales and their updates: hector_mapping without a graph."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from .matching import Matched, match
 Floats = NDArray[np.float64]
 
 FINE, COARSE = 5, 3
-"""Iterations on the finest map, and on each of the others."""
+"""Numbers of iterations on the finest map, and on each of the others."""
 START: Pose = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class Settings:
-    """The parameters, by their names at http://wiki.ros.org/hector_mapping#Parameters."""
+    """The parameters, named as in http://wiki.ros.org/hector_mapping#Parameters."""
 
     map_resolution: float = 0.025
     map_size: int = 1024
@@ -37,9 +37,9 @@ class Settings:
 
 
 class HectorSlam:
-    """Maps (the finest first), and the robot's pose on them.
+    """Maps, the finest first, and the robot's pose on them.
 
-    Raises `RosminiError` for parameters that make no map.
+    Raises `RosminiError` for parameters that give no valid map.
     """
 
     def __init__(self, settings: Settings) -> None:
@@ -57,7 +57,7 @@ class HectorSlam:
         self.reset()
 
     def reset(self) -> None:
-        """Forget the maps, and be at their origin."""
+        """Clear the maps, and reset the pose to their origin."""
         s = self.settings
         side = s.map_size * s.map_resolution
         corner = (-s.map_start_x * side, -s.map_start_y * side)
@@ -73,7 +73,7 @@ class HectorSlam:
         ]
         self.pose = START
         self.matched: Matched | None = None
-        """On the finest map; None before there is a map to match with."""
+        """The result on the finest map; None before there is a map to match."""
         self.updates = 0
         self._last_update: Pose | None = None
 
@@ -85,13 +85,13 @@ class HectorSlam:
         guess: Pose | None = None,
         matching: bool = True,
     ) -> Pose:
-        """Take in a scan: where its beams ended (b, 2) [m] in the robot's frame. Returns the robot's pose.
+        """Process the beam ends of a scan (b, 2) [m] in the robot's frame; return the robot's pose.
 
         Args:
-            points: the ends.
-            laser: where the laser is in that frame [m].
-            guess: where the search begins; at the last pose by default.
-            matching: False takes the guess as it is, and changes the maps with every scan.
+            points: the beam ends.
+            laser: the laser's position in the robot's frame [m].
+            guess: the start of the search; the last pose by default.
+            matching: False uses the guess as the pose, and updates the maps with every scan.
 
         """
         pose = self.pose if guess is None else guess

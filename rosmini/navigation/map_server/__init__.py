@@ -1,1 +1,1 @@
-"""The nodes that publish maps from files and write them (http://wiki.ros.org/map_server)."""
+"""The nodes that publish maps from files and save them (http://wiki.ros.org/map_server)."""

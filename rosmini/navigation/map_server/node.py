@@ -1,11 +1,11 @@
-"""`map_server/map_server`: a map of a file, for who asks and for who listens (http://wiki.ros.org/map_server).
+"""`map_server/map_server`: publishes a map from a file (http://wiki.ros.org/map_server).
 
     rosrun map_server map_server house.yaml
     rosrun map_server map_server house.pgm 0.05
 
-The second form is deprecated in ROS, too. The map is latched on `map`, its numbers on `map_metadata`; `static_map`
-returns it, and `change_map` reads another. Facts: map_server's main.cpp of https://github.com/ros-planning/navigation.
-What differs: `change_map` says by its result what was wrong; there it is always 255. As there, its answer has no map.
+The second form is also deprecated in ROS. The map is latched on `map`, its metadata on `map_metadata`; `static_map`
+returns the map, and `change_map` loads another. Facts: main.cpp of https://github.com/ros-planning/navigation.
+Unlike there, the result of `change_map` tells errors apart (there it is 255). As there, its response has no map.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ DEPRECATED USAGE: map_server <map> <resolution>
 
 @dataclass(frozen=True)
 class MapServerParameters(Parameters):
-    """The private parameters of `map_server/map_server`; all but the first are for the deprecated form alone."""
+    """The private parameters of `map_server/map_server`; all but the first apply only to the deprecated form."""
 
     frame_id: str = parameter("map", "the frame of the published map")
     negate: int = parameter(0, "1: white is occupied and black is free")
@@ -43,16 +43,16 @@ class MapServerParameters(Parameters):
 
 
 class MapServer:
-    """Serves a map, as a node of a graph.
+    """Publishes a map and offers its services.
 
     Args:
         node: the started node.
-        arguments: a YAML file; or an image and the side of its pixels [m].
+        arguments: a YAML file; or an image and the size of its pixels [m].
 
     Raises:
-        UsageError: other arguments.
+        UsageError: the arguments are invalid.
         MapError: the map cannot be read.
-        ParameterError: a parameter has a wrong type, or a value out of range.
+        ParameterError: a parameter has a wrong type or is out of range.
 
     """
 
@@ -95,7 +95,7 @@ class MapServer:
         return image_file(image, side, negate=own.negate, **thresholds)
 
     def _start(self) -> None:
-        """Publish the map and answer services, once there is a time: who asks before gets no empty map, but waits."""
+        """Publish the map and offer the services once the clock has started, so that no client gets an empty map."""
         clock = self.node.clock
         if isinstance(clock, TopicClock) and clock.now_ns() == 0:
             clock.call_at(1, self._start)
@@ -127,7 +127,7 @@ class MapServer:
 
 
 def _path_of(address: str) -> str:
-    """The path that is meant: itself, or where an address `package://...` or `file://...` leads."""
+    """Return the path itself, or the path that an address `package://...` or `file://...` refers to."""
     if address.startswith("file://"):
         return path_of(address)
     if not address.startswith("package://"):
@@ -139,7 +139,7 @@ def _path_of(address: str) -> str:
 
 
 def _words_of(error: MapError, path: str) -> str:
-    """What map_server says of it, for who searches for these words, and then what we know."""
+    """Return map_server's message, so that a search for it succeeds, followed by our explanation."""
     said = str(error)
     if isinstance(error, MapMissing):
         return f"Map_server could not open {path}. {said[:1].upper()}{said[1:]}"

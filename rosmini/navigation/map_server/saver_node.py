@@ -1,9 +1,9 @@
-"""`map_server/map_saver`: a map of a topic, into files (http://wiki.ros.org/map_server#map_saver).
+"""`map_server/map_saver`: saves a map from a topic to files (http://wiki.ros.org/map_server#map_saver).
 
     rosrun map_server map_saver -f house map:=/some/map
 
 It waits for one map, writes `house.pgm` and `house.yaml`, and ends. Facts: map_saver.cpp of
-https://github.com/ros-planning/navigation. What differs: if a file cannot be written the node says so and ends, too.
+https://github.com/ros-planning/navigation. Unlike there, the node logs an error and ends if a file cannot be written.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ USAGE = """Usage:
 
 @dataclass(frozen=True)
 class SaverOptions:
-    """What a command line asks for."""
+    """The options of a command line."""
 
     name: str = "map"
     occupied: int = OCCUPIED_FROM
@@ -36,7 +36,7 @@ class SaverOptions:
 
     @classmethod
     def of(cls, arguments: tuple[str, ...]) -> SaverOptions:
-        """Those of a command line. Raises `UsageError`."""
+        """Parse a command line. Raises `UsageError`."""
         found: dict[str, Any] = {}
         words = iter(arguments)
         for word in words:
@@ -65,14 +65,14 @@ def _percent(name: str, value: str) -> int:
 
 
 class MapSaver:
-    """Saves one map, as a node of a graph, which is then shut down.
+    """Saves one map, and then shuts its node down.
 
     Args:
         node: the started node.
         arguments: as on the command line.
 
     Raises:
-        UsageError: other arguments, or thresholds that make no sense.
+        UsageError: the arguments or thresholds are invalid.
 
     """
 
@@ -80,7 +80,7 @@ class MapSaver:
         self.node = node
         self.exit_status = 0
         self.paths: tuple[Path, ...] = ()
-        """What was written."""
+        """The files that were written."""
         self._ended = False
         if "-h" in arguments:
             print(USAGE)

@@ -1,1 +1,1 @@
-"""Clears costmaps around a stuck robot and lets it drive on slowly (http://wiki.ros.org/move_slow_and_clear)."""
+"""Clears costmaps around a stuck robot and limits its speed (http://wiki.ros.org/move_slow_and_clear)."""

@@ -1,10 +1,10 @@
 """`move_slow_and_clear/MoveSlowAndClear` (http://wiki.ros.org/move_slow_and_clear).
 
-It clears a square around the robot in the obstacle layers, and limits the local planner's speeds by its
-dynamic_reconfigure until the robot has driven `limited_distance`.
+It clears a square around the robot in the obstacle layers, and limits the local planner's speeds through its
+dynamic_reconfigure server until the robot has driven `limited_distance`.
 
-The original takes layers with "obstacles" in their names, so with ROBOTIS's files, whose layer is obstacle_layer, it
-clears nothing; this one takes those whose names begin with "obstacle" or "voxel".
+The original clears layers with "obstacles" in their names, and so none with ROBOTIS's files, whose layer is
+obstacle_layer; this one clears layers whose names begin with "obstacle" or "voxel".
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from rosmini.core.graph.clock import Timer
 
 CHECK_PERIOD = 0.1
-"""How often it looks how far the robot has driven [s]."""
+"""Interval between checks of the distance driven [s]."""
 
 CLEARED = ("obstacle", "voxel")
-"""What the names of the layers begin with that it clears."""
+"""Prefixes of the names of the layers that it clears."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class MoveSlowAndClearParameters(Parameters):
 
 
 class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAndClear"):
-    """Clear what is near, and get on with care."""
+    """Clears the costmaps near the robot, and limits the robot's speed."""
 
     def initialize(self, name: str, buffer: Any, global_costmap: Any, local_costmap: Any) -> None:
         """Read the parameters in `~name/`."""
@@ -62,11 +62,11 @@ class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAnd
         self._timer: Timer | None = None
 
     def costmaps(self) -> list[Any]:
-        """Both."""
+        """Return both costmaps."""
         return [self.global_costmap, self.local_costmap]
 
     def run_behavior(self) -> None:
-        """Clear the square, and limit the speeds until the robot has left where it is now."""
+        """Clear the square, and limit the speeds until the robot has moved away from here."""
         self.node.logwarn("Move slow and clear recovery behavior started.")
         try:
             for costmap in self.costmaps():
@@ -97,7 +97,7 @@ class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAnd
                 layer.clear_area(x0, y0, x1, y1, True)
 
     def _limits(self) -> tuple[float, float] | None:
-        """The planner's own limits [m/s, rad/s]; None, and an error in the log, if it has no such parameters."""
+        """Return the planner's limits [m/s, rad/s]; log an error and return None if it lacks these parameters."""
         own = self.parameters
         names = [self._planner + each for each in (own.max_trans_param_name, own.max_rot_param_name)]
         for name in names:

@@ -1,1 +1,1 @@
-"""multirobot_map_merge: one map of the maps of several robots (http://wiki.ros.org/multirobot_map_merge)."""
+"""multirobot_map_merge: merges the maps of several robots (http://wiki.ros.org/multirobot_map_merge)."""

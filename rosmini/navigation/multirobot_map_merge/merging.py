@@ -1,7 +1,7 @@
-"""One map of several: each is laid where its robot began, and of what lies over one another the most occupied stays.
+"""Merging maps: each is placed at its robot's start pose, and where they overlap the highest occupancy is kept.
 
-Maps that differ in resolution or are turned are resampled: each cell of the result takes the cell in which its middle
-lies, so that no holes come about (http://wiki.ros.org/multirobot_map_merge).
+Maps with another resolution or rotation are resampled: each cell of the result takes the value of the cell that
+contains its centre, so that no holes appear (http://wiki.ros.org/multirobot_map_merge).
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from rosmini.core.maps import GridMap
 from rosmini.core.maps.grid_map import UNKNOWN, MapError
 
 MOST_CELLS = 100_000_000
-"""A merged map that is larger was laid out with wrong poses."""
+"""Maximum number of cells of a merged map; more indicate wrong poses."""
 
 
 def merge(maps: Sequence[tuple[GridMap, Pose]]) -> GridMap:
-    """Return one map of several, in cells of the first.
+    """Merge several maps into one with the cell size of the first.
 
     Args:
-        maps: each with the pose (x [m], y [m], yaw [rad]) of its frame in the frame of the result.
+        maps: maps with the poses (x [m], y [m], yaw [rad]) of their frames in the frame of the result.
 
     Raises:
-        MapError: there is no map, or they are so far apart that the result would have over `MOST_CELLS` cells.
+        MapError: there is no map, or the maps are so far apart that the result would exceed `MOST_CELLS` cells.
 
     """
     if not maps:
@@ -47,7 +47,7 @@ def merge(maps: Sequence[tuple[GridMap, Pose]]) -> GridMap:
 
 
 def _corners(grid: GridMap, origin: Pose) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """The four corners (4, 2) [m] of a map whose lower left one, and its heading, are `origin`."""
+    """Return the four corners (4, 2) [m] of a map whose lower left corner and heading are `origin`."""
     height, width = grid.occupancy.shape
     reach = [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)]
     return np.array([compose(origin, (x * grid.resolution, y * grid.resolution, 0.0))[:2] for x, y in reach])
@@ -61,7 +61,7 @@ def _lay(
     left: int,
     low: int,
 ) -> None:
-    """Lay a map over `cells` (h, w) of `side` [m], whose lower left one has the number (`left`, `low`)."""
+    """Add a map to `cells` (h, w) of size `side` [m], whose lower left one has the index (`left`, `low`)."""
     corners = _corners(grid, origin) / side
     columns = slice(*_span(corners[:, 0], left, cells.shape[1]))
     rows = slice(*_span(corners[:, 1], low, cells.shape[0]))
@@ -78,6 +78,6 @@ def _lay(
 
 
 def _span(edges: np.ndarray[tuple[int], np.dtype[np.float64]], first: int, count: int) -> tuple[int, int]:
-    """The indices that edges in numbers of cells span, within a row of `count` cells that begins at `first`."""
+    """Return the index range that edges [cells] span, within a row of `count` cells that begins at `first`."""
     begin, end = math.floor(float(edges.min())) - first, math.ceil(float(edges.max())) - first
     return max(begin, 0), min(end, count)

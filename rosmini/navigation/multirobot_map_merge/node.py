@@ -1,8 +1,8 @@
-"""`multirobot_map_merge/map_merge`: the maps of several robots as one (http://wiki.ros.org/multirobot_map_merge).
+"""`multirobot_map_merge/map_merge`: merges the maps of several robots (http://wiki.ros.org/multirobot_map_merge).
 
-Robots are found by their maps: each topic of an OccupancyGrid that ends with `~robot_map_topic` and has
-`~robot_namespace` in its name belongs to the robot in whose namespace it is. Where the robot's map lies in the merged
-one is told by four parameters in the robot's namespace, `map_merge/init_pose_x`, `_y`, `_z` and `_yaw`.
+Robots are found by their maps: each OccupancyGrid topic that ends with `~robot_map_topic` and contains
+`~robot_namespace` in its name belongs to the robot with its namespace. The pose of a robot's map in the merged map is
+set by four parameters in the robot's namespace, `map_merge/init_pose_x`, `_y`, `_z` and `_yaw`.
 """
 
 from __future__ import annotations
@@ -47,19 +47,19 @@ class MapMergeParameters(Parameters):
 
 @dataclass
 class _Robot:
-    """A robot that was found."""
+    """A discovered robot."""
 
     pose: Pose
-    """Of its map's frame in the merged map's."""
+    """The pose of its map's frame in the merged map's frame."""
     grid: GridMap | None = None
-    """Its newest map."""
+    """Its latest map."""
 
 
 class MapMerge:
-    """Merge the maps of robots whose start poses are known.
+    """Merges the maps of robots with known start poses.
 
     Raises:
-        ParameterError: poses are to be estimated, which is not done here, or a parameter is wrong.
+        ParameterError: a parameter is wrong, or asks for pose estimation, which is not supported.
 
     """
 
@@ -82,7 +82,7 @@ class MapMerge:
     # -- robots --------------------------------------------------------------------------------------------------
 
     def discover(self) -> None:
-        """Look for maps of robots that are not known yet."""
+        """Look for maps of new robots."""
         own = self.parameters
         _, _, published = self.node.master.insist("getPublishedTopics", "", warn=self.node.logwarn)
         for topic, kind in sorted(map(tuple, published)):
@@ -112,7 +112,7 @@ class MapMerge:
         self.node.subscriber(updates, kind, lambda update: self._change(robot, update), queue_size=10)
 
     def _pose(self, name: str) -> Pose | None:
-        """Where a robot began: the pose of its map's frame; None if one of its four parameters is missing."""
+        """Return a robot's start pose, which is that of its map's frame; None if one of the parameters is missing."""
         found = [
             self.node.get_param(join(name, f"map_merge/init_pose_{each}"), None)
             for each in ("x", "y", "z", "yaw")
@@ -131,7 +131,7 @@ class MapMerge:
             self.node.logwarn(f"a map of {name} is left out: {error}", throttle=10.0)
 
     def _change(self, robot: _Robot, update: Any) -> None:
-        """Take a rectangle of new cells."""
+        """Update a rectangle of cells."""
         if robot.grid is None:
             return
         cells = robot.grid.occupancy.copy()
@@ -143,7 +143,7 @@ class MapMerge:
         robot.grid = GridMap(cells, robot.grid.resolution, robot.grid.origin)
 
     def merge(self) -> None:
-        """Publish the merged map, if there is a map at all."""
+        """Publish the merged map if there is at least one map."""
         maps = [(robot.grid, robot.pose) for robot in self.robots.values() if robot.grid is not None]
         if not maps:
             return

@@ -1,6 +1,6 @@
-"""What the parts of the Navigation Stack have in common (http://wiki.ros.org/nav_core).
+"""The parts shared by the Navigation Stack (http://wiki.ros.org/nav_core).
 
-Three interfaces, whose plugins `move_base` finds by their ROS names, and the failures with which they say why not.
+These are three interfaces, whose plugins `move_base` finds by their ROS names, and the failures that plugins raise.
 """
 
 from __future__ import annotations

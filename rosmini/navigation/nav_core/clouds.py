@@ -1,4 +1,4 @@
-"""Clouds of points of planners and costmaps."""
+"""Point clouds of planners and costmaps."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rosmini.msgs import message_class
 
 
 def point_cloud(frame_id: str, stamp: Time, names: Sequence[str], rows: ArrayLike) -> Any:
-    """A `sensor_msgs/PointCloud2` of 32-bit floats: a point a row (n, k), whose fields are called `names` (k)."""
+    """Return a `sensor_msgs/PointCloud2` of 32-bit floats: one point per row (n, k), with the fields `names` (k)."""
     points = np.asarray(rows, dtype="<f4").reshape(-1, len(names))
     message, field = message_class("sensor_msgs/PointCloud2")(), message_class("sensor_msgs/PointField")
     message.header.frame_id, message.header.stamp = frame_id, stamp

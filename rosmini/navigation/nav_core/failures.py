@@ -1,7 +1,7 @@
-"""Why there is no plan and no command: one class for each cause, each with the numbers that explain it.
+"""Failures to plan or to find a command: one class for each cause, with numbers that explain it.
 
-In ROS a planner returns false, and the reason is a line in a log. Here it raises one of these; what `move_base` says,
-publishes and does then is as there.
+In ROS a planner returns false, and only the log contains the reason. Here a planner raises one of these exceptions; the
+messages, topics and actions of `move_base` in that case are those of ROS.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from rosmini.core.errors import RosminiError
 
 
 class NavigationFailure(RosminiError):
-    """The base of all of them. What the keywords name is kept as `numbers`, for tables and pictures."""
+    """The base of all failures. Keyword arguments are stored in `numbers`, for tables and pictures."""
 
     def __init__(self, message: str, **numbers: Any) -> None:
         super().__init__(message)
@@ -20,35 +20,35 @@ class NavigationFailure(RosminiError):
 
 
 class TransformMissing(NavigationFailure):
-    """Where the robot is, or a pose in another frame, is not known: the transform is missing or too old."""
+    """The robot's pose, or a pose in another frame, is unknown: the transform is missing or too old."""
 
 
 class BadGoal(NavigationFailure):
-    """A goal is no pose: its quaternion is not a rotation about the z axis, or a number of it is not finite."""
+    """A goal is invalid: its quaternion is not a rotation about the z axis, or one of its numbers is not finite."""
 
 
 class PlanningFailure(NavigationFailure):
-    """A global planner finds no plan."""
+    """A global planner cannot find a plan."""
 
 
 class OutsideMap(PlanningFailure):
-    """The start or the goal lies outside the costmap."""
+    """The start or the goal is outside the costmap."""
 
 
 class StartBlocked(PlanningFailure):
-    """The robot stands in a cell that no plan may leave."""
+    """The robot is in a cell that no plan may leave."""
 
 
 class GoalBlocked(PlanningFailure):
-    """The goal, and all within the tolerance around it, is in cells that no plan may enter."""
+    """The goal and all cells within the tolerance may not be entered by a plan."""
 
 
 class NoPath(PlanningFailure):
-    """Start and goal are free, and nothing free joins them."""
+    """Start and goal are free, but no free cells connect them."""
 
 
 class ControlFailure(NavigationFailure):
-    """A local planner finds no command."""
+    """A local planner cannot find a command."""
 
 
 class NoValidCommand(ControlFailure):

@@ -1,12 +1,12 @@
 """The interfaces of global planners, local planners and recovery behaviours (http://wiki.ros.org/nav_core).
 
-A planner of one's own is a class with a name, and `base_global_planner` names it:
+To write a planner, derive a class with a plugin name, and set `base_global_planner` to that name:
 
     class Straight(BaseGlobalPlanner, plugin="my_pkg/Straight"):
         def make_plan(self, start, goal):
             return [start, goal]
 
-Whatever blocks in a plugin (`rospy.sleep`, a service) parks only its own lane, as everywhere in a graph.
+A plugin that blocks (in `rospy.sleep` or a service call) blocks only its own lane, as everywhere in a graph.
 """
 
 from __future__ import annotations
@@ -23,52 +23,52 @@ if TYPE_CHECKING:
 
 
 class BaseGlobalPlanner(Plugin, ABC):
-    """Plans a path through a whole costmap."""
+    """Plans a path through the whole costmap."""
 
     name: str
-    """What `move_base` calls it: the namespace of its topics, services and parameters, `~name/`."""
+    """The planner's name in `move_base`: the namespace of its topics, services and parameters is `~name/`."""
     costmap: Costmap2DROS
-    """The global costmap; `costmap.node` is the node, `costmap.grid` the costs."""
+    """The global costmap; `costmap.node` is the node, `costmap.grid` contains the costs."""
 
     def initialize(self, name: str, costmap: Costmap2DROS) -> None:
-        """Learn the name and the costmap: called once, before everything else. Read parameters, advertise topics."""
+        """Set up the planner: read parameters, advertise topics. Called once, before all other methods."""
         self.name, self.costmap = name, costmap
 
     @abstractmethod
     def make_plan(self, start: Any, goal: Any) -> Sequence[Any]:
-        """Poses (`geometry_msgs/PoseStamped`, in the costmap's global frame) from `start` to `goal`, of that type too.
+        """Return poses (`PoseStamped` in the costmap's global frame) from `start` to `goal`, which have the same type.
 
-        Raises a `PlanningFailure` that says why there is no plan.
+        Raises a `PlanningFailure` with the reason if there is no plan.
         """
 
 
 class BaseLocalPlanner(Plugin, ABC):
-    """Follows a plan: from one cycle of control to the next it says how fast to drive."""
+    """Follows a plan: computes the velocity for each control cycle."""
 
     name: str
     buffer: Buffer
-    """The transforms."""
+    """The transform buffer."""
     costmap: Costmap2DROS
     """The local costmap."""
 
     def initialize(self, name: str, buffer: Buffer, costmap: Costmap2DROS) -> None:
-        """Learn the name, the transforms and the costmap: called once, before everything else."""
+        """Set up the planner. Called once, before all other methods."""
         self.name, self.buffer, self.costmap = name, buffer, costmap
 
     @abstractmethod
     def set_plan(self, plan: Sequence[Any]) -> None:
-        """Follow this plan (`geometry_msgs/PoseStamped`, in any one frame) from now on, and forget what was latched."""
+        """Follow this plan (`geometry_msgs/PoseStamped`, all in one frame) from now on, and reset latched state."""
 
     @abstractmethod
     def compute_velocity_commands(self) -> Any:
-        """The command (`geometry_msgs/Twist`, in the robot's base frame) for the next cycle.
+        """Return the command (`geometry_msgs/Twist`, in the robot's base frame) for the next cycle.
 
-        Raises a `ControlFailure` that says why there is none, or `TransformMissing`.
+        Raises a `ControlFailure` with the reason if there is none, or `TransformMissing`.
         """
 
     @abstractmethod
     def is_goal_reached(self) -> bool:
-        """Whether the robot has reached the end of the plan, and stands."""
+        """Return True if the robot has reached the end of the plan and stands still."""
 
 
 class RecoveryBehavior(Plugin, ABC):
@@ -82,14 +82,14 @@ class RecoveryBehavior(Plugin, ABC):
     def initialize(
         self, name: str, buffer: Buffer, global_costmap: Costmap2DROS, local_costmap: Costmap2DROS
     ) -> None:
-        """Learn the name, the transforms and the costmaps: called once, before everything else."""
+        """Set up the behaviour. Called once, before all other methods."""
         self.name, self.buffer = name, buffer
         self.global_costmap, self.local_costmap = global_costmap, local_costmap
 
     def costmaps(self) -> list[Costmap2DROS]:
-        """The costmaps in which it clears something; none by default."""
+        """Return the costmaps that it clears; none by default."""
         return []
 
     @abstractmethod
     def run_behavior(self) -> None:
-        """Do it. It may take its time: the caller's lane waits."""
+        """Run the behaviour. It may block: only the caller's lane waits."""

@@ -1,4 +1,4 @@
-"""Plugins of packages, found by their plugin XML, as pluginlib finds them (http://wiki.ros.org/pluginlib).
+"""Plugins of workspace packages, found through their plugin XML as in pluginlib (http://wiki.ros.org/pluginlib).
 
 A package in a workspace names the file in its manifest:
 
@@ -6,14 +6,14 @@ A package in a workspace names the file in its manifest:
       <nav_core plugin="${prefix}/planner_plugin.xml"/>
     </export>
 
-and the file names the classes. Where there is the path of a library in C++, here there is a Python module of the
+and the file names the classes. Instead of the path of a C++ library it contains the name of a Python module of the
 package (in its folder `src/`, or beside its manifest):
 
     <library path="my_pkg.planner">
       <class name="my_pkg/MyPlanner" type="MyPlanner" base_class_type="nav_core::BaseGlobalPlanner"/>
     </library>
 
-The module is loaded afresh each time that somebody asks for one of its plugins, so that what was edited takes effect.
+The module is reloaded each time one of its plugins is created, so that edits take effect.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ EXPORT = "nav_core"
 
 
 class Declared(NamedTuple):
-    """A class that a plugin XML names."""
+    """A class declared in a plugin XML file."""
 
     name: str
     module: str
@@ -47,16 +47,16 @@ class Declared(NamedTuple):
 
     @property
     def is_compiled(self) -> bool:
-        """Whether the library is one in C++ (`lib/libmy_planner`)."""
+        """True if the library is a C++ library (`lib/libmy_planner`)."""
         return "/" in self.module or self.module.endswith(".so")
 
 
 def create(interface: type[T], name: str) -> T:
-    """A new object of the plugin with this name: of one that is registered, or else of one in a plugin XML.
+    """Create a plugin by name: one declared in a plugin XML file, or else a registered one.
 
-    A description of a library in C++ is passed over for a plugin of the same name that is registered: the sources of
-    the Navigation Stack may lie in the workspace. Raises `PluginError`, with similar names and the packages that cannot
-    be read, if there is none, and for one that cannot be loaded.
+    A C++ library is ignored if a plugin of the same name is registered, because the sources of the Navigation Stack
+    may be in the workspace. Raises `PluginError`, with similar names and the unreadable packages, for an unknown
+    plugin, and for one that cannot be loaded.
     """
     found = _found(interface, name)
     try:
@@ -85,7 +85,7 @@ def _found(interface: type[T], name: str) -> type[T]:
 
 
 def short_name(name: str) -> str:
-    """What is left of a plugin's name without its package: the namespace of its parameters.
+    """Return a plugin's name without its package, which is the namespace of its parameters.
 
     >>> short_name("dwa_local_planner/DWAPlannerROS"), short_name("my_pkg::MyPlanner")
     ('DWAPlannerROS', 'MyPlanner')
@@ -94,9 +94,9 @@ def short_name(name: str) -> str:
 
 
 def declared_plugins(name: str, unread: list[str]) -> Iterator[Declared]:
-    """What the packages of a workspace declare: first the one that the name begins with, then all others.
+    """Yield the plugins that workspace packages declare: first the package that the name begins with, then all others.
 
-    Raises what is wrong with the first; what is wrong with another is added to `unread`.
+    Raises the errors of the first package; those of the others are added to `unread`.
     """
     index = PackageIndex()
     first = name.partition("/")[0]
@@ -111,7 +111,7 @@ def declared_plugins(name: str, unread: list[str]) -> Iterator[Declared]:
 
 
 def _is_ours(folder: Path) -> bool:
-    """Whether a package is one that rosmini brings: its plugins are registered."""
+    """True if a package is part of rosmini, whose plugins are registered."""
     from rosmini.core.packages import assets_dir
 
     return folder.is_relative_to(assets_dir())
@@ -189,7 +189,7 @@ def _module(declared: Declared) -> Any:
 
 @contextmanager
 def _importing_from(root: Path, top: str) -> Iterator[None]:
-    """Let modules be found in a folder, all of them, those of the package `top` reloaded, and ROS's by their names."""
+    """Make a folder's modules and ROS's modules importable, after unloading those of the folder and of `top`."""
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None)
         if name.partition(".")[0] == top or (file and Path(file).is_relative_to(root)):

@@ -1,4 +1,4 @@
-"""Poses in the plane, in and out of messages."""
+"""Conversion between planar poses and messages."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from rosmini.msgs import message_class
 from .failures import BadGoal
 
 LENGTH_SLACK = 0.1
-"""By so much the squared length of a quaternion may differ from 1, as `move_base` has it."""
+"""Maximum deviation of a quaternion's squared length from 1, as in `move_base`."""
 
 UPRIGHT = 1e-3
-"""So far from 1 the z axis may point after the rotation: `move_base` wants goals in the plane."""
+"""Maximum deviation of the rotated z axis from 1: `move_base` requires goals in the plane."""
 
 
 def planar_pose(pose: Any) -> Pose:
@@ -33,7 +33,7 @@ def planar_transform(message: Any) -> Pose:
 
 
 def pose_stamped(frame_id: str, stamp: Time, pose: Pose) -> Any:
-    """A `geometry_msgs/PoseStamped` on the ground, from x [m], y [m] and heading [rad]."""
+    """Return a `geometry_msgs/PoseStamped` in the plane from x [m], y [m] and heading [rad]."""
     message = message_class("geometry_msgs/PoseStamped")()
     message.header.frame_id, message.header.stamp = frame_id, stamp
     message.pose.position.x, message.pose.position.y = pose[0], pose[1]
@@ -43,10 +43,10 @@ def pose_stamped(frame_id: str, stamp: Time, pose: Pose) -> Any:
 
 
 def checked_goal(goal: Any) -> Pose:
-    """The same as `planar_pose`, of a goal (`PoseStamped`) that came from outside.
+    """Return `planar_pose` of a goal (`PoseStamped`) from another node, after checking it.
 
-    Raises `BadGoal` for numbers that are not finite, a quaternion whose length is not 1 and one that tilts the robot,
-    with the texts of `move_base`.
+    Raises `BadGoal` for numbers that are not finite, a quaternion whose length is not 1, and one that tilts the robot,
+    with the messages of `move_base`.
     """
     p, q = goal.pose.position, goal.pose.orientation
     if not all(map(math.isfinite, (q.x, q.y, q.z, q.w))):

@@ -1,4 +1,4 @@
-"""navfn: a potential over the costmap, and the path down its gradient (http://wiki.ros.org/navfn)."""
+"""navfn: a potential over the costmap, and a path that descends its gradient (http://wiki.ros.org/navfn)."""
 
 from __future__ import annotations
 

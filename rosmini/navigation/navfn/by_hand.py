@@ -1,4 +1,4 @@
-"""A search that somebody made by hand, to be looked at, and stepped, as those of the planners are."""
+"""A search written by the reader, displayed and stepped like those of the planners."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from .wave import HIGH
 Cell = tuple[int, int]
 
 GREY = 30
-"""What a price of one more adds to the cost that a cell is drawn with."""
+"""Increase of the displayed cost for each unit of price above 1."""
 DARKEST = 252
 
 
 class HandSearch(Search):
-    """What a search of one's own has done, cell by cell.
+    """The steps of a search written by the reader, cell by cell.
 
     Args:
-        price: what it costs to enter a cell (column, row); what is not in it is a wall.
-        start: where it began.
-        goal: where it was to end.
-        taken: the cells in the order in which they were taken up.
-        cost: what it costs to get to each cell that was reached.
-        parent: from where each of them, but the start, was reached.
+        price: the cost of entering each cell (column, row); cells that are missing are walls.
+        start: the first cell.
+        goal: the goal's cell.
+        taken: the cells in the order of their expansion.
+        cost: the path cost of each cell that was reached.
+        parent: the predecessor of each cell that was reached, except the start.
 
     Raises:
-        RosminiError: the three do not fit each other; the message names the cell.
+        RosminiError: `taken`, `cost` and `parent` contradict each other; the message names the cell.
 
     """
 
@@ -66,11 +66,11 @@ class HandSearch(Search):
 
     @property
     def expanded(self) -> int:
-        """How many cells have been taken up."""
+        """The number of cells expanded so far."""
         return self._done
 
     def path_to(self, goal: Point) -> Points:
-        """The path from parent to parent (n, 2). Raises a `PlanningFailure` if the goal was not reached."""
+        """Return the path along the parents (n, 2). Raises a `PlanningFailure` if the goal was not reached."""
         if self.potential_at(cell_of(goal)) >= HIGH:
             raise self.failure()
         points = [cell_of(goal)]

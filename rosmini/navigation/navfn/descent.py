@@ -1,13 +1,13 @@
-"""From a cell down a potential to where it began: the path, by its gradient or from cell to cell.
+"""The path from a cell down a potential to its origin, along the gradient or from cell to cell.
 
-The walk is navfn's, which global_planner's gradient path shares: half a cell at a time against the gradient, which is
-interpolated between four cells; and where one of the eight cells around was not reached, or the walk goes back,
-one cell on to the lowest of the eight (http://wiki.ros.org/navfn).
+This is navfn's algorithm, which global_planner's gradient path shares. It moves half a cell at a time against the
+gradient, interpolated between four cells. Where one of the eight neighbours was not reached, or the path returns to an
+earlier point, it moves one cell to the lowest of the eight (http://wiki.ros.org/navfn).
 
 Three defects of the originals are not copied. No step crosses a cell that was not reached, or passes between two such
-cells that touch at a corner. A walk begins in the goal's own cell, not in one beside it, which may lie beyond a wall.
-And one that goes round in a hollow of the gradient goes on from cell to cell until it is lower than before, where the
-originals stop, navfn after 4 points for each column of the map.
+cells that touch at a corner. The path starts in the goal's own cell, not in a neighbour, which may be behind a wall.
+And if it circles in a hollow of the gradient, it continues from cell to cell until it is lower than before; the
+originals stop there, navfn after 4 points for each column of the map.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from rosmini.core.geometry.machine_code import machine_code
 from .wave import HIGH
 
 PATIENCE = 16
-"""After so many points without a lower potential the walk goes from cell to cell."""
+"""Number of points without a lower potential after which the path moves from cell to cell."""
 
 FULL, STUCK = -1, -2
-"""What `descend` returns when the path has no more room, and when no cell around is lower."""
+"""Results of `descend` if `path` has no more room, and if no neighbouring cell is lower."""
 
 
 PLAIN, LAST, NONE_LOWER = range(3)
-"""Steps of the walk."""
+"""Kinds of steps."""
 
 
 def slope(before: float, here: float, after: float, width: float) -> float:
-    """The descent through three cells in a row; `width` if this cell was not reached, towards one that was."""
+    """Return the descent through three adjacent cells; if the middle one is unreached, +-`width` to a reached one."""
     if here >= HIGH:
         if before < HIGH:
             return -width
@@ -50,7 +50,7 @@ def slope(before: float, here: float, after: float, width: float) -> float:
 
 
 def lowest_around(potential: NDArray[np.float32], n: int, width: int) -> int:
-    """The lowest of a cell and the eight around it, without passing between two cells that were not reached."""
+    """Return the lowest of a cell and its eight neighbours, without passing between two unreached cells."""
     best = n
     for i in range(9):
         m = n + (i // 3 - 1) * width + i % 3 - 1
@@ -60,7 +60,7 @@ def lowest_around(potential: NDArray[np.float32], n: int, width: int) -> int:
 
 
 def walls_beside(potential: NDArray[np.float32], n: int, m: int, width: int) -> int:
-    """How many of the two cells beside a diagonal step from `n` to `m` were not reached; 0 for another step."""
+    """Return how many of the two cells beside a diagonal step from `n` to `m` are unreached; 0 for other steps."""
     row = 0
     if m - n > 1:
         row = width
@@ -73,7 +73,7 @@ def walls_beside(potential: NDArray[np.float32], n: int, m: int, width: int) -> 
 
 
 def surrounded(potential: NDArray[np.float32], n: int, width: int) -> bool:
-    """Whether a cell and the eight around it were all reached."""
+    """True if a cell and its eight neighbours were all reached."""
     highest = potential[n]
     for i in range(9):
         highest = max(highest, potential[n + (i // 3 - 1) * width + i % 3 - 1])
@@ -81,7 +81,7 @@ def surrounded(potential: NDArray[np.float32], n: int, width: int) -> bool:
 
 
 def down(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float) -> tuple[float, float]:
-    """The direction down, interpolated between the four cells from `n` on; (0, 0) where there is none."""
+    """Return the direction of descent, interpolated between four cells from `n` on; (0, 0) if there is none."""
     gx = gy = 0.0
     for corner in range(4):
         right, above = corner % 2, corner // 2
@@ -102,7 +102,7 @@ def down(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: floa
 def slide(
     potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float
 ) -> tuple[int, int, float, float]:
-    """Half a cell down from (dx, dy) off the middle of `n`: `PLAIN` and the new cell and offsets, if that leads on."""
+    """Move half a cell down from the offset (dx, dy) in `n`: return `PLAIN`, or `NONE_LOWER`, and the new position."""
     gx, gy = down(potential, n, width, dx, dy)
     to_x, to_y = dx + 0.5 * gx, dy + 0.5 * gy
     near = n + math.floor(to_x + 0.5) + math.floor(to_y + 0.5) * width
@@ -120,7 +120,7 @@ def slide(
 
 
 def hop(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float) -> tuple[int, int]:
-    """The middle of the lowest cell around; of this one first, if the way there passes a cell that was not reached."""
+    """Move to the centre of the lowest neighbour, or first of this cell if an unreached cell is beside the step."""
     centred = dx == 0 and dy == 0
     n += math.floor(dx + 0.5) + math.floor(dy + 0.5) * width
     m = lowest_around(potential, n, width)
@@ -142,14 +142,14 @@ def descend(
     """Walk from `begin` to `end`, where the potential is 0, and write the points into `path`.
 
     Args:
-        potential: of the cells, row after row; the outermost were not reached.
-        width: cells in a row.
-        begin_x: column of the first point; a whole number is the middle of a cell.
+        potential: the potential of the cells, row by row; the outermost cells must be unreached.
+        width: number of cells in a row.
+        begin_x: column of the first point; whole numbers are cell centres.
         begin_y: row of the first point.
         end_x: column of the last point.
         end_y: row of the last point.
-        gradient: whether to follow the gradient, or to go from cell to cell.
-        path: the points' columns and rows, one after another [2 n].
+        gradient: 1 to follow the gradient, 0 to move from cell to cell.
+        path: receives the points' columns and rows, interleaved [2 n].
 
     Returns:
         The number of points, `FULL` or `STUCK`.
@@ -158,7 +158,7 @@ def descend(
     n = math.floor(begin_y + 0.5) * width + math.floor(begin_x + 0.5)
     dx, dy = begin_x - n % width, begin_y - n // width
     end = math.floor(end_y + 0.5) * width + math.floor(end_x + 0.5)
-    # An end between cells may be as far as this from two of them.
+    # If the end lies between cells, two of them may be as far away as this.
     reach = 0.5 if end % width == end_x and end // width == end_y else 0.5 + 1e-6
     least, since = HIGH, 0
     kind = PLAIN
@@ -168,7 +168,7 @@ def descend(
         near = math.floor(y + 0.5) * width + math.floor(x + 0.5)
         close = abs(x - end_x) < reach and abs(y - end_y) < reach
         if kind == LAST or (close and walls_beside(potential, near, end, width) == 0):
-            # The last point takes the place of this one, unless the way to it might cross a cell that was not reached.
+            # The last point replaces this one, unless the line to it might cross a cell that was not reached.
             keep = (x != end_x or y != end_y) and (k == 0 or not surrounded(potential, near, width))
             last = k + 1 if keep else k
             path[2 * last], path[2 * last + 1] = end_x, end_y
@@ -184,7 +184,7 @@ def descend(
         kind, n = hop(potential, n, width, dx, dy)
         dx, dy = 0.0, 0.0
         if kind == NONE_LOWER:
-            # The end may lie just between this cell and the next, which costs the same.
+            # The end may lie between this cell and its neighbour if both have the same potential.
             if abs(n % width - end_x) >= 1 or abs(n // width - end_y) >= 1:
                 return STUCK
             kind = LAST
@@ -193,7 +193,7 @@ def descend(
 
 @cache
 def compiled_descend() -> Callable[..., int]:
-    """`descend` as machine code, or as it is without numba."""
+    """Return `descend` compiled by numba, or the plain function if numba is not installed."""
     try:
         import numba
     except ImportError:

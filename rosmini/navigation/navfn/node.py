@@ -1,10 +1,10 @@
-"""`navfn/navfn_node` and `global_planner/planner`: a planner and its costmap without a robot that drives.
+"""`navfn/navfn_node` and `global_planner/planner`: a planner with a costmap, but without driving.
 
 | | |
 |---|---|
 | parameters | `~costmap/` (those of costmap_2d), `~navfn_planner/` or `~planner/` (those of the planner) |
 | service | `~make_plan` (navfn/MakeNavPlan), with start and goal in the costmap's frame |
-| topic | `~goal` (geometry_msgs/PoseStamped): plans from where the robot is, and publishes `plan` as the planner does |
+| topic | `~goal` (geometry_msgs/PoseStamped): plans from the robot's pose, and the planner publishes `plan` |
 """
 
 from __future__ import annotations

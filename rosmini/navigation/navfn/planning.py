@@ -1,4 +1,4 @@
-"""What planners of grids have in common where they meet the graph: checks of poses, plans, `plan` and `make_plan`."""
+"""The base class of grid planners: checks of poses, conversion of plans, the topic `plan` and service `make_plan`."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ Poses = list[Any]
 
 
 class GridPlanner(BaseGlobalPlanner):
-    """A global planner that searches the costmap: publishes `~name/plan` and offers `~name/make_plan`."""
+    """A global planner that searches the costmap; it publishes `~name/plan` and offers `~name/make_plan`."""
 
     search: Search | None = None
-    """The last search, for pictures."""
+    """The latest search, for pictures."""
     default_tolerance: float = 0.0
 
     def initialize(self, name: str, costmap: Any) -> None:
-        """Read the parameters in `~name/`, advertise topic and service."""
+        """Read the parameters in `~name/`, and advertise the topic and the service."""
         super().initialize(name, costmap)
         self.node = costmap.node
         self.grid = costmap.grid
@@ -45,9 +45,9 @@ class GridPlanner(BaseGlobalPlanner):
     def _plan(self, start: Any, goal: Any, tolerance: float) -> Poses: ...
 
     def make_plan(self, start: Any, goal: Any, tolerance: float | None = None) -> Sequence[Any]:
-        """Poses from start to goal, or to the nearest point within `tolerance` [m] (default: the parameter).
+        """Return poses from start to goal, or to the nearest point within `tolerance` [m] (default: the parameter).
 
-        Raises a `PlanningFailure` that says why there is none. The plan is published; an empty one is, too.
+        Raises a `PlanningFailure` with the reason if there is no plan. The plan is published, even if it is empty.
         """
         self.search = None
         for what, pose in (("goal", goal), ("start", start)):
@@ -68,13 +68,13 @@ class GridPlanner(BaseGlobalPlanner):
         return plan
 
     def now(self) -> Time:
-        """The time of the graph."""
+        """Return the graph's time."""
         return Time.from_nsec(self.node.clock.now_ns())
 
     def point(self, pose: Any, off_map: str, offset: float) -> tuple[float, float]:
-        """Where a pose is on the grid (column, row); whole numbers are the middles of cells if `offset` is 0.5.
+        """Return a pose's position on the grid (column, row); with an offset of 0.5 whole numbers are cell centres.
 
-        Raises `OutsideMap`, which begins with the text `off_map`.
+        Raises `OutsideMap`, with a message that starts with `off_map`.
         """
         x, y = pose.pose.position.x, pose.pose.position.y
         finite = math.isfinite(x) and math.isfinite(y)
@@ -93,7 +93,7 @@ class GridPlanner(BaseGlobalPlanner):
         return column, row
 
     def poses(self, path: NDArray[np.float64], offset: float) -> Poses:
-        """Messages of the points (columns and rows) of a path, all with the time it is now."""
+        """Return messages for the points (columns and rows) of a path, stamped with the current time."""
         made, stamp, frame = [], self.now(), self.costmap.global_frame
         for x, y in (path + offset) * self.grid.resolution + np.asarray(self.grid.origin):
             pose = self._pose()
@@ -104,7 +104,7 @@ class GridPlanner(BaseGlobalPlanner):
         return made
 
     def pose_like(self, goal: Any, x: float, y: float) -> Any:
-        """A goal at another point, with the time it is now."""
+        """Return a copy of a goal at another point, stamped with the current time."""
         pose = self._pose()
         pose.header.stamp, pose.header.frame_id = self.now(), self.costmap.global_frame
         pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = x, y, goal.pose.position.z

@@ -1,4 +1,4 @@
-"""`navfn/NavfnROS`, the global planner that `move_base` takes by default (http://wiki.ros.org/navfn)."""
+"""`navfn/NavfnROS`, the default global planner of `move_base` (http://wiki.ros.org/navfn)."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ class NavfnParameters(Parameters):
 
 
 class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
-    """Dijkstra over an interpolated potential, and the path down its gradient.
+    """Dijkstra's algorithm with an interpolated potential, and a path down its gradient.
 
     Topics: `~NAME/plan` (nav_msgs/Path), `~NAME/potential` (sensor_msgs/PointCloud2) with `visualize_potential`.
-    Service: `~NAME/make_plan` (nav_msgs/GetPlan). Two things differ from the original on purpose: points of the plan
-    are at the middles of cells, where there they are half a cell towards the lower left; and the goal is tried itself
-    before others within the tolerance.
+    Service: `~NAME/make_plan` (nav_msgs/GetPlan). Two differences from the original are intentional: the points of
+    the plan are cell centres, where the original's are shifted by half a cell to the lower left; and the goal itself
+    is tried before other points within the tolerance.
     """
 
     def _read_parameters(self) -> None:
@@ -78,7 +78,7 @@ class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
         return [*self.poses(search.path_to(cell), 0.5), self.pose_like(goal, x, y)]
 
     def _reachable(self, search: NavfnSearch, x: float, y: float, tolerance: float) -> tuple[float, float]:
-        """The goal, or else the reachable point next to it on a lattice of one cell's side within the tolerance."""
+        """Return the goal or else the nearest reachable point on a lattice of cell size within the tolerance."""
         offsets = np.arange(-tolerance, tolerance + 1e-9, self.grid.resolution)
         offsets = np.concatenate([[0.0], offsets])
         points = [(x + dx, y + dy) for dy in offsets for dx in offsets]
@@ -91,7 +91,7 @@ class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
         raise search.failure(self.grid)
 
     def _publish_potential(self, search: NavfnSearch, goal: tuple[int, int] | None) -> None:
-        """Publish the cells that were reached: x, y, height (20 at the goal) and potential."""
+        """Publish the reached cells: x, y, height (20 at the goal) and potential."""
         if self._potentials is None:
             return
         rows, columns = np.nonzero(search.reached)

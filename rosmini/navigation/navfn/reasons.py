@@ -1,4 +1,4 @@
-"""Why a search found no path: what is blocked, how much can be reached, and what of it is nearest to the goal."""
+"""The reason why a search found no path: what is blocked, how much is reachable, and the nearest reachable cell."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MEANING = {
 
 
 class Searched(Protocol):
-    """What is asked of a search."""
+    """The attributes of a search that `failure` uses."""
 
     start: tuple[float, float]
     goal: tuple[float, float]
@@ -33,14 +33,14 @@ class Searched(Protocol):
 
     @property
     def reached(self) -> NDArray[np.bool_]:
-        """Which cells (h, w) have a potential."""
+        """True for each cell (h, w) that has a potential."""
 
 
 def failure(search: Searched, grid: Costmap2D | None = None) -> PlanningFailure:
-    """The failure of a search that is at its end and did not reach its goal; in metres if a grid is given.
+    """Return the failure of a finished search that did not reach its goal; in metres if a grid is given.
 
-    Its numbers are `start`, `goal`, `goal_cost`, `reachable` [cells], `nearest` (a reachable cell), `distance` of that
-    to the goal (in cells, or metres if a grid is given).
+    Its numbers are `start`, `goal`, `goal_cost`, `reachable` [cells], `nearest` (a reachable cell), and the `distance`
+    from there to the goal (in cells, or metres if a grid is given).
     """
     reached = search.reached
     count = int(reached.sum())

@@ -1,8 +1,8 @@
-"""Searches on grids of costs that can be stepped: potential, frontier and path are there to be looked at in between.
+"""Searches on cost grids that can be stepped; potential, frontier and path can be inspected between steps.
 
-A search is given costs (h, w) as `Costmap2D` has them, and start and goal as cells (column, row); whole numbers are the
-middles of cells. It works on a copy with a lethal rim, in which the start's cell is free, since the robot stands there.
-(The originals write both into the costmap itself, where the next update has to mend it.)
+A search takes costs (h, w) as in `Costmap2D`, and start and goal as cells (column, row); whole numbers are cell
+centres. It works on a copy with a lethal rim, in which the start's cell is free, because the robot is there. (The
+originals write both into the costmap itself, where the next update has to repair them.)
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ Points = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 ALL = 1 << 62
-"""More cells than there are."""
+"""A number greater than that of all cells."""
 
 
 class Search(ABC):
-    """A search from a start to a goal over a grid of costs; what differs between planners is in the classes below."""
+    """A search from a start to a goal on a cost grid; the subclasses contain the differences between planners."""
 
     def __init__(
         self,
@@ -45,9 +45,9 @@ class Search(ABC):
         quadratic: bool = True,
         grid_path: bool = False,
     ) -> None:
-        """Prepare it. `table` is what it costs to enter a cell of each cost, infinite where no way leads.
+        """Prepare the search. `table` is the cost of entering a cell by its cost value, infinite if impassable.
 
-        Raises `OutsideMap` if start or goal is not on the grid.
+        Raises `OutsideMap` if start or goal is outside the grid.
         """
         self.height: int = costs.shape[0]
         self.width: int = costs.shape[1]
@@ -63,14 +63,14 @@ class Search(ABC):
         self.quadratic, self.grid_path = quadratic, grid_path
         self.arrived = self.finished = False
         self.row: int = self.width + 2
-        """Cells in a row, the rim included."""
+        """Number of cells in a row, including the rim."""
         self.entering_goal = float(table[costs[cell_of(goal)[1], cell_of(goal)[0]]])
         self.goal_cost = int(costs[cell_of(goal)[1], cell_of(goal)[0]])
         self.costs = np.full((self.height + 2, self.row), LETHAL_OBSTACLE, dtype=np.uint8)
         self.costs[1:-1, 1:-1] = costs
         self.costs.ravel()[self._index(cell_of(start))] = 0
         self.potential_with_rim = np.full(self.costs.size, HIGH, dtype=np.float32)
-        """Of all cells, row after row, the rim included."""
+        """The potential of all cells, row by row, including the rim."""
         self._stop = self._index(cell_of(goal))
 
     def _inside(self, point: Point) -> bool:
@@ -82,28 +82,28 @@ class Search(ABC):
 
     @property
     def potential(self) -> NDArray[np.float32]:
-        """What it costs to get to each cell (h, w); `HIGH` where the search has not been. Not a copy."""
+        """The path cost of each cell (h, w); `HIGH` where the search has not been. This is not a copy."""
         return self.potential_with_rim.reshape(self.costs.shape)[1:-1, 1:-1]
 
     @property
     def reached(self) -> NDArray[np.bool_]:
-        """Which cells (h, w) have a potential."""
+        """True for each cell (h, w) that has a potential."""
         return np.asarray(self.potential < HIGH)
 
     @property
     @abstractmethod
     def expanded(self) -> int:
-        """How many cells have been taken up, those twice that were so twice."""
+        """The number of expansions so far; cells that were expanded twice count twice."""
 
     @property
     def frontier(self) -> Ints:
-        """The cells (n, 2) that wait, as columns and rows."""
+        """The waiting cells (n, 2), as columns and rows."""
         waiting = np.unique(self._waiting()).astype(np.int64)
         return np.stack([waiting % self.row - 1, waiting // self.row - 1], axis=-1)
 
     @property
     def parents(self) -> Ints:
-        """For each cell (h, w, 2) the column and row of the lowest of its four neighbours; -1 where it has none."""
+        """For each cell (h, w, 2) the column and row of its lowest four-neighbour; -1 if none is lower."""
         whole = self.potential_with_rim.reshape(self.costs.shape)
         around = np.stack([whole[1:-1, :-2], whole[1:-1, 2:], whole[:-2, 1:-1], whole[2:, 1:-1]])
         best = around.argmin(axis=0)
@@ -119,22 +119,22 @@ class Search(ABC):
         return cells
 
     def expand(self, count: int = ALL) -> bool:
-        """Take up at most `count` cells; whether the search is at its end then."""
+        """Expand up to `count` cells; return True once the search is finished."""
         if not self.finished and count > 0:
             result = self._expand(count)
             self.finished, self.arrived = result != 0, result == ARRIVED
         return self.finished
 
     def path(self) -> Points:
-        """The path from start to goal (n, 2), in columns and rows.
+        """Return the path from start to goal (n, 2), in columns and rows.
 
-        Raises a `PlanningFailure` that says why there is none.
+        Raises a `PlanningFailure` with the reason if there is no path.
         """
         self.expand()
         return self.path_to(self.goal)
 
     def path_to(self, goal: Point) -> Points:
-        """The path to another point that has been reached. Raises a `PlanningFailure` if it has not been."""
+        """Return the path to another point. Raises a `PlanningFailure` if that has not been reached."""
         if not self._inside(goal) or self.potential_with_rim[self._index(cell_of(goal))] >= HIGH:
             raise self.failure()
         walk = kernel("rosmini.navigation.navfn.descent:compiled_descend")
@@ -156,15 +156,15 @@ class Search(ABC):
         return np.asarray(points[: 2 * found].reshape(-1, 2)[::-1] - 1)
 
     def potential_at(self, cell: tuple[int, int]) -> float:
-        """The potential of a cell; `HIGH` outside."""
+        """Return the potential of a cell; `HIGH` outside the grid."""
         return float(self.potential_with_rim[self._index(cell)]) if self._inside(cell) else HIGH
 
     def failure(self, grid: Costmap2D | None = None) -> PlanningFailure:
-        """Why there is no path, with numbers; in metres if a grid is given."""
+        """Return the reason why there is no path, with numbers; in metres if a grid is given."""
         return failure(self, grid)
 
     def show(self, **options: Any) -> Any:
-        """A picture: costs, potential, frontier, and the path if the goal was reached."""
+        """Draw the costs, the potential, the frontier and, if the goal was reached, the path."""
         return show("search", self, **options)
 
     @abstractmethod
@@ -175,12 +175,12 @@ class Search(ABC):
 
 
 def show_steps(searches: Mapping[str, Search], **options: Any) -> Any:
-    """Show searches that have not begun, by name, side by side and step by step."""
+    """Draw searches that have not started, by name, side by side and step by step."""
     return show("search_steps", searches, **options)
 
 
 class WaveSearch(Search):
-    """A search by `wave`, which navfn and the Dijkstra of global_planner share."""
+    """A search by `wave`, shared by navfn and the Dijkstra search of global_planner."""
 
     def __init__(
         self,
@@ -196,7 +196,7 @@ class WaveSearch(Search):
         quadratic: bool = True,
         grid_path: bool = False,
     ) -> None:
-        """Prepare it. `threshold` and `rise` are those of `wave`; with `full` it goes on when it has arrived."""
+        """Prepare the search. `threshold` and `rise` are those of `wave`; `full` continues after reaching the goal."""
         super().__init__(costs, table, start, goal, quadratic=quadratic, grid_path=grid_path)
         self._blocks = np.empty(3 * self.costs.size, dtype=np.int32)
         self._pending = np.zeros(self.costs.size, dtype=np.uint8)
@@ -208,7 +208,7 @@ class WaveSearch(Search):
             self.potential_with_rim[cell] = potential
         around = [n for cell in seeds for n in (cell + 1, cell - 1, cell - self.row, cell + self.row)]
         flat = self.costs.ravel()
-        # Seeds may gain by each other; one alone cannot.
+        # Several seeds may improve each other; a single one cannot be improved.
         wait = [
             n for n in dict.fromkeys(around) if table[flat[n]] < HIGH and (n not in seeds or len(seeds) > 1)
         ]
@@ -217,12 +217,12 @@ class WaveSearch(Search):
         self._state = np.array([0, 1, 0, len(wait), 0, 0, 0], dtype=np.int64)
 
     def _seeds(self) -> dict[int, float]:
-        """Where it begins, with what potential."""
+        """Return the first cells and their potentials."""
         return {self._index(cell_of(self.start)): 0.0}
 
     @property
     def expanded(self) -> int:
-        """How many cells have been taken up, those twice that were so twice."""
+        """The number of expansions so far; cells that were expanded twice count twice."""
         return int(self._state[EXPANDED])
 
     def _expand(self, count: int) -> int:
@@ -254,7 +254,7 @@ class WaveSearch(Search):
 
 
 class NavfnSearch(WaveSearch):
-    """navfn: `potential` is what it costs to get from the start to a cell, interpolated between its neighbours."""
+    """navfn: `potential` is the path cost from the start to each cell, interpolated between its neighbours."""
 
     def __init__(
         self,
@@ -267,11 +267,11 @@ class NavfnSearch(WaveSearch):
         full: bool = False,
         outline: bool = True,
     ) -> None:
-        """Prepare it, by Dijkstra or A*.
+        """Prepare a search by Dijkstra's algorithm or A*.
 
-        With `full` it goes on after reaching the goal. `outline` makes the outermost cells lethal, as in the original.
+        `full` continues after reaching the goal. `outline` makes the outermost cells lethal, as in the original.
 
-        Raises `OutsideMap` if start or goal is not on the grid.
+        Raises `OutsideMap` if start or goal is outside the grid.
         """
         super().__init__(
             outlined(costs) if outline else costs,
@@ -286,15 +286,15 @@ class NavfnSearch(WaveSearch):
 
 
 COST_NEUTRAL = 50
-"""navfn: what it costs to enter a free cell."""
+"""navfn: cost of entering a free cell."""
 COST_FACTOR = 0.8
-"""navfn: what is added for each unit of a cell's cost."""
+"""navfn: factor of a cell's cost."""
 COST_OBS = 254
-"""navfn: from here on a cell is an obstacle."""
+"""navfn: lower bound of the costs of obstacles."""
 
 
 def navfn_table(allow_unknown: bool) -> NDArray[np.float32]:
-    """What it costs to enter a cell of each cost [256]: 50 + 0.8 cost, 253 if unknown, infinite from 253 on."""
+    """Return the cost of entering a cell by cost value [256]: 50 + 0.8 cost, 253 if unknown, infinite from 253."""
     table = np.full(256, np.inf, dtype=np.float32)
     table[:253] = np.minimum(np.floor(COST_NEUTRAL + COST_FACTOR * np.arange(253)), COST_OBS - 1)
     if allow_unknown:
@@ -303,14 +303,14 @@ def navfn_table(allow_unknown: bool) -> NDArray[np.float32]:
 
 
 def outlined(costs: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """A copy whose outermost cells are lethal."""
+    """Return a copy whose outermost cells are lethal."""
     made = np.array(costs, dtype=np.uint8, order="C")
     made[[0, -1], :] = made[:, [0, -1]] = LETHAL_OBSTACLE
     return made
 
 
 def cell_of(point: Point) -> tuple[int, int]:
-    """The cell in which a point (column, row) lies."""
+    """Return the cell that contains a point (column, row)."""
     return math.floor(point[0] + 0.5), math.floor(point[1] + 0.5)
 
 

@@ -1,14 +1,14 @@
-"""A wave that runs over a grid of costs and leaves in each cell what it costs to get there: the loop of navfn.
+"""A wave that spreads over a cost grid and computes the path cost of each cell: the loop of navfn.
 
-Cells wait in three blocks: those of the current round, those of the next, and those beyond the threshold, for which
-it is too early. When a block and its followers are done, the threshold rises. A cell is taken up again when a
-neighbour became cheaper, so the order is nearly that of Dijkstra, without a heap
+Cells wait in three blocks: those of the current round, those of the next, and those whose potential is beyond the
+threshold. When a block and its successors are done, the threshold rises. A cell is expanded again when a neighbour
+has become cheaper, so the order is nearly that of Dijkstra's algorithm, without a heap
 (http://wiki.ros.org/navfn; Brock and Khatib, High-speed navigation using the global dynamic window approach, 1999).
 
-Three defects of the original are not copied. Its blocks hold 10,000 cells and drop what is too much; here a block holds
-all cells there are. It gives up after a number of rounds, of which a maze may need more. And it takes a cell up again
-only if a neighbour became cheaper by 0.7 of the cell's cost, so that its potentials depend on the order and lie some
-percent above the fixed point of their own formula; here (but for A*) they are the fixed point.
+Three defects of the original are not copied. Its blocks hold 10,000 cells and drop the excess; here a block can hold
+all cells. It gives up after a number of rounds, which may be too few in a maze. And it expands a cell again only if a
+neighbour has become cheaper by 0.7 of the cell's cost, so that its potentials depend on the order and are a few
+percent above the fixed point of their formula; here (except for A*) they are the fixed point.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ HIGH = 1e10
 """The potential of a cell that the wave has not reached."""
 
 EXPANDED = 6
-"""Where in a wave's state the number of cells that have been taken up is."""
+"""Index of the number of expansions in a wave's state."""
 
 GOING, ARRIVED, EXHAUSTED = range(3)
-"""What `wave` returns."""
+"""The results of `wave`."""
 
 
 def interpolated(a: float, b: float, cost: float) -> float:
-    """The potential of a cell from its lower neighbours in a row, `a`, and in a column, `b`: navfn's planar wave."""
+    """Return a cell's potential from its lower neighbours in the row, `a`, and in the column, `b` (planar wave)."""
     low = min(a, b)
     apart = max(a, b) - low
     if apart >= cost:
@@ -44,7 +44,7 @@ def interpolated(a: float, b: float, cost: float) -> float:
 
 
 def wait(cell: np.uint64, at: int, blocks: NDArray[np.int32], pending: NDArray[np.uint8]) -> int:
-    """Let a cell wait at this place of the blocks; returns the next place."""
+    """Append a cell to the waiting cells at this index of the blocks; return the next index."""
     pending[cell] = 1
     blocks[at] = cell
     return at + 1
@@ -64,35 +64,35 @@ def wave(
     heuristic: float,
     count: int,
 ) -> int:
-    """Take up at most `count` cells; the arrays hold everything, so that the next call goes on.
+    """Expand up to `count` cells; the arrays hold the whole state, so that the next call continues.
 
     Args:
-        costs: of all cells, row after row; the outermost are lethal.
-        table: what it costs to enter a cell of each cost [256]; infinite where no way leads.
-        potential: of the cells, changed in place.
-        pending: 1 for cells that wait in a block.
-        blocks: three blocks of cells, one after another, each with room for all.
-        state: which block is current and which is next; the next cell of the current one; how many cells are in the
-            current, in the next and beyond the threshold; how many have been taken up [7].
-        levels: the threshold and by how much it rises.
-        width: cells in a row.
-        quadratic: whether potentials are interpolated between two neighbours, or come from the lowest one alone.
-        stop: the cell that ends it when it is reached, at the end of a round; -1 for none.
-        heuristic: for A*, what a cell of distance to `stop` adds to a cell's rank; 0 for Dijkstra. As in the original
-            that counts when a cell is taken up again, too, so A* finds a path and not always the cheapest.
-        count: so many cells.
+        costs: the costs of all cells, row by row; the outermost must be lethal.
+        table: the cost of entering a cell by cost value [256]; infinite if impassable.
+        potential: the potential of the cells, modified in place.
+        pending: 1 for cells that are waiting in a block.
+        blocks: three blocks of cells, one after another, each with room for all cells.
+        state: indices of the current and the next block; the next cell in the current block; numbers of cells in the
+            current block, in the next block and beyond the threshold; number of expansions [7].
+        levels: the threshold and its increment.
+        width: number of cells in a row.
+        quadratic: 1 to interpolate potentials between two neighbours, 0 to use the lowest one alone.
+        stop: the cell at which the wave ends, once reached, at the end of a round; -1 for none.
+        heuristic: for A*, the addition to a cell's rank per cell of distance to `stop`; 0 for Dijkstra. As in the
+            original it also applies to repeated expansions, so A* finds a path, but not always the cheapest.
+        count: maximum number of cells to expand.
 
     Returns:
-        `GOING`, `ARRIVED` at `stop`, or `EXHAUSTED` if no cell is left.
+        `GOING`, `ARRIVED` at `stop`, or `EXHAUSTED` if no cell is waiting.
 
     """
     room = costs.shape[0]
     current, following, at, here, after, over = state[0], state[1], state[2], state[3], state[4], state[5]
     threshold = levels[0]
-    # Without a sign: numba need not ask whether a place is counted from the end.
+    # Unsigned, so that numba need not handle negative indices.
     one, row = np.uint64(1), np.uint64(width)
     stop_x, stop_y = stop % width, stop // width
-    # A cell whose potential is no more than this share of its cost above a neighbour's cannot gain by it: with
+    # A neighbour cannot improve unless its potential exceeds this cell's by more than this fraction of its cost: with
     # interpolation v(1) - 1 is 0.0046.
     margin = 0.707106781 if heuristic > 0 else (0.004 if quadratic else 1.0)
     result, budget = 0, count
@@ -155,7 +155,7 @@ def wave(
 
 @cache
 def compiled_wave() -> Callable[..., int]:
-    """`wave` as machine code, or as it is without numba."""
+    """Return `wave` compiled by numba, or the plain function if numba is not installed."""
     try:
         import numba
     except ImportError:

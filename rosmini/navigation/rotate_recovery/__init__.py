@@ -1,1 +1,1 @@
-"""Turns a stuck robot once around, so that it sees what is there (http://wiki.ros.org/rotate_recovery)."""
+"""Rotates a stuck robot by 360 degrees, so that its sensors see all sides (http://wiki.ros.org/rotate_recovery)."""

@@ -1,8 +1,8 @@
 """`rotate_recovery/RotateRecovery` (http://wiki.ros.org/rotate_recovery).
 
-Its limits are those of the Trajectory Rollout planner, in `~TrajectoryPlannerROS/`, whichever planner drives, as in
-ROS. The original never ends if the robot cannot turn; this one gives up after `PATIENCE` times what the turn takes at
-the slowest speed. It commands a stop at its end, too.
+As in ROS its limits are those of the Trajectory Rollout planner, in `~TrajectoryPlannerROS/`, whichever planner is
+used. The original never ends if the robot cannot turn; this one gives up after `PATIENCE` times the duration of the
+turn at the slowest speed. It also commands a stop at the end.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ LIMITS = (
     ("min_in_place_vel_theta", "min_in_place_rotational_vel", 0.4),
     ("yaw_goal_tolerance", "", 0.10),
 )
-"""What it reads of the planner's parameters: name, former name, default; rad/s2, rad/s, rad/s and rad."""
+"""The planner's parameters that it reads: name, former name, default; in rad/s2, rad/s, rad/s and rad."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class RotateParameters(Parameters):
 
 
 class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
-    """Turn once around in place, if the footprint allows it."""
+    """Rotates the robot once in place, if the footprint allows it."""
 
     def initialize(self, name: str, buffer: Any, global_costmap: Any, local_costmap: Any) -> None:
         """Read the parameters in `~name/` and those of the planner."""
@@ -61,7 +61,7 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
         return float(self.node.get_param(PLANNER + name, default))
 
     def run_behavior(self) -> None:
-        """Turn; give up at the first heading of the turn that collides."""
+        """Rotate; give up at the first heading that causes a collision."""
         self.node.logwarn("Rotate recovery behavior started.")
         rate = self.node.rate(self.parameters.frequency)
         heading = self._pose()[2]
@@ -85,7 +85,7 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
         return planar_pose(self.local_costmap.robot_pose())
 
     def _turn_on(self, turn: FullTurn) -> bool:
-        """Command the next bit of the turn; return whether it is free."""
+        """Command the next part of the rotation; return False if it would cause a collision."""
         x, y, heading = self._pose()
         left = turn.left(heading)
         if turn.is_done:
