@@ -172,7 +172,7 @@ class ParticleFilter:
         off = np.abs(self.particles[:, :2] - self.particles[:, :2].mean(axis=0))
         self.converged = bool((off <= NEAR).all())
 
-    # -- the answer ----------------------------------------------------------------------------------------------
+    # -- results -------------------------------------------------------------------------------------------------
 
     def clusters(self) -> list[Cluster]:
         """Return clusters of particles in adjacent histogram cells, heaviest first."""

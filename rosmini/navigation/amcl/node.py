@@ -228,7 +228,7 @@ class Amcl:
                 self.localizer.force = True
         return {"success": taken}
 
-    # -- where to begin ------------------------------------------------------------------------------------------
+    # -- initial poses -------------------------------------------------------------------------------------------
 
     def _globally(self, _: Any) -> Any:
         self.node.loginfo("Initializing with uniform distribution")
@@ -390,7 +390,7 @@ class Amcl:
             found = deviations(self.node.name, self._estimate.covariance, self.parameters, self.node.now())
             self._diagnostics.publish(found)
 
-    # -- the answer ----------------------------------------------------------------------------------------------
+    # -- results -------------------------------------------------------------------------------------------------
 
     def _publish_pose(self, found: Estimate, stamp: Time) -> None:
         message = message_class("geometry_msgs/PoseWithCovarianceStamped")()

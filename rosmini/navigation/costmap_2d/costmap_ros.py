@@ -91,7 +91,7 @@ class Costmap2DROS:
         names = ", ".join(layer.name for layer in self.layers)
         return f"<Costmap2DROS {self.name} of {self.node.name}: {self.grid!r}, layers {names}>"
 
-    # -- at the start --------------------------------------------------------------------------------------------
+    # -- setup ---------------------------------------------------------------------------------------------------
 
     def _read(self) -> None:
         """Convert old parameter forms to the current one, and read the parameters."""
@@ -200,7 +200,7 @@ class Costmap2DROS:
             self._timer = self.node.timer(1 / update_frequency, lambda _: self._turn())
             self._turn()
 
-    # -- what planners ask ---------------------------------------------------------------------------------------
+    # -- queries -------------------------------------------------------------------------------------------------
 
     @property
     def grid(self) -> Costmap2D:
@@ -288,7 +288,7 @@ class Costmap2DROS:
                 options.setdefault("cost_scaling_factor", layer.cost_scaling_factor)
         return self.grid.show_inflation(**options)
 
-    # -- what may be done to it ----------------------------------------------------------------------------------
+    # -- changes -------------------------------------------------------------------------------------------------
 
     def set_footprint(self, footprint: ArrayLike) -> None:
         """Set an unpadded footprint (n, 2) [m]."""
@@ -357,7 +357,7 @@ class Costmap2DROS:
         for layer in self.layers:
             layer.deactivate()
 
-    # -- by itself -----------------------------------------------------------------------------------------------
+    # -- updates -------------------------------------------------------------------------------------------------
 
     def _turn(self) -> None:
         self.update()

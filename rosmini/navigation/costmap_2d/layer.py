@@ -239,7 +239,7 @@ class CostmapLayer(Layer):
             x, y = self.grid.origin
             self.add_extra_bounds(x, y, x + width, y + height)
 
-    # -- ways to write its costs into the master grid -------------------------------------------------------------
+    # -- writing costs into the master grid -----------------------------------------------------------------------
 
     def update_with_max(self, grid: Costmap2D, window: Window) -> None:
         """Write the greater of both costs where this layer's cost is known."""

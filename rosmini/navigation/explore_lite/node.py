@@ -133,7 +133,7 @@ class Explore:
             # Not in the client's callback, where the next goal would be taken for the old one's end.
             self.node.timer(SOON, lambda _: self.make_plan(), oneshot=True)
 
-    # -- stop and go on ------------------------------------------------------------------------------------------
+    # -- stopping and resuming -----------------------------------------------------------------------------------
 
     def _resume(self, message: Any) -> None:
         if message.data and not self.is_exploring:

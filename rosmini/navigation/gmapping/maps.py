@@ -85,7 +85,7 @@ class SharedMaps:
         self.owners: NDArray[np.int64] = np.zeros(1, dtype=np.int64)
         """Number of maps that share each patch (patches,); 0 for the empty patch and unused ones."""
 
-    # -- room ----------------------------------------------------------------------------------------------------
+    # -- memory --------------------------------------------------------------------------------------------------
 
     def cover(self, left: float, bottom: float, right: float, top: float) -> None:
         """Extend all maps to cover this box [m] and one patch more, so that every cell inside has neighbours.
@@ -128,7 +128,7 @@ class SharedMaps:
         """The memory of all patches that belong to a map [bytes]."""
         return int((self.owners > 0).sum()) * PATCH_BYTES
 
-    # -- change --------------------------------------------------------------------------------------------------
+    # -- changes -------------------------------------------------------------------------------------------------
 
     def choose(self, indices: NDArray[np.int64]) -> None:
         """Continue with the maps of these particles; duplicates are not copied until they change."""

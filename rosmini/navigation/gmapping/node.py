@@ -145,7 +145,7 @@ class SlamGmapping:
             self._last_map = self._last_stamp_ns
             self._publish(slam)
 
-    # -- the answer ----------------------------------------------------------------------------------------------
+    # -- results -------------------------------------------------------------------------------------------------
 
     def _publish(self, slam: GridSlam) -> None:
         p = self.parameters

@@ -109,7 +109,7 @@ def passed_cells(first: Integers, last: Integers) -> tuple[Integers, Integers]:
     count = steps.astype(np.int64)
     before = np.cumsum(count) - count
     step = np.arange(before[-1] + count[-1]) - np.repeat(before, count)
-    # Half a unit more than the numerator, so that rounding errors have no effect.
+    # The values are multiples of 1 / steps plus half of that, so that rounding errors have no effect.
     half = (steps // 2 + 0.5) / steps
     columns, rows = (
         first[axis]

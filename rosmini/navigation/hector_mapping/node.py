@@ -209,7 +209,7 @@ class HectorMapping:
         (left, low), side = grid.origin, grid.resolution * grid.odds.shape[0]
         return f"which reaches from ({left:.1f}, {low:.1f}) to ({left + side:.1f}, {low + side:.1f})"
 
-    # -- the answer ----------------------------------------------------------------------------------------------
+    # -- results -------------------------------------------------------------------------------------------------
 
     def _publish_pose(self, stamp: Time) -> None:
         p = self.parameters
@@ -268,7 +268,7 @@ class HectorMapping:
         cloud.points = [point(x=x, y=y) for x, y in ends.tolist()]
         self._cloud.publish(cloud)
 
-    # -- from outside --------------------------------------------------------------------------------------------
+    # -- services and user input ---------------------------------------------------------------------------------
 
     def _dynamic_map(self, _: Any) -> Any:
         self.node.loginfo("HectorSM Map service called")

@@ -130,7 +130,7 @@ class MoveBase:
             f"<MoveBase {self.node.name}: {self.state.value}{'' if self.goal is None else ', with a goal'}>"
         )
 
-    # -- what others look at -------------------------------------------------------------------------------------
+    # -- public state --------------------------------------------------------------------------------------------
 
     @property
     def state(self) -> State:
