@@ -13,6 +13,7 @@ from rosmini.core.errors import RosminiError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 from rosmini.viz.embed import STATIC
+from rosmini.viz.live.panel_link import SCRIPTS, PanelLink
 from rosmini.viz.rqt import (
     DynamicReconfigure,
     LogConsole,
@@ -21,7 +22,6 @@ from rosmini.viz.rqt import (
     NodeGraph,
     ServiceCaller,
 )
-from rosmini.viz.rqt.panel_link import SCRIPTS, PanelLink
 
 pytestmark = pytest.mark.browser
 

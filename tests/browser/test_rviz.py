@@ -14,7 +14,7 @@ from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl
 from rosmini.ros.interactive_markers import InteractiveMarkerServer
 from rosmini.viz.live.loopback import PageServer
-from rosmini.viz.rqt.panel_link import PanelLink
+from rosmini.viz.live.panel_link import PanelLink
 from rosmini.viz.rviz.window import RVizWindow
 
 from ..processes import PATIENCE

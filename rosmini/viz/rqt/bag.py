@@ -22,8 +22,11 @@ from .parts import Control, Words, drawn
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from optparse import Values
 
     from rosmini.core.graph import Graph
+    from rosmini.core.verbs import Call
+    from rosmini.viz.view import View
 
     from .parts import Drawing, Part
 
@@ -252,6 +255,8 @@ class BagTimeline(Panel):
     """
 
     tool, heading, plugin = "rqt_bag", "Bag", "rqt_bag/Bag"
+    group, summary = "Logging", "the messages of a bag over time"
+    usage, example = "FILE", "house.bag"
 
     def __init__(self, graph: Graph, path: str = "", *, name: str | None = None) -> None:
         super().__init__(graph, name=name)
@@ -259,6 +264,17 @@ class BagTimeline(Panel):
         self._drawn: Drawing | None = None
         if path:
             self.load(path)
+
+    @classmethod
+    def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
+        """Return the file."""
+        return given.words, {}
+
+    @classmethod
+    def still(cls, given: Values, call: Call) -> View:
+        """Draw the bag."""
+        del call
+        return rqt_bag(given.words[0], title=given.title)
 
     def load(self, path: str) -> None:
         """Show another bag. Raises ``ViewError``, ``ROSBagException``."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from rosmini.core.errors import nearest
 from rosmini.core.graph.console import Console
@@ -20,8 +20,10 @@ from .parts import Control, Row, Rows, Words
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from optparse import Values
 
     from rosmini.core.graph import Graph
+    from rosmini.core.verbs import Parser
 
     from .parts import Part
 
@@ -265,9 +267,9 @@ class LogConsole(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_console"
-    heading: ClassVar[str] = "Console"
-    plugin: ClassVar[str] = "rqt_console/Console"
+    tool, heading, plugin = "rqt_console", "Console", "rqt_console/Console"
+    group, summary = "Logging", "what nodes log"
+    example, listen_s = "--level WARN --duration 10", 5.0
 
     def __init__(self, graph: Graph, *, level: str = "DEBUG", name: str | None = None) -> None:
         super().__init__(graph, name=name)
@@ -275,6 +277,23 @@ class LogConsole(Panel):
         self.filters: dict[str, Any] = {"level": level, "regex": False, **dict.fromkeys(FILTERS, "")}
         """What is shown: options of `rqt_console`."""
         self._paused: list[Any] | None = None
+
+    @classmethod
+    def add_options(cls, parser: Parser) -> None:
+        """Add the level."""
+        parser.add_option(
+            "--level", default="DEBUG", metavar="LEVEL", help="the lowest level: DEBUG to FATAL"
+        )
+
+    @classmethod
+    def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
+        """Return the level."""
+        return [], {"level": given.level}
+
+    def view(self, title: str | None = None, **options: Any) -> LogTable:
+        """Return the messages that pass the filters."""
+        messages = self.log.messages if self._paused is None else self._paused
+        return rqt_console(messages, title=title, **options, **self.filters)
 
     @property
     def paused(self) -> bool:
@@ -302,9 +321,7 @@ class LogConsole(Panel):
     def parts(self) -> Sequence[Part]:
         """The filters, and the messages that pass them."""
         chosen = self.filters
-        table = rqt_console(
-            self.log.messages if self._paused is None else self._paused, limit=SHOWN, **chosen
-        )
+        table = self.view(limit=SHOWN)
         texts = [Control(key, label, "text", chosen[key]) for key, label in FILTERS.items()]
         rows = tuple(
             Row(

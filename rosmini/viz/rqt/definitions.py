@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.core.errors import DefinitionError, IllegalName, UnknownPackage, UnknownType
@@ -15,38 +14,41 @@ from .parts import Control, Row, Rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+    from optparse import Values
 
     from rosmini.core.graph import Graph
+    from rosmini.core.verbs import Call
     from rosmini.msgs.definition import MessageSpec
     from rosmini.viz.rqt.table import Table
+    from rosmini.viz.view import View
 
     from .parts import Part
 
 COLUMNS = ("Tree", "Type", "Path")
 
 
-def rqt_msg(kind: str) -> Table:
+def rqt_msg(kind: str, *, title: str | None = None) -> Table:
     """Show the fields of a message type: "geometry_msgs/Twist". Raises ``ViewError`` if it is not known."""
-    return _table(kind, lambda: [("", registry().definition(kind))])
+    return _table(kind, title, lambda: [("", registry().definition(kind))])
 
 
-def rqt_srv(kind: str) -> Table:
+def rqt_srv(kind: str, *, title: str | None = None) -> Table:
     """Show request and response of a service type. Raises ``ViewError`` if it is not known."""
 
     def halves() -> list[tuple[str, MessageSpec]]:
         found = registry().service_definition(kind)
         return [("Request", found.request), ("Response", found.response)]
 
-    return _table(kind, halves)
+    return _table(kind, title, halves)
 
 
-def rqt_action(kind: str) -> Table:
+def rqt_action(kind: str, *, title: str | None = None) -> Table:
     """Show goal, result and feedback of an action type. Raises ``ViewError`` if it is not known."""
     parts = ("Goal", "Result", "Feedback")
-    return _table(kind, lambda: [(part, registry().definition(f"{kind}{part}")) for part in parts])
+    return _table(kind, title, lambda: [(part, registry().definition(f"{kind}{part}")) for part in parts])
 
 
-def _table(kind: str, parts: Callable[[], list[tuple[str, MessageSpec]]]) -> Table:
+def _table(kind: str, title: str | None, parts: Callable[[], list[tuple[str, MessageSpec]]]) -> Table:
     if kind.count("/") != 1:
         raise ViewError(f"{kind!r} is no type: one is written package/Type, as in geometry_msgs/Twist")
     try:
@@ -61,7 +63,7 @@ def _table(kind: str, parts: Callable[[], list[tuple[str, MessageSpec]]]) -> Tab
             ]
     except (UnknownType, UnknownPackage, DefinitionError, IllegalName) as error:
         raise ViewError(str(error)) from error
-    return Table(COLUMNS, rows, title=kind, noun="part" if len(found) > 1 else "type")
+    return Table(COLUMNS, rows, title=title or kind, noun="part" if len(found) > 1 else "type")
 
 
 def _fields(spec: MessageSpec, depth: int = 1, path: str = "") -> Iterator[tuple[int, str, str, str]]:
@@ -79,19 +81,28 @@ REDRAW_S = 1.0
 class _TypeBrowser(Panel):
     """The fields of a type."""
 
-    example: ClassVar[str]
+    usage = "TYPE"
+    table: ClassVar[Callable[..., Table]]
+    """Function that returns the fields of a type."""
 
     def __init__(self, graph: Graph, kind: str = "", *, name: str | None = None) -> None:
         super().__init__(graph, name=name)
         self.choose(kind or self.example)
 
-    @abstractmethod
-    def _draw(self, kind: str) -> Table:
-        """The fields of a type."""
+    @classmethod
+    def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
+        """Return the type."""
+        return given.words, {}
+
+    @classmethod
+    def still(cls, given: Values, call: Call) -> View:
+        """Return the fields of a type."""
+        del call
+        return cls.table(given.words[0], title=given.title)
 
     def choose(self, kind: str) -> None:
         """Show another type. Raises ``ViewError`` if no package here defines it."""
-        self._table = self._draw(kind)
+        self._table = type(self).table(kind)
         self.kind = kind
 
     def parts(self) -> Sequence[Part]:
@@ -121,27 +132,24 @@ class MessageTypes(_TypeBrowser):
     """The fields of a message type (http://wiki.ros.org/rqt_msg)."""
 
     tool, heading, plugin = "rqt_msg", "Message Type Browser", "rqt_msg/Messages"
-    example = "geometry_msgs/Twist"
-
-    def _draw(self, kind: str) -> Table:
-        return rqt_msg(kind)
+    group, summary = "Topics", "the fields of a message type"
+    takes, example = "msg", "geometry_msgs/Twist"
+    table = staticmethod(rqt_msg)
 
 
 class ServiceTypes(_TypeBrowser):
     """The fields of a service type (http://wiki.ros.org/rqt_srv)."""
 
     tool, heading, plugin = "rqt_srv", "Service Type Browser", "rqt_srv/Services"
-    example = "nav_msgs/GetPlan"
-
-    def _draw(self, kind: str) -> Table:
-        return rqt_srv(kind)
+    group, summary = "Services", "the fields of a service type"
+    takes, example = "srv", "nav_msgs/GetPlan"
+    table = staticmethod(rqt_srv)
 
 
 class ActionTypes(_TypeBrowser):
     """The fields of an action type (http://wiki.ros.org/rqt_action)."""
 
     tool, heading, plugin = "rqt_action", "Action Type Browser", "rqt_action/ActionPlugin"
-    example = "move_base_msgs/MoveBase"
-
-    def _draw(self, kind: str) -> Table:
-        return rqt_action(kind)
+    group, summary = "Actions", "the fields of an action type"
+    takes, example = "", "move_base_msgs/MoveBase"
+    table = staticmethod(rqt_action)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, ClassVar, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
+from rosmini.ros.introspection.nodes import names, silent
 from rosmini.viz.layout import Direction
 from rosmini.viz.rqt.condensing import condensed
 from rosmini.viz.rqt.drawing import draw
-from rosmini.viz.rqt.graph_state import GraphState, graph_state
+from rosmini.viz.rqt.graph_state import CALLER_ID, GraphState, graph_state
 from rosmini.viz.rqt.highlight import highlighted
 from rosmini.viz.rqt.selection import Group, Hide, Mode, matches, select
 from rosmini.viz.rqt.wording import alt_text, text_form
@@ -20,8 +21,11 @@ from .parts import Control, Drawing
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from optparse import Values
 
     from rosmini.core.graph import Graph
+    from rosmini.core.verbs import Call, Parser
+    from rosmini.viz.view import View
 
     from .parts import Part
 
@@ -115,6 +119,8 @@ LOOK_S = 1.0
 """How often Master and nodes are asked [s]."""
 MODES = ("nodes_only", "nodes_topics_active", "nodes_topics_all")
 """As the real one counts them."""
+SHORT_MODES = dict(zip(("nodes", "active", "all"), MODES, strict=True))
+"""Names of the modes on the command line."""
 TEXTS = {
     "filter_line_edit_text": "namespace",
     "topic_filter_line_edit_text": "topics",
@@ -149,9 +155,9 @@ class NodeGraph(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_graph"
-    heading: ClassVar[str] = "Node Graph"
-    plugin: ClassVar[str] = "rqt_graph/RosGraph"
+    tool, heading, plugin = "rqt_graph", "Node Graph", "rqt_graph/RosGraph"
+    group, summary = "Introspection", "the computation graph: who publishes what to whom"
+    example = "--mode active --hide debug,tf"
 
     def __init__(self, graph: Graph, *, name: str | None = None, **options: Any) -> None:
         super().__init__(graph, name=name)
@@ -163,6 +169,58 @@ class NodeGraph(Panel):
         self._asked: float | None = None
         self._drawn: tuple[Any, Picture] | None = None
         self.change(**options)
+
+    @classmethod
+    def add_options(cls, parser: Parser) -> None:
+        """Add the switches."""
+        parser.add_option(
+            "--mode",
+            choices=sorted(SHORT_MODES),
+            default="nodes",
+            help="topics as labels (nodes), or as boxes (active, all)",
+        )
+        parser.add_option(
+            "--hide", metavar="LIST", help="debug, dead_sinks, leaf_topics, params, tf, unreachable, none"
+        )
+        parser.add_option(
+            "--nodes", default="/", metavar="FILTER", help="names or regular expressions, - excludes"
+        )
+        parser.add_option("--topics", default="/", metavar="FILTER", help="likewise")
+        parser.add_option("--group", metavar="LIST", help="what is one box: actions, images, tf, none")
+        parser.add_option(
+            "--namespaces", type="int", default=2, metavar="N", help="depth of the boxes around namespaces"
+        )
+        parser.add_option(
+            "--highlight", default="", metavar="NAME", help="a node or topic, and what it is connected with"
+        )
+
+    @classmethod
+    def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
+        """Return the switches."""
+
+        def switches(text: str | None, default: tuple[str, ...]) -> tuple[str, ...]:
+            return default if text is None else tuple(part for part in text.split(",") if part != "none")
+
+        return [], {
+            "mode": SHORT_MODES[given.mode],
+            "hide": switches(given.hide, DEFAULT_HIDE),
+            "group": switches(given.group, DEFAULT_GROUP),
+            "namespaces": given.namespaces,
+            "namespace": given.nodes,
+            "topics": given.topics,
+            "highlight": given.highlight,
+        }
+
+    @classmethod
+    def still(cls, given: Values, call: Call) -> View:
+        """Ask the Master and the nodes, without a node, and draw the graph."""
+        master = call.peers.ask_as(CALLER_ID)
+        state = GraphState.of(
+            master.ask("getSystemState"),
+            master.ask("getTopicTypes"),
+            unreachable=silent(call.peers, names(call.peers)),
+        )
+        return rqt_graph(state, title=given.title, **cls.arguments(given)[1])
 
     def change(self, **options: Any) -> None:
         """Draw it otherwise. Raises ``ViewError`` for what :func:`rqt_graph` does not know."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.verbs import Span, VerbError, tool_node
 from rosmini.msgs import message_class
 from rosmini.ros.introspection.topics import types
 from rosmini.viz.image_pictures import image_picture
@@ -13,9 +14,12 @@ from .panel import Panel, bar
 from .parts import Control, Drawing, Words, drawn
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+    from optparse import Values
 
     from rosmini.core.graph import Graph
+    from rosmini.core.verbs import Call
+    from rosmini.viz.view import View
 
     from .parts import Part
 
@@ -37,6 +41,8 @@ class ImageView(Panel):
     """
 
     tool, heading, plugin = "rqt_image_view", "Image View", "rqt_image_view/ImageView"
+    group, summary = "Visualization", "the next image on a topic"
+    usage, takes, example, listen_s = "TOPIC", "topic", "/camera/rgb/image_raw", 5.0
 
     def __init__(self, graph: Graph, topic: str = "", *, name: str | None = None) -> None:
         super().__init__(graph, name=name)
@@ -46,6 +52,27 @@ class ImageView(Panel):
         self._drawn: tuple[float, Drawing] | None = None
         if topic:
             self.choose(topic)
+
+    @classmethod
+    def still(cls, given: Values, call: Call) -> View:
+        """Wait for an image, and return it. Raises ``VerbError`` if none comes."""
+        (topic,), _ = cls.arguments(given)
+        images: list[Any] = []
+        with tool_node(call.graph, cls.tool) as node:
+
+            def begin(wake: Callable[[], None]) -> None:
+                def take(image: Any) -> None:
+                    images.append(image)
+                    wake()
+
+                node.subscriber(topic, message_class("sensor_msgs/Image"), take)
+
+            Span.of(call.graph, round(given.duration * 1e9)).wait(node, f"an image on {topic}", begin)
+        if not images:
+            raise VerbError(
+                f"no image came on {topic} in {given.duration:g} s; see `rosmini rostopic info {topic}`"
+            )
+        return image_picture(images[0], title=given.title or topic)
 
     def names(self) -> list[str]:
         """Return the topics of images, sorted."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ServiceException, nearest
 from rosmini.core.graph.rosout import LEVELS
@@ -48,9 +48,10 @@ class LoggerLevel(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_logger_level"
-    heading: ClassVar[str] = "Logger Level"
-    plugin: ClassVar[str] = "rqt_logger_level/LoggerLevel"
+    tool, heading, plugin = "rqt_logger_level", "Logger Level", "rqt_logger_level/LoggerLevel"
+    group, summary = "Logging", "how much each node logs, from a form"
+    usage, takes = "[NODE]", "node"
+    instead = "rosservice call /NODE/set_logger_level rosout DEBUG"
 
     def __init__(self, graph: Graph, node: str = "", *, name: str | None = None) -> None:
         super().__init__(graph, name=name)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.core.errors import RosminiError, nearest
@@ -11,16 +12,19 @@ from rosmini.core.graph import Node
 from rosmini.core.names import resolve
 from rosmini.viz.live.live_view import LiveView
 from rosmini.viz.svg import element
-from rosmini.viz.view import ViewError
+from rosmini.viz.view import View, ViewError
 
 from .markup import page
 from .parts import Bar, Control, Part, Words, controls, text_of
+from .plugin import Plugin
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from typing import TypeVar
+    from optparse import Values
+    from typing import Self, TypeVar
 
     from rosmini.core.graph import Graph
+    from rosmini.core.verbs import Call
 
     from .parts import Value
 
@@ -31,7 +35,7 @@ class PanelNode(Node):
     """The node of a panel. A new panel of its name takes its place without a complaint: a cell was run again."""
 
 
-class Panel(LiveView):
+class Panel(Plugin, LiveView):
     """A tool of rqt on a graph. What a hand does in a page, :meth:`set` does in a script.
 
     Args:
@@ -41,12 +45,6 @@ class Panel(LiveView):
 
     """
 
-    tool: ClassVar[str]
-    """What the tool is called: ``rqt_console``."""
-    heading: ClassVar[str]
-    """What rqt's menu calls it: ``Console``."""
-    plugin: ClassVar[str]
-    """What a perspective calls it: ``rqt_console/Console``."""
     look_s: ClassVar[float] = 0.2
     """How often a page that shows it looks at it [s]."""
 
@@ -63,6 +61,32 @@ class Panel(LiveView):
         """What acts on the graph."""
         return self._node
 
+    @classmethod
+    @contextmanager
+    def heard(cls, graph: Graph, *words: str, seconds: float, **options: Any) -> Iterator[Self]:
+        """Open a panel under a name of its own, let graph time pass, and close it in the end.
+
+        Raises:
+            ViewError: the time is not positive.
+
+        """
+        if not 0 < seconds < float("inf"):
+            raise ViewError(f"a duration is a positive number of seconds, not {seconds!r:.40}")
+        make: Any = cls
+        panel = make(graph, *words, name=graph.anonymous_name(cls.tool), **options)
+        try:
+            graph.run(seconds)
+            yield panel
+        finally:
+            panel.close()
+
+    @classmethod
+    def still(cls, given: Values, call: Call) -> View:
+        """Return the view of a panel that has listened for some time."""
+        words, options = cls.arguments(given)
+        with cls.heard(call.graph, *words, seconds=given.duration, **options) as panel:
+            return panel.view(given.title)
+
     # -- for each kind of panel -----------------------------------------------------------------------------------
 
     @abstractmethod
@@ -72,6 +96,10 @@ class Panel(LiveView):
     @abstractmethod
     def _operate(self, key: Sequence[str], value: Any) -> None:
         """Do what a control stands for; ``key`` is the control's, split at ``/``."""
+
+    def view(self, title: str | None = None) -> View:
+        """Return what it shows now, without its controls. Forms have none."""
+        raise NotImplementedError(f"{self.tool} is a form")
 
     @property
     def scripts(self) -> tuple[str, ...]:
@@ -180,7 +208,7 @@ class Panel(LiveView):
         return element("figure", self.markup(live=False), class_="rosmini-figure", style="margin:0.5em 0")
 
     def _new_link(self) -> Any:
-        from .panel_link import PanelLink
+        from rosmini.viz.live.panel_link import PanelLink
 
         return PanelLink(self)
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_left
 from numbers import Real
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
+from rosmini.core.verbs import global_name
 from rosmini.ros.introspection.fields import FieldError, class_of, reader
 from rosmini.viz.plots import COLOURS, plot
 from rosmini.viz.rqt.listening import find_topic, listen
@@ -16,10 +18,13 @@ from .parts import Control, Drawing, Words
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
+    from optparse import Values
 
     from rosmini.core.graph import Graph
     from rosmini.core.graph.subscriber import Subscriber
+    from rosmini.core.verbs import Call
     from rosmini.ros.bag import Bag
+    from rosmini.viz.view import View
 
     from .parts import Part
 
@@ -160,9 +165,9 @@ class Plot(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_plot"
-    heading: ClassVar[str] = "Plot"
-    plugin: ClassVar[str] = "rqt_plot/Plot"
+    tool, heading, plugin = "rqt_plot", "Plot", "rqt_plot/Plot"
+    group, summary = "Visualization", "numbers in messages over time; x:y stands for two fields of a message"
+    usage, takes, example, listen_s = "FIELD...", "topic", "/odom/pose/pose/position/x:y", 5.0
 
     def __init__(self, graph: Graph, *fields: str, seconds: float = 20.0, name: str | None = None) -> None:
         super().__init__(graph, name=name)
@@ -173,6 +178,18 @@ class Plot(Panel):
         self._drawn: tuple[float, Drawing] | None = None
         for field in fields:
             self.add(field)
+
+    @classmethod
+    def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
+        """Return the fields; the topic of each is a global name."""
+        split = [re.fullmatch(r"([^\[]*)(.*)", word) for word in given.words]
+        return [f"{global_name(each[1])}{each[2]}" for each in split if each], {}
+
+    @classmethod
+    def still(cls, given: Values, call: Call) -> View:
+        """Plot what comes for some time."""
+        fields, _ = cls.arguments(given)
+        return rqt_plot(call.graph, *fields, duration=given.duration, title=given.title)
 
     @property
     def fields(self) -> tuple[str, ...]:

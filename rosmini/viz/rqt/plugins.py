@@ -2,44 +2,48 @@
 
 from __future__ import annotations
 
-from rosmini.viz.rqt.table import Table
+from functools import cache
+from typing import NamedTuple
 
-COLUMNS = ("Group", "Plugin", "Package", "Here")
+from .plugin import plugins
+from .table import Table
 
-PLUGINS: tuple[tuple[str, str, str, str], ...] = (
-    ("Actions", "Action Type Browser", "rqt_action", "rqt_action"),
-    ("Configuration", "Dynamic Reconfigure", "rqt_reconfigure", "rqt_reconfigure"),
-    ("Configuration", "Launch", "rqt_launch", "roslaunch"),
-    ("Introspection", "Node Graph", "rqt_graph", "rqt_graph"),
-    ("Introspection", "Package Graph", "rqt_dep", "rospack depends"),
-    ("Introspection", "Process Monitor", "rqt_top", "top"),
-    ("Logging", "Bag", "rqt_bag", "rqt_bag"),
-    ("Logging", "Console", "rqt_console", "rqt_console"),
-    ("Logging", "Logger Level", "rqt_logger_level", "rqt_logger_level"),
-    ("Miscellaneous Tools", "Python Console", "rqt_py_console", "a cell of the notebook"),
-    ("Miscellaneous Tools", "Shell", "rqt_shell", "a terminal of JupyterLab"),
-    ("Miscellaneous Tools", "Web", "rqt_web", "the browser"),
-    ("Robot Tools", "Controller Manager", "rqt_controller_manager", "not here"),
-    ("Robot Tools", "Diagnostics Viewer", "rqt_robot_monitor", "rostopic echo /diagnostics_agg"),
-    ("Robot Tools", "Joint Trajectory Controller", "rqt_joint_trajectory_controller", "not here"),
-    ("Robot Tools", "MoveIt! Monitor", "rqt_moveit", "not here"),
-    ("Robot Tools", "Navigation Viewer", "rqt_nav_view", "rviz"),
-    ("Robot Tools", "Robot Steering", "rqt_robot_steering", "rqt_robot_steering"),
-    ("Robot Tools", "Runtime Monitor", "rqt_runtime_monitor", "rostopic echo /diagnostics"),
-    ("Services", "Service Caller", "rqt_service_caller", "rqt_service_caller"),
-    ("Services", "Service Type Browser", "rqt_srv", "rqt_srv"),
-    ("Topics", "Message Publisher", "rqt_publisher", "rqt_publisher"),
-    ("Topics", "Message Type Browser", "rqt_msg", "rqt_msg"),
-    ("Topics", "Topic Monitor", "rqt_topic", "rqt_topic"),
-    ("Visualization", "Image View", "rqt_image_view", "rqt_image_view"),
-    ("Visualization", "Plot", "rqt_plot", "rqt_plot"),
-    ("Visualization", "Pose View", "rqt_pose_view", "simulator.show3d()"),
-    ("Visualization", "RViz", "rqt_rviz", "rviz"),
-    ("Visualization", "TF Tree", "rqt_tf_tree", "rqt_tf_tree"),
+
+class Entry(NamedTuple):
+    """A line of the menu: group, name, package, and what serves here: the same tool, or another means to the end."""
+
+    group: str
+    name: str
+    package: str
+    here: str
+
+
+OTHERS = (
+    Entry("Configuration", "Launch", "rqt_launch", "roslaunch"),
+    Entry("Introspection", "Package Graph", "rqt_dep", "rospack depends"),
+    Entry("Introspection", "Process Monitor", "rqt_top", "top"),
+    Entry("Miscellaneous Tools", "Python Console", "rqt_py_console", "a cell of the notebook"),
+    Entry("Miscellaneous Tools", "Shell", "rqt_shell", "a terminal of JupyterLab"),
+    Entry("Miscellaneous Tools", "Web", "rqt_web", "the browser"),
+    Entry("Robot Tools", "Controller Manager", "rqt_controller_manager", "not here"),
+    Entry("Robot Tools", "Diagnostics Viewer", "rqt_robot_monitor", "rostopic echo /diagnostics_agg"),
+    Entry("Robot Tools", "Joint Trajectory Controller", "rqt_joint_trajectory_controller", "not here"),
+    Entry("Robot Tools", "MoveIt! Monitor", "rqt_moveit", "not here"),
+    Entry("Robot Tools", "Navigation Viewer", "rqt_nav_view", "rviz"),
+    Entry("Robot Tools", "Runtime Monitor", "rqt_runtime_monitor", "rostopic echo /diagnostics"),
+    Entry("Visualization", "Pose View", "rqt_pose_view", "simulator.show3d()"),
+    Entry("Visualization", "RViz", "rqt_rviz", "rviz"),
 )
-"""Group, name in the menu, package, and what serves here: the same tool, or another way to the same end."""
+"""Plugins of the real rqt that are not in this package."""
+
+
+@cache
+def menu() -> tuple[Entry, ...]:
+    """Return all plugins, sorted by group and name."""
+    own = (Entry(each.group, each.heading, each.tool, each.tool) for each in plugins() if each.group)
+    return tuple(sorted((*OTHERS, *own)))
 
 
 def rqt_plugins() -> Table:
     """Show the table of plugins."""
-    return Table(COLUMNS, PLUGINS, title="rqt's plugins", noun="plugin")
+    return Table(("Group", "Plugin", "Package", "Here"), menu(), title="rqt's plugins", noun="plugin")

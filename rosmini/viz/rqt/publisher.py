@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.names import resolve
@@ -111,9 +111,9 @@ class MessagePublisher(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_publisher"
-    heading: ClassVar[str] = "Message Publisher"
-    plugin: ClassVar[str] = "rqt_publisher/Publisher"
+    tool, heading, plugin = "rqt_publisher", "Message Publisher", "rqt_publisher/Publisher"
+    group, summary = "Topics", "publish on topics, from a form"
+    instead = "rostopic pub -r 10 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.2}}'"
 
     def __init__(self, graph: Graph, *, name: str | None = None) -> None:
         super().__init__(graph, name=name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.dynamic_reconfigure import Client, Config
 from rosmini.core.errors import ROSException, nearest
@@ -40,9 +40,10 @@ class DynamicReconfigure(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_reconfigure"
-    heading: ClassVar[str] = "Dynamic Reconfigure"
-    plugin: ClassVar[str] = "rqt_reconfigure/Param"
+    tool, heading, plugin = "rqt_reconfigure", "Dynamic Reconfigure", "rqt_reconfigure/Param"
+    group, summary = "Configuration", "parameters of running nodes, from a form"
+    usage, takes = "[NODE]", "node"
+    instead = "rosservice call /NODE/set_parameters VALUES"
 
     def __init__(self, graph: Graph, server: str = "", *, name: str | None = None) -> None:
         super().__init__(graph, name=name)

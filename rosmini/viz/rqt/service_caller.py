@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ServiceException, TransportException, nearest
 from rosmini.ros.introspection.fields import service_class_of
@@ -45,9 +45,10 @@ class ServiceCaller(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_service_caller"
-    heading: ClassVar[str] = "Service Caller"
-    plugin: ClassVar[str] = "rqt_service_caller/ServiceCaller"
+    tool, heading, plugin = "rqt_service_caller", "Service Caller", "rqt_service_caller/ServiceCaller"
+    group, summary = "Services", "call services, from a form"
+    usage, takes = "[SERVICE]", "service"
+    instead = "rosservice call /SERVICE VALUES"
 
     def __init__(self, graph: Graph, service: str = "", *, name: str | None = None) -> None:
         super().__init__(graph, name=name)

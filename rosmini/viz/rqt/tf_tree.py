@@ -26,17 +26,23 @@ class TfTree(Panel):
     """The tree of frames, as it is now (http://wiki.ros.org/rqt_tf_tree)."""
 
     tool, heading, plugin = "rqt_tf_tree", "TF Tree", "rqt_tf_tree/RosTfTree"
+    group, summary = "Visualization", "the tree of frames"
+    example, listen_s = "--duration 3", 2.0
 
     def __init__(self, graph: Graph, *, name: str | None = None) -> None:
         super().__init__(graph, name=name)
         self._listener = TransformListener(self.node)
         self._drawn: tuple[float, Picture] | None = None
 
+    def view(self, title: str | None = None) -> Picture:
+        """Return the tree as a picture."""
+        return tf_tree(self._listener, title=title)
+
     def parts(self) -> Sequence[Part]:
         """The tree, drawn again every second."""
         now = self.graph.now().to_sec()
         if self._drawn is None or abs(now - self._drawn[0]) >= REDRAW_S:
-            self._drawn = (now, tf_tree(self._listener))
+            self._drawn = (now, self.view())
         return [bar(Control("refresh", "Refresh", "button")), drawn(self._drawn[1])]
 
     def _operate(self, _key: Sequence[str], _value: Any) -> None:

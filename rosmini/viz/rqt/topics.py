@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from io import BytesIO
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import nearest
 from rosmini.msgs.message import Message
@@ -20,9 +20,12 @@ from .parts import Control, Row, Rows
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
+    from optparse import Values
 
     from rosmini.core.graph import Graph
     from rosmini.core.graph.subscriber import Subscriber
+    from rosmini.core.verbs import Call
+    from rosmini.viz.view import View
 
     from .parts import Part
 
@@ -154,9 +157,12 @@ class TopicMonitor(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_topic"
-    heading: ClassVar[str] = "Topic Monitor"
-    plugin: ClassVar[str] = "rqt_topic/TopicPlugin"
+    tool, heading, plugin = "rqt_topic", "Topic Monitor", "rqt_topic/TopicPlugin"
+    group, summary = (
+        "Topics",
+        "topics with types, bandwidths and rates, and the values of those that are named",
+    )
+    usage, takes, example, listen_s = "[TOPIC...]", "topic", "/odom", 2.0
 
     def __init__(self, graph: Graph, *topics: str, name: str | None = None) -> None:
         super().__init__(graph, name=name)
@@ -164,6 +170,12 @@ class TopicMonitor(Panel):
         self._figures: dict[str, tuple[float, tuple[str, str]]] = {}
         for topic in topics:
             self.hear(topic)
+
+    @classmethod
+    def still(cls, given: Values, call: Call) -> View:
+        """Listen to all topics, and show the last values of those that are named."""
+        words, _ = cls.arguments(given)
+        return rqt_topic(call.graph, expand=words, duration=given.duration, title=given.title or cls.tool)
 
     @property
     def topics(self) -> tuple[str, ...]:

@@ -6,43 +6,26 @@ saved; files of the real rqt can be imported and exported (:mod:`~rosmini.viz.rq
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError, nearest
-from rosmini.viz.rqt.plugins import PLUGINS
 from rosmini.viz.view import ViewError
 
-from .bag import BagTimeline
-from .console import LogConsole
-from .definitions import ActionTypes, MessageTypes, ServiceTypes
-from .graph import NodeGraph
-from .image_view import ImageView
-from .logger_level import LoggerLevel
 from .panel import Panel, bar
 from .parts import Box, Control, Words, within
 from .perspective import Perspective, Running
-from .plot import Plot
-from .publisher import MessagePublisher
-from .reconfigure import DynamicReconfigure
-from .service_caller import ServiceCaller
-from .tf_tree import TfTree
-from .topics import TopicMonitor
+from .plugin import plugins
+from .plugins import menu
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from optparse import Values
     from pathlib import Path
 
     from rosmini.core.graph import Graph
+    from rosmini.core.verbs import Parser
 
     from .parts import Cell, Part
-
-PANELS: tuple[type[Panel], ...] = (
-    ActionTypes, DynamicReconfigure, NodeGraph, BagTimeline, LogConsole, LoggerLevel, ServiceCaller, ServiceTypes,
-    MessagePublisher, MessageTypes, TopicMonitor, ImageView, Plot, TfTree,
-)  # fmt: skip
-"""What can be opened in a window."""
-
-_BY_PACKAGE = {panel.tool: panel for panel in PANELS}
 
 
 class Rqt(Panel):
@@ -64,9 +47,9 @@ class Rqt(Panel):
 
     """
 
-    tool: ClassVar[str] = "rqt_gui"
-    heading: ClassVar[str] = "rqt"
-    plugin: ClassVar[str] = "rqt_gui/rqt_gui"
+    tool, heading, plugin = "rqt_gui", "rqt", "rqt_gui/rqt_gui"
+    summary = "several plugins in one window, with rqt's menus"
+    usage, example, instead = "[PLUGIN...]", "rqt_graph rqt_console", "COMMAND, which it names"
 
     def __init__(
         self, graph: Graph, *plugins: str, perspective: str | Path | None = None, name: str | None = None
@@ -86,13 +69,40 @@ class Rqt(Panel):
         for plugin in plugins:
             self.open(plugin)
 
+    @classmethod
+    def add_options(cls, parser: Parser) -> None:
+        """Add the file."""
+        parser.add_option("--perspective-file", metavar="FILE", help="what runs, as rqt exported it")
+
+    @classmethod
+    def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
+        """Return the plugins and the file."""
+        return given.words, {"perspective": given.perspective_file}
+
+    @classmethod
+    def in_terminal(cls, words: Sequence[str]) -> int:
+        """Name the command of each plugin, and return the exit status."""
+        given, here = cls.parser().parse(words), {entry.package: entry.here for entry in menu()}
+        wanted = list(given.words)
+        if given.perspective_file:
+            wanted = [each.plugin for each in Perspective.read(given.perspective_file).running] + wanted
+        print(
+            "A window of several plugins is for notebooks (%rqt_gui). In a terminal each is a command of its own:"
+        )
+        for plugin in wanted or [each.tool for each in plugins() if each is not cls]:
+            found = here.get(plugin.partition("/")[0], "no plugin of rqt")
+            is_command = found.startswith(("ros", "rqt", "rviz"))
+            print(f"  {plugin}: {'rosmini ' * is_command}{found}")
+        return 2
+
     # -- Plugins and Running ---------------------------------------------------------------------------------------
 
     def open(self, plugin: str) -> Panel:
         """Open a plugin: ``rqt_graph``, ``Node Graph`` or ``rqt_graph/RosGraph``. Raises ``ViewError``."""
         self._require()
-        panel = _BY_PACKAGE.get(_package(plugin))
-        if panel is None:
+        package = _package(plugin)
+        panel = next((each for each in plugins() if each.tool == package and each.group), None)
+        if panel is None or not issubclass(panel, Panel):
             raise ViewError(_absent(plugin))
         self._numbered += 1
         taken = any(isinstance(each, panel) for each in self.running.values())
@@ -163,8 +173,8 @@ class Rqt(Panel):
     def parts(self) -> Sequence[Part]:
         """The menus, and below them a box for each plugin."""
         groups: dict[str, list[str]] = {}
-        for group, name, *_ in PLUGINS:
-            groups.setdefault(group, [""]).append(name)
+        for entry in menu():
+            groups.setdefault(entry.group, [""]).append(entry.name)
         menus = [
             Control(f"plugins/{group}", group, "choice", "", tuple(names)) for group, names in groups.items()
         ]
@@ -226,13 +236,13 @@ class Rqt(Panel):
 def _package(plugin: str) -> str:
     """Return the package of a plugin that is named as in the menu, by its package, or as in a perspective."""
     package = plugin.partition("/")[0]
-    return next((row[2] for row in PLUGINS if row[1].casefold() == plugin.casefold()), package)
+    return next((entry.package for entry in menu() if entry.name.casefold() == plugin.casefold()), package)
 
 
 def _absent(plugin: str) -> str:
     package = _package(plugin)
-    row = next((row for row in PLUGINS if row[2] == package), None)
-    if row is not None:
-        return f"{row[1]} ({package}) is no panel of this window; what serves: {row[3]}"
-    known = [name for row in PLUGINS for name in row[1:3]]
+    for entry in menu():
+        if entry.package == package:
+            return f"{entry.name} ({package}) is not a panel of this window; instead: {entry.here}"
+    known = [name for entry in menu() for name in (entry.name, entry.package)]
     return f"rqt has no plugin {plugin!r:.80}; {nearest(plugin, known) or '`rosmini rqt plugins` lists them'}"

@@ -20,7 +20,8 @@ from rosmini.msgs.sensor_msgs.msg import Image
 from rosmini.msgs.std_msgs.msg import Float64, String
 from rosmini.msgs.tf2_msgs.msg import TFMessage
 from rosmini.ros.bag import Bag
-from rosmini.viz.verbs.rqt import PANELS, RQT, TOOL, Shown
+from rosmini.viz.rqt.plugin import plugins
+from rosmini.viz.verbs.rqt import TOOL, Shown
 
 
 @pytest.fixture
@@ -91,7 +92,10 @@ def test_what_cannot_be_shown_is_said(graph: Graph) -> None:
 
 
 def test_every_command_of_its_own_is_a_verb_and_the_reverse() -> None:
-    assert set(TOOL.verbs) == {*RQT, "plugins"}
+    tools = {plugin.tool for plugin in plugins()}
+    assert {f"rqt_{verb}" for verb in TOOL.verbs} == {*tools, "rqt_plugins"}
+    commands = {name for name in cli.COMMANDS if name.startswith("rqt_")}
+    assert commands == tools, "each tool has an entry point `rqt_NAME` of the group rosmini.verbs"
     result = TOOL.alone("msg").run("std_msgs/String")
     assert str(result) == str(TOOL.run("msg", "std_msgs/String"))
 
@@ -161,11 +165,13 @@ def test_a_window_opens_in_a_notebook_and_a_terminal_names_the_commands(
     ]
 
 
-@pytest.mark.parametrize(("verb", "instead"), [(verb, entry[2]) for verb, entry in PANELS.items()])
+@pytest.mark.parametrize(
+    ("tool", "instead"), [(each.tool, each.instead) for each in plugins() if each.instead and each.group]
+)
 def test_a_terminal_names_the_command_that_does_the_same(
-    verb: str, instead: str, capsys: pytest.CaptureFixture[str]
+    tool: str, instead: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert cli.main([f"rqt_{verb}"]) == 2
+    assert cli.main([tool]) == 2
     assert f"rosmini {instead}" in capsys.readouterr().err
     assert instead.split(maxsplit=1)[0] in cli.COMMANDS
 
@@ -175,7 +181,7 @@ def test_the_table_of_plugins_has_nine_groups_and_names_every_tool_that_is_here(
     assert len({row[0] for row in rows}) == 9
     assert len(rows) == len({row[2] for row in rows})
     assert {row[3] for row in rows if row[3] in cli.COMMANDS} >= {
-        f"rqt_{verb}" for verb in RQT if verb != "gui"
+        plugin.tool for plugin in plugins() if plugin.group
     }
 
 

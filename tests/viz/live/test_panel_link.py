@@ -9,8 +9,8 @@ from types import SimpleNamespace
 import pytest
 
 from rosmini.core.errors import RosminiError
+from rosmini.viz.live.panel_link import REST, PanelLink
 from rosmini.viz.rqt import MessagePublisher
-from rosmini.viz.rqt.panel_link import REST, PanelLink
 from rosmini.viz.view import ViewError
 
 
@@ -183,7 +183,7 @@ def test_a_notebook_gets_a_widget_and_a_page_gets_html(page, monkeypatch):
 
 
 def test_without_anywidget_it_is_said_what_to_install(graph, monkeypatch):
-    for name in ("rosmini.viz.live.page_link", "rosmini.viz.rqt.panel_link"):
+    for name in ("rosmini.viz.live.page_link", "rosmini.viz.live.panel_link"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setitem(sys.modules, "anywidget", None)
     panel = MessagePublisher(graph)
