@@ -36,6 +36,7 @@ Heard = dict[str, list[tuple[Any, ...]]]
 Robots = dict[str, Heard]
 
 
+@pytest.mark.nightly
 def test_the_simulator_is_measured_beside_the_others(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

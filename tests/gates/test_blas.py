@@ -1,8 +1,7 @@
 """What steers a robot or draws a picture calls no BLAS or LAPACK, and no power of numpy's but the square and the root.
 
 Their last bit depends on the processor. Use the products, inverses and eigenvectors of
-`rosmini.core.geometry.products`. A
-line may say why the last bit cannot matter there: `# BLAS: the numbers are integers`.
+`rosmini.core.geometry.products`. A line may give a reason why it may: `# BLAS: the numbers are integers`.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = (
     "assets/generate/meshes",
-    *(f"rosmini/{name}" for name in ("geometry", "navigation", "sim", "tf", "urdf", "viz")),
+    *(f"rosmini/{name}" for name in ("core/geometry", "core/maps", "core/tf", "navigation", "sim", "viz")),
 )
 NAMES = {"convolve", "correlate", "dot", "einsum", "inner", "linalg", "matmul", "tensordot", "vdot", "vecdot"}
 """Functions of numpy that call BLAS, and the module that calls LAPACK."""
@@ -24,6 +23,7 @@ REASON = "# BLAS: "
 
 def sources() -> list[Path]:
     """The files that the rule is for."""
+    assert all((ROOT / folder).is_dir() for folder in FOLDERS)
     return [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py"))]
 
 

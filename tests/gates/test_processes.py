@@ -15,7 +15,7 @@ from ..processes import run, start, wait_until
 
 ROOT = Path(__file__).resolve().parents[2]
 TESTS = ROOT / "tests"
-NOT_TESTS = {TESTS / "scripts", TESTS / "benchmarks"}
+NOT_TESTS = {TESTS / "ros" / "scripts", TESTS / "benchmarks"}
 """In folders below them are scripts as the public writes them, and the programs of `rosmini bench`."""
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="sessions and signals as POSIX has them")

@@ -322,7 +322,7 @@ LINES = (
     Line(
         "9.5",
         "roslaunch turtlebot3_gazebo turtlebot3_world.launch",
-        "test_the_world_of_turtlebot3",
+        "test_one_turtlebot_explores",
         "%roslaunch turtlebot3_gazebo turtlebot3_world.launch model:=burger --check",
         "all is there",
     ),
@@ -337,5 +337,5 @@ LINES = (
         "roslaunch turtlebot3_slam turtlebot3_frontier_exploration.launch",
         "test_one_turtlebot_explores",
     ),
-    Line("9.5", "roslaunch turtlebot3_teleop turtlebot3_teleop_key.launch", "test_the_world_of_turtlebot3"),
+    Line("9.5", "roslaunch turtlebot3_teleop turtlebot3_teleop_key.launch", "test_one_turtlebot_explores"),
 )

@@ -8,6 +8,7 @@ import signal
 import sys
 from contextlib import ExitStack
 from pathlib import Path
+from xmlrpc.client import ServerProxy
 
 import pytest
 
@@ -115,36 +116,19 @@ def test_the_workspace_of_the_report(shell: dict[str, str], tmp_path: Path) -> N
         assert "all is there" in done.stdout, done.stderr
 
 
-@pytest.mark.processes
-@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is sent otherwise there")
-def test_the_world_of_turtlebot3(shell: dict[str, str]) -> None:
-    """9.5: the simulator and the robot in processes of their own, until Ctrl-C; and the keys that would drive it."""
-    env = {**shell, "TURTLEBOT3_MODEL": "burger"}
-    words = [*ROSMINI, "roslaunch", "turtlebot3_gazebo", "turtlebot3_world.launch"]
-    with start(words, env=env) as process:
-        listed = [*ROSMINI, "rosnode", "list"]
-        wait_until(lambda: "/gazebo\n" in run(listed, env=env).stdout, "/gazebo", process)
-        process.send_signal(signal.SIGINT)
-        wait_until(lambda: process.poll() is not None, "the end of the launch")
-    keys = [*ROSMINI, "roslaunch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch", "--check"]
-    assert "all is there" in run(keys, env=env).stdout
-
-
 @pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is sent otherwise there")
 def test_one_turtlebot_explores(shell: dict[str, str]) -> None:
     """9.5: four terminals, one launch in each; the last one starts nodes again, and Ctrl-C ends all of them."""
     env = {**shell, "TURTLEBOT3_MODEL": "burger"}
-
-    def listed() -> str:
-        return run([*ROSMINI, "rosnode", "list"], env=env).stdout
-
-    with ExitStack() as terminals:
+    keys = [*ROSMINI, "roslaunch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch", "--check"]
+    assert "all is there" in run(keys, env=env).stdout
+    with ServerProxy(env["ROS_MASTER_URI"]) as master, ExitStack() as terminals:
         processes = []
         for words, node in TURTLEBOT3:
             process = terminals.enter_context(start([*ROSMINI, "roslaunch", *words.split()], env=env))
-            wait_until(lambda node=node: f"{node}\n" in listed(), node, process)
+            wait_until(lambda node=node: master.lookupNode("/test", node)[0] == 1, node, process)
             processes.append(process)
         for process in reversed(processes):
             process.send_signal(signal.SIGINT)
             wait_until(lambda process=process: process.poll() is not None, "the end of a launch")
-    assert not {node for _, node in TURTLEBOT3} & set(listed().splitlines())
+        assert [node for _, node in TURTLEBOT3 if master.lookupNode("/test", node)[0] == 1] == []
