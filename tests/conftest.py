@@ -125,6 +125,12 @@ def starts_something(item: pytest.Function) -> bool:
     return not FIXTURES.isdisjoint(item.fixturenames)
 
 
+def nightly(*cases: Any) -> list[Any]:
+    """Cases of a parametrised test that run at night only."""
+    rows = (case if isinstance(case, tuple) else (case,) for case in cases)
+    return [pytest.param(*row, marks=pytest.mark.nightly) for row in rows]
+
+
 def left_for_nightly(config: pytest.Config, item: pytest.Item) -> bool:
     """Whether a test is left for `.ci/nightly`: it is marked, and the command line names neither marker nor file."""
     if "nightly" in config.getoption("markexpr") or item.get_closest_marker("nightly") is None:

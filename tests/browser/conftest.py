@@ -6,8 +6,9 @@ import json
 import os
 import shutil
 import sys
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
+from urllib.request import Request, urlopen
 
 import numpy as np
 import pytest
@@ -169,11 +170,11 @@ def notebook(cells):
     }
 
 
-@contextmanager
-def jupyterlab(tmp_path, cells):
-    """Run a JupyterLab with `live.ipynb`, with settings and runtime files of its own; its end is the kernel's."""
+@pytest.fixture(scope="session")
+def jupyterlab(tmp_path_factory):
+    """A JupyterLab with settings and runtime files of its own: its folder and its address."""
+    tmp_path = tmp_path_factory.mktemp("lab")
     (tmp_path / "work").mkdir()
-    (tmp_path / "work" / "live.ipynb").write_text(json.dumps(notebook(cells)), encoding="utf-8")
     port = free_port()
     own = {
         name: str(tmp_path / name.lower())
@@ -206,17 +207,31 @@ def jupyterlab(tmp_path, cells):
     ):
         wait_until(lambda: listens(port), "JupyterLab", server)
         try:
-            yield f"http://127.0.0.1:{port}/lab/tree/live.ipynb?token={TOKEN}"
+            yield tmp_path / "work", f"http://127.0.0.1:{port}"
         finally:
             server.terminate()  # its kernels, which lead sessions of their own, end with it
             server.wait(PATIENCE)
 
 
 @pytest.fixture
-def start_lab(tmp_path):
-    """Start a JupyterLab with a notebook of the given cells; return the notebook's address."""
-    with ExitStack() as stack:
-        yield lambda cells: stack.enter_context(jupyterlab(tmp_path, cells))
+def open_in_lab(jupyterlab):
+    """Write a notebook of the given cells and return its address in JupyterLab; its kernel ends with the test."""
+    folder, server = jupyterlab
+
+    def open_in_lab(cells):
+        name = f"live{len(list(folder.iterdir()))}"
+        (folder / f"{name}.ipynb").write_text(json.dumps(notebook(cells)), encoding="utf-8")
+        # A workspace of its own opens no notebook of a test before.
+        return f"{server}/lab/workspaces/{name}/tree/{name}.ipynb?token={TOKEN}"
+
+    def ask(method, path):
+        headers = {"Authorization": f"token {TOKEN}"}
+        with urlopen(Request(f"{server}/api/{path}", method=method, headers=headers)) as answer:
+            return answer.read()
+
+    yield open_in_lab
+    for kernel in json.loads(ask("GET", "kernels")):
+        ask("DELETE", f"kernels/{kernel['id']}")
 
 
 @pytest.fixture(scope="session")

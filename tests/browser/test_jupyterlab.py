@@ -43,9 +43,9 @@ button
 
 
 @pytest.fixture
-def lab(start_lab):
+def lab(open_in_lab):
     """The address of a JupyterLab with the cells in a notebook."""
-    return start_lab(CELLS)
+    return open_in_lab(CELLS)
 
 
 def test_a_button_publishes_between_cells_and_while_a_cell_is_busy(lab, chromium, shared_tmp):

@@ -29,6 +29,8 @@ from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d, world_3d
 from rosmini.viz.replay import Body, Grid, Grids, Run, Shape, Shapes
 from rosmini.viz.rviz import Scene, turnable
 
+from ..conftest import nightly
+
 pytestmark = pytest.mark.browser
 
 READY = "iframe[data-ready]"
@@ -153,9 +155,20 @@ def node(path):
     return f"viewer.scene_tree.find({path.split('/')!r}).object"
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize(
-    "path", ["deep/er/robot.html", "alone_robot.html", "deep/er/world.html", "alone_world.html"]
+    ("path", "scheme"),
+    [
+        ("deep/er/robot.html", "light"),
+        ("alone_world.html", "dark"),
+        *nightly(
+            ("deep/er/robot.html", "dark"),
+            ("alone_robot.html", "light"),
+            ("alone_robot.html", "dark"),
+            ("deep/er/world.html", "light"),
+            ("deep/er/world.html", "dark"),
+            ("alone_world.html", "light"),
+        ),
+    ],
 )
 def test_the_viewer_draws_the_scene_in_the_colours_of_the_page(open_page, shared_tmp, path, scheme):
     page = open_page(path, scheme=scheme)
@@ -169,7 +182,7 @@ def test_the_viewer_draws_the_scene_in_the_colours_of_the_page(open_page, shared
     assert page.locator("iframe").get_attribute("title") == page.locator("figure").get_attribute("aria-label")
 
 
-@pytest.mark.parametrize("path", ["deep/er/robot.html", "deep/er/urdf.html"])
+@pytest.mark.parametrize("path", ["deep/er/robot.html", *nightly("deep/er/urdf.html")])
 def test_the_drawing_is_what_the_viewer_shows_first(open_page, path, shared_tmp):
     """Both have the same robot at the same place: dark pixels around it."""
     page = open_page(path, width=776)
@@ -184,7 +197,7 @@ def test_the_drawing_is_what_the_viewer_shows_first(open_page, path, shared_tmp)
     assert middles[0] == pytest.approx(middles[1], abs=0.04)
 
 
-@pytest.mark.parametrize("path", ["deep/er/gazebo.html", "alone_gazebo.html"])
+@pytest.mark.parametrize("path", ["deep/er/gazebo.html", *nightly("alone_gazebo.html")])
 def test_equal_robots_share_their_geometry(open_page, path):
     page = open_page(path)
     first, second = (f"meshcat/models/{name}/base_footprint/0/<object>" for name in ("a", "b"))
@@ -198,7 +211,9 @@ def test_equal_robots_share_their_geometry(open_page, path):
     assert apart == pytest.approx(0.3)
 
 
-@pytest.mark.parametrize(("path", "scheme"), [("deep/er/rviz.html", "light"), ("alone_rviz.html", "dark")])
+@pytest.mark.parametrize(
+    ("path", "scheme"), [("deep/er/rviz.html", "light"), *nightly(("alone_rviz.html", "dark"))]
+)
 def test_a_scene_of_rviz_has_its_own_background_a_map_and_words(open_page, shared_tmp, path, scheme):
     page = open_page(path, scheme=scheme)
     page.wait_for_function(
@@ -372,7 +387,7 @@ def test_the_path_that_is_still_to_come_is_not_shown(open_page):
         assert start == pytest.approx((0.0, 0.0), abs=0.02)
 
 
-@pytest.mark.parametrize(("scheme", "width"), [("light", 900), ("dark", 390)])
+@pytest.mark.parametrize(("scheme", "width"), [("light", 900), *nightly(("dark", 390))])
 def test_two_runs_have_one_clock_and_one_bar_and_are_seen_from_the_same_side(
     open_page, shared_tmp, scheme, width
 ):

@@ -20,9 +20,9 @@ CELLS = [
 ]
 
 
-def test_what_is_typed_below_the_cell_is_what_the_script_reads(start_lab, chromium, shared_tmp):
+def test_what_is_typed_below_the_cell_is_what_the_script_reads(open_in_lab, chromium, shared_tmp):
     page = chromium.new_page(viewport={"width": 1280, "height": 1000})
-    page.goto(start_lab(CELLS))
+    page.goto(open_in_lab(CELLS))
     cells = page.locator(".jp-Notebook .jp-CodeCell")
     cells.nth(len(CELLS) - 1).wait_for()
     page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()

@@ -76,9 +76,9 @@ class Lab:
 
 
 @pytest.fixture
-def open_lab(start_lab, chromium):
+def open_lab(open_in_lab, chromium):
     page = chromium.new_page(viewport={"width": 1280, "height": 1500})
-    yield lambda cells: Lab(page, start_lab(cells), cells)
+    yield lambda cells: Lab(page, open_in_lab(cells), cells)
     page.close()
 
 

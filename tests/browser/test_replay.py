@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 import shutil
@@ -21,6 +22,8 @@ from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Cylinder, Obstacle
 from rosmini.viz import style
 from rosmini.viz.replay.encode import replay_data
+
+from ..conftest import nightly
 
 pytestmark = pytest.mark.browser
 
@@ -132,9 +135,13 @@ def count(page, name, palette=style.LIGHT) -> int:
     return page.evaluate(COUNT, [canvas, colour])
 
 
-@pytest.mark.parametrize("width", WIDTHS)
-@pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("form", ["book", "live"])
+FITS = [("book", "light", "desktop"), ("live", "dark", "small")]
+ALL_FITS = itertools.product(("book", "live"), ("light", "dark"), WIDTHS)
+
+
+@pytest.mark.parametrize(
+    ("form", "theme", "width"), [*FITS, *nightly(*(case for case in ALL_FITS if case not in FITS))]
+)
 def test_it_fits_its_page_in_each_theme(write, opened, recording, shared_tmp, form, theme, width):
     page = opened(write(recording, form=form, theme=theme), width=width)
     scrub(page, 6.0)
@@ -438,7 +445,7 @@ def test_in_print_and_without_scripts_the_still_picture_is_there(write, opened, 
     assert page.locator(".rosmini-still svg").is_visible()
 
 
-def test_in_jupyterlab_its_keys_are_its_own(start_lab, chromium, shared_tmp):
+def test_in_jupyterlab_its_keys_are_its_own(open_in_lab, chromium, shared_tmp):
     cells = [
         """
 from rosmini.core.graph import Graph
@@ -457,7 +464,7 @@ recorder.recording().replay()
     page = chromium.new_page(viewport={"width": 1200, "height": 1200})
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
-    page.goto(start_lab(cells))
+    page.goto(open_in_lab(cells))
     found = page.locator(".jp-Notebook .jp-CodeCell")
     found.nth(1).wait_for()
     page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()

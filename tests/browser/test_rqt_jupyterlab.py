@@ -58,10 +58,10 @@ class Lab:
         self.control(number, key).press("Enter")
 
 
-def test_a_service_is_called_and_a_window_publishes_and_plots(start_lab, chromium, shared_tmp):
+def test_a_service_is_called_and_a_window_publishes_and_plots(open_in_lab, chromium, shared_tmp):
     page = chromium.new_page(viewport={"width": 1280, "height": 1800})
     try:
-        lab = Lab(page, start_lab(CELLS))
+        lab = Lab(page, open_in_lab(CELLS))
         lab.run(0)
         lab.run(1)
         lab.write(1, "request/data", "1 < 2")

@@ -24,9 +24,9 @@ view
 
 
 @pytest.fixture
-def lab(start_lab, chromium):
+def lab(open_in_lab, chromium):
     page = chromium.new_page(viewport={"width": 1280, "height": 1600})
-    page.goto(start_lab(CELLS))
+    page.goto(open_in_lab(CELLS))
     page.locator(".jp-Notebook .jp-CodeCell").nth(len(CELLS) - 1).wait_for()
     page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
     yield page

@@ -21,6 +21,8 @@ import pytest
 
 from book.tools import notebooks, solutions
 
+from ..conftest import nightly
+
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 EACH_COMMIT = {"11_nodes_and_master", "60_turtlesim_nodes"}
@@ -57,9 +59,10 @@ def plain_machine() -> dict[str, str]:
 @pytest.fixture(
     scope="module",
     params=[
-        pytest.param(path, marks=[] if path.stem in EACH_COMMIT else pytest.mark.nightly, id=path.stem)
-        for path in CHAPTERS
+        *(path for path in CHAPTERS if path.stem in EACH_COMMIT),
+        *nightly(*(path for path in CHAPTERS if path.stem not in EACH_COMMIT)),
     ],
+    ids=lambda path: path.stem,
 )
 def chapter(request: pytest.FixtureRequest) -> tuple[Any, Any, Any]:
     """A chapter as stored, as it comes out, and its exercises with their solutions, which ran after it."""

@@ -15,6 +15,7 @@ from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.core.graph.transport import LocalTransport
 from rosmini.ros.net.network import tcp
 
+from ...conftest import nightly
 from ...processes import PATIENCE
 from .restless_master import RestlessMaster
 from .wire import is_under_way
@@ -45,7 +46,7 @@ KINDS: dict[str, tuple[Any, bool]] = {
 if sys.platform == "linux":  # whose /proc tells settle() what is under way on a real wire
     KINDS["tcp-wall"] = (tcp(), False)
 
-EACH_COMMIT = {"local-simulated", "bytes-wall"}
+EACH_COMMIT = ("local-simulated", "bytes-wall")
 """Both transports and both clocks; the other pairs run at night."""
 
 
@@ -88,12 +89,7 @@ def close(graph: Graph) -> None:
     assert graph.master.getSystemState("/test")[2] == [[], [], []]
 
 
-@pytest.fixture(
-    params=[
-        pytest.param(kind, marks=[] if kind in EACH_COMMIT else pytest.mark.nightly, id=kind)
-        for kind in KINDS
-    ]
-)
+@pytest.fixture(params=[*EACH_COMMIT, *nightly(*(kind for kind in KINDS if kind not in EACH_COMMIT))])
 def build(request: pytest.FixtureRequest) -> Iterator[Callable[..., Graph]]:
     """Make graphs on the transport and clock of this turn; the options are those of Graph."""
     made: list[Graph] = []

@@ -10,6 +10,7 @@ from rosmini.core.errors import ServiceException
 from rosmini.core.graph import Graph, Node
 from rosmini.msgs import message_class, service_class
 
+from ...conftest import nightly
 from .conftest import close
 from .restless_master import RestlessMaster
 
@@ -86,9 +87,7 @@ def play(seed: int) -> tuple[list[str], int]:
     return crossing.answers, master.lost
 
 
-@pytest.mark.parametrize(
-    "chunk", [0, *(pytest.param(chunk, marks=pytest.mark.nightly) for chunk in range(1, CHUNKS))]
-)
+@pytest.mark.parametrize("chunk", [0, *nightly(*range(1, CHUNKS))])
 def test_nodes_find_each_other_and_crossing_calls_end(chunk: int, capsys: pytest.CaptureFixture[str]) -> None:
     lost = 0
     for seed in range(chunk, SEEDS, CHUNKS):

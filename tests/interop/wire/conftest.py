@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from ...conftest import nightly
 from ..conftest import need_ros
 from .harness import Stage
 
@@ -27,9 +28,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Choose the Masters under which a module's tests run."""
     name = metafunc.module.__name__.rpartition(".")[2]
     each_commit = MASTERS.get(name, ["ours"])
-    masters = [
-        pytest.param(master, marks=[] if master in each_commit else pytest.mark.nightly) for master in BOTH
-    ]
+    masters = [*each_commit, *nightly(*(master for master in BOTH if master not in each_commit))]
     for fixture in {"core", "site"} & set(metafunc.fixturenames):
         metafunc.parametrize(fixture, masters, indirect=True, scope="module")
 
