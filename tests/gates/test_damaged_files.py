@@ -34,7 +34,8 @@ from rosmini.sim.urdf import meshes
 from rosmini.viz.rqt.perspective import Perspective
 from rosmini.viz.rviz.config import Config
 
-ROUNDS = 150
+from ..conftest import nightly
+
 LONGEST = 20_000
 """Characters of an error."""
 LARGEST = 300_000_000
@@ -340,8 +341,9 @@ READERS: dict[str, tuple[str, Callable[[Path], object], list[bytes]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.parametrize("rounds", [30, *nightly(1500)])
 @pytest.mark.parametrize("kind", READERS)
-def test_a_damaged_file_is_read_or_refused(kind, tmp_path, monkeypatch):
+def test_a_damaged_file_is_read_or_refused(kind, rounds, tmp_path, monkeypatch):
     monkeypatch.setenv("STAGEPATH", str(assets_dir() / "ros" / "stage_ros" / "world" / "include"))
     name, read, sound = READERS[kind]
     path = tmp_path / name
@@ -349,7 +351,7 @@ def test_a_damaged_file_is_read_or_refused(kind, tmp_path, monkeypatch):
     read_well = 0
     tracemalloc.start()
     try:
-        for i in range(ROUNDS):
+        for i in range(rounds):
             data = sound[i] if i < len(sound) else damaged(rng.choice(sound), rng)
             path.write_bytes(data)
             try:

@@ -55,9 +55,9 @@ def findings(text: str) -> list[int]:
     tree = ast.parse(text)
     statements = [node.value for node in ast.walk(tree) if isinstance(node, ast.Expr)]
     # What `open` returns and nobody takes is no file.
-    others = [
+    others = {
         each for each in statements if isinstance(each, ast.Call) and ast.unparse(each.func).endswith(".open")
-    ]
+    }
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and node not in others]
     return [call.lineno for call in calls if needs_encoding(call)]
 
