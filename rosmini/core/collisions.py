@@ -1,7 +1,7 @@
-"""Keys with equal hashes: Python hashes numbers predictably, so a file can make its sets and dictionaries quadratic.
+"""Hash collisions: Python hashes numbers predictably, so a file can make its sets and dictionaries quadratic.
 
-``{i * (2**61 - 1) for i in range(20000)}`` compares each number with all the others. Strings are hashed with a secret
-and cannot be made to collide.
+``{i * (2**61 - 1) for i in range(20000)}`` compares each number with all the others. Strings are hashed with a secret,
+so nobody can make them collide.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ from collections.abc import Hashable, Iterable
 __all__ = ["MOST", "collide"]
 
 MOST = 64
-"""How many different keys of one set or dictionary may have the same hash."""
+"""Maximum number of different keys with the same hash in one set or dictionary."""
 
 
 def collide(keys: Iterable[Hashable]) -> bool:
     """Return whether more than `MOST` different keys have the same hash.
 
-    Raises ``TypeError`` for a key that has none.
+    Raises ``TypeError`` for a key that cannot be hashed.
     """
     firsts: dict[int, Hashable] = {}
     others: dict[int, list[Hashable]] = {}

@@ -1,9 +1,9 @@
-"""Every error that rosmini raises on purpose, in one tree.
+"""The errors that rosmini raises, in one hierarchy.
 
-Catch :class:`RosminiError` to catch them all. Where ROS has a name for an error, ours has the same name and the
-same relatives (an ``except rospy.ROSInterruptException`` or an ``except KeyError`` in a script written for rospy
-works as it does there); the others are ours. A message says what happened, what was found instead, and what to do
-next: :func:`nearest` writes the "did you mean" part, :func:`shown` the value that was found.
+Catch :class:`RosminiError` to catch them all. An error that ROS names has the same name and the same base classes
+here (an ``except rospy.ROSInterruptException`` or an ``except KeyError`` in a script written for rospy works as
+in ROS); the other names are ours. A message says what happened, what was found instead, and what to do
+next: :func:`nearest` writes the "did you mean" part, :func:`shown` formats the value that was found.
 """
 
 from __future__ import annotations
@@ -53,10 +53,10 @@ __all__ = [
 
 
 class RosminiError(Exception):
-    """The base of every error in rosmini."""
+    """Base class of all errors in rosmini."""
 
     def _render_traceback_(self) -> list[str]:
-        """What IPython shows."""
+        """Return the traceback that IPython shows."""
         return short_traceback(self)
 
 
@@ -72,15 +72,15 @@ class ROSInitException(ROSException):
 
 
 class ROSSerializationException(ROSException):
-    """A message could not be written to, or read from, the wire."""
+    """A message could not be serialised or deserialised."""
 
 
 class ROSInterruptException(ROSException, KeyboardInterrupt):
-    """A blocking call (sleep, wait, spin) was ended because the node shuts down."""
+    """A blocking call (sleep, wait, spin) ended because the node shuts down."""
 
 
 class ROSTimeMovedBackwardsException(ROSInterruptException):
-    """Simulated time jumped back while a call was sleeping; ``time`` says by how much, in seconds."""
+    """Simulated time jumped back while a call was sleeping; ``time`` is the size of the jump [s]."""
 
     def __init__(self, time: Any) -> None:
         super().__init__("ROS time moved backwards")
@@ -88,7 +88,7 @@ class ROSTimeMovedBackwardsException(ROSInterruptException):
 
 
 class ROSInternalException(RosminiError):
-    """The client library itself failed; a script can do nothing about it."""
+    """The client library itself failed; a script cannot do anything about it."""
 
 
 class TransportException(ROSInternalException):
@@ -96,9 +96,9 @@ class TransportException(ROSInternalException):
 
 
 class TransportInitError(TransportException):
-    """A connection between two nodes could not be made (the header was refused, for instance).
+    """A connection between two nodes could not be established (for example, its header was refused).
 
-    ``header`` has what the refusing end said about itself (``type``, ``md5sum``, ``callerid`` ...), if anything.
+    ``header`` contains the fields sent by the refusing end (``type``, ``md5sum``, ``callerid`` ...), if any.
     """
 
     def __init__(self, message: str = "", header: Mapping[str, str] | None = None) -> None:
@@ -111,26 +111,26 @@ class TransportTerminated(TransportException):
 
 
 class ServiceException(RosminiError):
-    """A service call failed: no server, the handler raised, or the answer did not arrive."""
+    """A service call failed: no server, the handler raised, or no response arrived."""
 
 
 class ServiceRefused(ServiceException):
-    """A handler refuses a request as one in C++ that returns false: the caller gets this text, empty or not, alone."""
+    """A handler refuses a request, as a C++ handler does by returning false: the caller gets only this text."""
 
 
 # ---- genpy's names ----
 
 
 class MessageException(RosminiError):
-    """A message, or the description of one, is wrong."""
+    """A message or its definition is wrong."""
 
 
 class SerializationError(MessageException):
-    """A field of a message holds something that its ROS type cannot hold."""
+    """A field of a message has a value that does not fit its ROS type."""
 
 
 class DeserializationError(MessageException):
-    """Bytes from a wire or a bag are not a message of the type that was expected."""
+    """Bytes from a connection or a bag are not a message of the expected type."""
 
 
 # ---- ours ----
@@ -141,19 +141,19 @@ class IllegalName(RosminiError, ValueError):
 
 
 class InvalidRate(RosminiError, ZeroDivisionError, ValueError):
-    """A rate is not positive (rospy raises ``ZeroDivisionError`` for 0, ``ValueError`` for NaN, and takes the rest)."""
+    """A rate is not positive (rospy raises ``ZeroDivisionError`` for 0, ``ValueError`` for NaN, accepts negative ones)."""
 
 
 class UnknownPackage(RosminiError):
-    """No ROS package of this name is on the package path."""
+    """There is no ROS package of this name on the package path."""
 
 
 class UnknownType(RosminiError):
-    """No message, service or action type of this name is known."""
+    """There is no message, service or action type of this name."""
 
 
 class LocatedError(RosminiError):
-    """Something is wrong in ``file``, at line ``line`` (counted from 1), where these are known."""
+    """An error in ``file``, at line ``line`` (counted from 1), if these are known."""
 
     def __init__(self, message: str, file: str | Path | None = None, line: int | None = None) -> None:
         self.message = message
@@ -167,7 +167,7 @@ class LocatedError(RosminiError):
 
 
 class DefinitionError(LocatedError):
-    """A ``.msg``, ``.srv``, ``.action`` or manifest file is broken."""
+    """A ``.msg``, ``.srv``, ``.action`` or manifest file is wrong."""
 
 
 class MasterUnreachable(ROSException):
@@ -175,37 +175,37 @@ class MasterUnreachable(ROSException):
 
 
 class TypeMismatch(RosminiError):
-    """Two ends of a topic or a service disagree about its type."""
+    """The two ends of a topic or service have different types."""
 
 
 class ParameterError(RosminiError):
-    """A parameter has a value of the wrong type, out of range, or one that ROS cannot hold."""
+    """A parameter has a wrong type, is out of range, or has a value that ROS does not support."""
 
 
 class ParameterOverflow(ParameterError, OverflowError):
-    """A parameter was to be set to an integer of more than 32 bits (rospy raises ``OverflowError``)."""
+    """A parameter was set to an integer of more than 32 bits (rospy raises ``OverflowError``)."""
 
 
 class ParameterTypeError(ParameterError, TypeError):
-    """A parameter was to be set to a kind of value that ROS cannot hold (rospy raises ``TypeError``)."""
+    """A parameter was set to a value of a type that ROS does not support (rospy raises ``TypeError``)."""
 
 
 class ParameterNotSet(ParameterError, KeyError):
-    """A parameter was asked for that nobody has set (rospy raises ``KeyError``)."""
+    """A parameter that is not set was read (rospy raises ``KeyError``)."""
 
-    # KeyError shows the repr of its argument, which would put quotes and "\n" into our sentences.
+    # KeyError shows the repr of its argument, which would add quotes and "\n" to our messages.
     __str__ = Exception.__str__
 
 
 class ScriptError(RosminiError):
-    """A script is not there, is not Python, or failed while it was being loaded."""
+    """A script does not exist, is not Python, or failed while it was loaded."""
 
 
 class CommandError(RosminiError):
-    """A command of ROS's failed: its text is all that a terminal shows, and a cell shows no causes either."""
+    """A ROS command failed. A terminal shows only its message, and a cell omits the causes too."""
 
     def _render_traceback_(self) -> list[str]:
-        """What IPython shows."""
+        """Return the traceback that IPython shows."""
         cause, context, quiet = self.__cause__, self.__context__, self.__suppress_context__
         self.__cause__ = self.__context__ = None
         try:
@@ -215,48 +215,48 @@ class CommandError(RosminiError):
 
 
 class UsageError(CommandError):
-    """A command line that makes no sense."""
+    """A command line is wrong."""
 
 
 class CallbackError(RosminiError):
-    """A callback raised; ``__cause__`` is what it raised."""
+    """A callback raised ``__cause__``."""
 
 
 class DuplicateNode(RosminiError):
-    """A node was shut down because another one registered under the same name."""
+    """A node was shut down because another node registered with the same name."""
 
 
 class GraphEnded(RosminiError):
-    """Nothing more can happen in the graph, so what was waited for will never come."""
+    """No event is left in the graph, so a wait would never end."""
 
 
 _LONGEST_NAME = 300
-"""A longer name is not compared with others."""
+"""Longer names are not compared with others."""
 
 
 def _counts(letters: str, text: str) -> list[int]:
-    """How often each of the letters is in a text."""
+    """Return how often each letter occurs in a text."""
     return [text.count(letter) for letter in dict.fromkeys(letters)]
 
 
 def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
-    """The clause "did you mean ...?" for a mistyped ``name``; empty if no candidate resembles it.
+    """Return the clause "did you mean ...?" for a mistyped ``name``; empty if no candidate is similar.
 
-    Upper and lower case count as alike, and so do equal last parts of names in different namespaces (``/scan`` and
-    ``/robot1/scan``). The answer depends only on the set of candidates, not on their order.
+    The comparison ignores case. Names with equal last parts in different namespaces (``/scan`` and
+    ``/robot1/scan``) count as similar. The result depends only on the set of candidates, not on their order.
 
     >>> nearest("/chater", ["/chatter", "/rosout"])
     'did you mean /chatter?'
     """
     if len(name) > _LONGEST_NAME:
         return ""
-    from difflib import SequenceMatcher  # only needed once something has gone wrong
+    from difflib import SequenceMatcher  # only needed for error messages
 
     wanted = name.lower()
     wanted_base = wanted.rpartition("/")[2]
 
     def ratio(one: str, other: str) -> float:
-        """The ratio of `SequenceMatcher`; 0 if it is certainly too small."""
+        """Return the ratio of `SequenceMatcher`, or 0 if it is certainly too small."""
         if (
             not one
             or not other
@@ -280,7 +280,7 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
 
 
 class Hints:
-    """`nearest` for the notes on one file. Only the first `MOST` names get a hint, since each takes milliseconds."""
+    """`nearest` for the warnings of one file. Only the first `MOST` names get a hint, since each takes milliseconds."""
 
     MOST = 20
 
@@ -288,16 +288,16 @@ class Hints:
         self._count = 0
 
     def __call__(self, name: str, candidates: Iterable[str]) -> str:
-        """The clause of `nearest`, or nothing."""
+        """Return the clause of `nearest`, or an empty text."""
         self._count += 1
         return nearest(name, candidates) if self._count <= self.MOST else ""
 
 
 def shown(value: object, limit: int = 60) -> str:
-    """``repr(value)`` for an error message: one line of at most ``limit`` characters, and cut before it is made.
+    """Return ``repr(value)`` for an error message: one line of at most ``limit`` characters.
 
-    Of a text, a list or a message only as much is looked at as is shown, so a value of a gigabyte costs nothing. Large
-    numbers and arrays are described. What cannot say what it is, because its ``__repr__`` fails, is shown by its class.
+    Only the part that is shown is formatted, so a large value costs nothing. Large numbers and arrays are described
+    instead. A value whose ``__repr__`` fails is shown by its class.
 
     >>> shown("a" * 10**6, 20)
     "'aaaaaaaaaaaaaaaa..."
@@ -309,13 +309,13 @@ def shown(value: object, limit: int = 60) -> str:
 
 
 def _repr(value: Any, room: int) -> str:
-    """``repr(value)``, right in its first ``room`` characters; longer than that if anything was left out."""
+    """Return ``repr(value)``, correct in its first ``room`` characters; longer than that if anything was left out."""
     if isinstance(value, (str, bytes, bytearray)):
         return repr(value[:room])
     if isinstance(value, int) and value.bit_length() > 256:
         return f"<an integer of {value.bit_length()} bits>"
     cls = type(value)
-    parts = getattr(cls, "__match_args__", ())  # messages, data classes and named tuples name their parts
+    parts = getattr(cls, "__match_args__", ())  # messages, data classes and named tuples list their fields here
     if parts:
         named = ((f"{part}=", getattr(value, part, None)) for part in parts)
         return _joined(f"{cls.__name__}(", named, ")", room)
@@ -347,9 +347,9 @@ def _joined(start: str, entries: Iterable[tuple[str, object]], end: str, room: i
 
 
 def short_traceback(error: BaseException) -> list[str]:
-    """The traceback of ``error`` and of its causes as IPython shows it, without the frames of rosmini.
+    """Return the traceback of ``error`` and of its causes as IPython shows it, without the frames of rosmini.
 
-    What is no error of ours keeps those in which it was raised: there it may be a fault of ours.
+    Other errors than rosmini's keep the frame that raised them, since it may be a bug in rosmini.
     """
     from IPython import get_ipython
 

@@ -1,7 +1,7 @@
-"""Actions: goals that take time, report how they get on, and can be cancelled (http://wiki.ros.org/actionlib).
+"""Actions: long-running goals that report progress and can be cancelled (http://wiki.ros.org/actionlib).
 
-The object API, on a :class:`rosmini.core.graph.Node`. What scripts import as ``actionlib`` is the same in rospy's
-style, :mod:`rosmini.ros.rospy.aliases.actionlib`. The two state machines are apart from nodes, in
+This is the object API, on a :class:`rosmini.core.graph.Node`. Scripts import the same in rospy's style as
+``actionlib``: :mod:`rosmini.ros.rospy.aliases.actionlib`. The two state machines do not depend on nodes; they are in
 :mod:`~rosmini.core.actionlib.client_machine` and :mod:`~rosmini.core.actionlib.server_machine`.
 """
 

@@ -1,7 +1,7 @@
 """Action clients with goal handles: http://wiki.ros.org/actionlib.
 
 A client talks to its server over five topics under the action's name: it publishes ``goal`` and ``cancel``, and
-subscribes to ``status``, ``feedback`` and ``result``. That is all there is to an action: no service is called.
+subscribes to ``status``, ``feedback`` and ``result``. An action consists of these topics only; it calls no service.
 """
 
 from __future__ import annotations
@@ -29,22 +29,22 @@ __all__ = ["ActionClient", "ClientGoalHandle"]
 
 LOOK_NS = 10_000_000
 LOOKS = 100
-"""How often, and how many times at most, a server is asked whether it counts a client among its subscribers."""
+"""Interval [ns] and maximum number of the checks whether a server counts a client among its subscribers."""
 
 
 def new_goal_id(node: Node, now: Time) -> str:
-    """Return a goal id in rospy's form, ``/node-number-seconds``; all clients of a node share the numbers."""
+    """Return a new goal id in rospy's form, ``/node-number-seconds``; all clients of a node share one counter."""
     return f"{node.name}-{next(numbers_of(node, 'goal'))}-{now.to_sec():.3f}"
 
 
 def queue_size_of(node: Node, parameter: str, default: int | None) -> int | None:
-    """Return a queue's size as actionlib's parameters set it; what is negative means the default."""
+    """Return the queue size set by actionlib's parameter; a negative value means the default."""
     size = node.get_param(parameter, -1, expect=int)
     return default if size < 0 else int(size)
 
 
 class ClientGoalHandle:
-    """What a client knows about one goal that it sent. Made by :meth:`ActionClient.send_goal`."""
+    """A client's view of one goal that it sent. Made by :meth:`ActionClient.send_goal`."""
 
     def __init__(
         self,
@@ -75,35 +75,35 @@ class ClientGoalHandle:
     def __hash__(self) -> int:
         return hash(self.id)
 
-    # -- what to ask ---------------------------------------------------------------------------------------------
+    # -- queries -------------------------------------------------------------------------------------------------
 
     def get_comm_state(self) -> CommState:
         """Return the state of the client's machine; ``LOST`` after :meth:`reset`."""
         return self.machine.state if self._following else CommState.LOST
 
     def get_goal_status(self) -> Status:
-        """Return the status that the server told last; ``PENDING`` before it told any."""
+        """Return the status that the server reported last; ``PENDING`` before its first report."""
         return Status(self.machine.status) if self.machine.status in _STATUSES else Status.LOST
 
     def get_goal_status_text(self) -> str:
-        """Return the text with which the server explains the status."""
+        """Return the server's explanation of the status."""
         return self.machine.text
 
     def get_result(self) -> Any:
-        """Return the result, None before there is one."""
+        """Return the result, or None if it has not arrived."""
         return self._result
 
     def get_terminal_state(self) -> Status:
-        """Return how the goal ended; warns before it has, and answers ``LOST`` then."""
+        """Return how the goal ended; before its end, log a warning and return ``LOST``."""
         client, status = self._client, self.get_goal_status()
         if self.machine.state is not CommState.DONE:
             client.node.logwarn(f"goal {self.id} has not ended: its client is {self.machine.state.name}")
         return status if status.is_terminal else Status.LOST
 
-    # -- what to do ----------------------------------------------------------------------------------------------
+    # -- actions -------------------------------------------------------------------------------------------------
 
     def cancel(self) -> None:
-        """Ask the server to cancel this goal; what is over, or being cancelled, stays as it is."""
+        """Ask the server to cancel this goal; no effect if it is over or being cancelled."""
         self._client.node.scheduler.on_hub(self._cancel)
 
     def _cancel(self) -> None:
@@ -115,11 +115,11 @@ class ClientGoalHandle:
             client.node.logdebug(f"goal {self.id} is {self.get_comm_state().name}: cancel() has no effect")
 
     def reset(self) -> None:
-        """Stop following this goal: no callback comes any more. The goal itself goes on."""
+        """Stop following this goal: no callback is called any more. The goal itself continues."""
         self._following = False
         self._client.forget(self)
 
-    # -- what happens --------------------------------------------------------------------------------------------
+    # -- events --------------------------------------------------------------------------------------------------
 
     def _moved(self, state: CommState) -> None:
         client = self._client
@@ -133,7 +133,7 @@ class ClientGoalHandle:
             self._client.node.guarded(callback, *arguments, what=f"{what} of {self._client.ns}")
 
     def hear(self, status: Any) -> None:
-        """Take a ``GoalStatus``, or None if the server's list lacks the goal. For the client."""
+        """Handle a ``GoalStatus``, or None if the server's list lacks the goal. Called by the client."""
         if status is not None:
             self._try(self.machine.hear, status)
         elif self.machine.miss():
@@ -142,7 +142,7 @@ class ClientGoalHandle:
             )
 
     def finish(self, action_result: Any) -> None:
-        """Take the result. For the client."""
+        """Handle the result. Called by the client."""
         if self.machine.state is not CommState.DONE:
             self._result = action_result.result
         self._try(self.machine.finish, action_result.status)
@@ -154,7 +154,7 @@ class ClientGoalHandle:
             self._client.node.logerr(f"goal {self.id}: {error}")
 
     def feed(self, feedback: Any) -> None:
-        """Take feedback. For the client."""
+        """Handle feedback. Called by the client."""
         if self.machine.state is not CommState.DONE:
             self._tell(self._feedback_cb, "feedback", self, feedback)
 
@@ -166,12 +166,12 @@ class ActionClient:
     """Sends goals to an action server, any number at a time, and follows each with a handle.
 
     Args:
-        node: whose client it is.
+        node: the client's node.
         ns: the action's name, a graph resource name; the five topics are below it.
         ActionSpec: the action's type, such as ``actionlib_tutorials.msg.FibonacciAction``.
-        numpy: how numeric arrays in feedback and results arrive: as numpy arrays, or as rospy's tuples.
+        numpy: deliver numeric arrays in feedback and results as numpy arrays; if False, as rospy's tuples.
 
-    Raises ``ActionException`` for what is no action type. Goals are followed until they are done, or until
+    Raises ``ActionException`` if ``ActionSpec`` is not an action type. Goals are followed until they are done, or until
     ``handle.reset()``.
 
     """
@@ -203,7 +203,7 @@ class ActionClient:
         return f"<{type(self).__name__} of {self.ns} in {self.node.name}>"
 
     def stop(self) -> None:
-        """Leave the five topics; nothing is followed any more."""
+        """Leave the five topics and stop following all goals."""
         self._goals.clear()
         for end in (self._goal, self._cancel, self._status, self._result, self._feedback):
             end.unregister()
@@ -218,7 +218,7 @@ class ActionClient:
     ) -> ClientGoalHandle:
         """Send a goal and return its handle.
 
-        ``transition_cb(handle)`` is called in each state that the client comes through, ``feedback_cb(handle,
+        ``transition_cb(handle)`` is called for each state that the client enters, ``feedback_cb(handle,
         feedback)`` on feedback. Raises ``ActionException`` for a goal of another type.
         """
         return self.node.scheduler.on_hub(lambda: self._send(goal, transition_cb, feedback_cb))
@@ -239,7 +239,7 @@ class ActionClient:
         return handle
 
     def forget(self, handle: ClientGoalHandle) -> None:
-        """Follow a goal no longer. For its handle."""
+        """Stop following a goal. Called by its handle."""
         self._goals.pop(handle.id, None)
 
     def send_cancel(self, stamp: Time, goal_id: str) -> None:
@@ -259,9 +259,9 @@ class ActionClient:
     # -- the server ----------------------------------------------------------------------------------------------
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
-        """Block until a server is there and all five topics are connected, at both ends.
+        """Block until a server is running and all five topics are connected at both ends.
 
-        False after ``timeout`` (None or 0: no limit).
+        Returns False after ``timeout`` (None or 0: no limit).
         """
         node = self.node
         waiter = node.waiter(f"an action server on {self.ns}")
@@ -275,7 +275,7 @@ class ActionClient:
     wait_for_action_server_to_start = wait_for_server
 
     def _connected(self) -> bool:
-        """Tell whether the node whose status arrived last is at the other end of all the topics."""
+        """Return whether the node that sent the latest status is connected on all five topics."""
         node, server = self.node, self._server
         out = [node.publications.get(end.topic) for end in (self._goal, self._cancel)]
         into = [node.subscriptions.get(end.topic) for end in (self._status, self._result, self._feedback)]
@@ -291,10 +291,10 @@ class ActionClient:
         )
 
     def _wait_until_counted(self) -> bool:
-        """Wait until the server counts this client among its subscribers; return whether it still is connected.
+        """Wait until the server counts this client among its subscribers; return whether it is still connected.
 
-        rospy answers a subscriber a moment before it sends to it: what is published in between never comes, be it the
-        result of a goal that was over at once.
+        rospy answers a subscriber a moment before it sends to it. A message published in between is lost; it may be the
+        result of a goal that ended at once.
         """
         scheduler = self.node.scheduler
         for _ in range(LOOKS):
@@ -306,7 +306,7 @@ class ActionClient:
         return self._connected()
 
     def _is_counted(self) -> bool:
-        """Ask the server's node whom it sends to."""
+        """Ask the server's node whether it sends to this client."""
         node = self.node
         wanted = {end.topic for end in (self._status, self._result, self._feedback)}
         links = node.subscriptions[self._status.topic].connections.values()
@@ -314,7 +314,7 @@ class ActionClient:
         try:
             code, _, rows = node.graph.transport.call(uri, "getBusInfo", node.name)
         except TransportException:
-            return True  # it has gone, or tells nobody: there is nothing to wait for
+            return True  # the node has gone or does not answer: nothing to wait for
         return code != 1 or wanted <= {row[4] for row in rows if row[1:3] == [node.name, "o"]}
 
     def _disconnected(self, peer: str) -> None:
@@ -330,7 +330,7 @@ class ActionClient:
                 "wait with a time-out."
             )
 
-    # -- what arrives --------------------------------------------------------------------------------------------
+    # -- incoming messages ---------------------------------------------------------------------------------------
 
     def _hear(self, statuses: Any) -> None:
         server = (statuses._connection_header or {}).get("callerid", "")

@@ -1,8 +1,8 @@
-"""The client's state machine, driven by what the server says (http://wiki.ros.org/actionlib/DetailedDescription).
+"""The client's state machine, driven by the server's reports (http://wiki.ros.org/actionlib/DetailedDescription).
 
-Pure: statuses in, states out. The server publishes the status of a goal only now and then, so that a client may miss
-some: on hearing ``SUCCEEDED`` while ``PENDING`` it goes through ``ACTIVE`` first, as if it had heard of it.
-:data:`CLIENT_TRANSITIONS` has all of these ways.
+It does no I/O: it takes statuses and returns states. The server publishes a goal's status only now and then, so a
+client may miss some: if it receives ``SUCCEEDED`` while ``PENDING``, it passes through ``ACTIVE`` first.
+:data:`CLIENT_TRANSITIONS` lists all of these paths.
 
 >>> machine = ClientMachine()
 >>> machine.hear(Status.SUCCEEDED)
@@ -42,8 +42,8 @@ _HEARD = (
     Status.ABORTED,
 )
 
-# One row for each state, one column for each status above: through which states it goes. "-": it stays; "!": this
-# cannot be.
+# One row per state, one column per status above: the states to pass through. "-": no change; "!": not
+# allowed.
 _TABLE = """
     WAITING_FOR_GOAL_ACK    P  A  Pr Ap PW PW  ApW AW AW
     PENDING                 -  A  r  Ap W  rW  ApW AW AW
@@ -62,22 +62,22 @@ CLIENT_TRANSITIONS: dict[CommState, dict[Status, tuple[CommState, ...] | None]] 
     }
     for row in _TABLE.strip().splitlines()
 }
-"""For each state and each status heard: through which states the client goes, the last one stays.
+"""For each state and each reported status: the states to pass through; the last one is the new state.
 
-None where that cannot be.
+None if the report is not allowed in that state.
 """
 
 CANCELLABLE = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.PENDING, CommState.ACTIVE})
-"""Where asking for cancellation makes sense; elsewhere the goal is being cancelled already, or over."""
+"""States in which a goal can be cancelled; in the others it is being cancelled already, or over."""
 
 _MAY_BE_UNHEARD = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.WAITING_FOR_RESULT, CommState.DONE})
-"""States where a status list without the goal means nothing: the server has not got it yet, or has forgotten it."""
+"""States in which a status list may lack the goal: the server has not received it yet, or has dropped it."""
 
 
 def path(state: CommState, status: int) -> tuple[CommState, ...]:
-    """Return the states through which a client in ``state`` goes on hearing ``status``; empty if it stays.
+    """Return the states that a client in ``state`` passes through when it receives ``status``; empty for no change.
 
-    Raises ``IllegalTransition`` if a server that keeps to the protocol cannot say so, or if there is no such status.
+    Raises ``IllegalTransition`` if the protocol does not allow ``status`` here, or if there is no such status.
     """
     row = CLIENT_TRANSITIONS.get(state, {})
     if status not in row:
@@ -95,9 +95,9 @@ def path(state: CommState, status: int) -> tuple[CommState, ...]:
 
 
 class ClientMachine:
-    """One goal, as its client knows it.
+    """The state of one goal as its client knows it.
 
-    ``on_transition(state)`` is called in each state that it comes through, in order.
+    ``on_transition(state)`` is called for each state that it enters, in order.
     """
 
     def __init__(self, on_transition: Callable[[CommState], object] | None = None) -> None:
@@ -112,7 +112,7 @@ class ClientMachine:
             self._on_transition(state)
 
     def hear(self, status: int, text: str = "") -> None:
-        """Learn the goal's status. Raises ``IllegalTransition``; when done it hears nothing any more."""
+        """Handle a reported status. Raises ``IllegalTransition``; does nothing once the goal is done."""
         if self.state is CommState.DONE:
             return
         self.status, self.text = status, text
@@ -120,7 +120,7 @@ class ClientMachine:
             self._enter(state)
 
     def miss(self) -> bool:
-        """Learn that the server's list of goals lacks this one; return True if it is therefore lost."""
+        """Handle a list of goals without this one; return True if the goal is therefore lost."""
         if self.state in _MAY_BE_UNHEARD:
             return False
         self.status = Status.LOST
@@ -128,9 +128,9 @@ class ClientMachine:
         return True
 
     def finish(self, status: int, text: str = "") -> None:
-        """Learn of the result, which comes with the last status.
+        """Handle the result, which contains the final status.
 
-        Raises ``IllegalTransition``, and is done all the same.
+        Raises ``IllegalTransition``, but is done nevertheless.
         """
         if self.state is CommState.DONE:
             raise IllegalTransition(
@@ -143,7 +143,7 @@ class ClientMachine:
             self._enter(CommState.DONE)
 
     def cancel(self) -> bool:
-        """Ask for cancellation; False if that makes no sense in this state, and nothing happens."""
+        """Ask for cancellation; return False, without effect, if this state does not allow it."""
         if self.state not in CANCELLABLE:
             return False
         self._enter(CommState.WAITING_FOR_CANCEL_ACK)

@@ -1,4 +1,4 @@
-"""What goes wrong with actions."""
+"""Errors of actions."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ __all__ = ["ActionException", "IllegalTransition"]
 
 
 class ActionException(RosminiError):
-    """An action client or server was used in a way that it cannot be used in; actionlib's name."""
+    """An action client or server was used in an unsupported way; actionlib's name."""
 
 
 class IllegalTransition(ActionException):
-    """A state machine was asked for a step that it does not have."""
+    """The state machine has no such transition from its current state."""

@@ -1,4 +1,4 @@
-"""Names for goals that come without one, sent by hand with ``rostopic pub``."""
+"""Ids for goals that arrive without one, such as those sent with ``rostopic pub``."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ __all__ = ["GoalIDGenerator", "numbers_of"]
 
 
 def numbers_of(node: Node, of: str) -> Iterator[int]:
-    """Return the numbers 1, 2, ... that a node gives to what it makes of one kind, for all its clients and servers."""
+    """Return a node's counter (1, 2, ...) of one kind of id, shared by all its clients and servers."""
     numbers: Iterator[int] = vars(node).setdefault(f"_{of}_numbers", count(1))
     return numbers
 
 
 class GoalIDGenerator:
-    """Makes ids in the form ``name-number-secs.nsecs``, stamped with the node's time.
+    """Makes ids of the form ``name-number-secs.nsecs``, stamped with the node's time.
 
-    ``name`` is the node's unless given.
+    ``name`` is the node's name by default.
     """
 
     def __init__(self, node: Node, name: str | None = None) -> None:
@@ -32,7 +32,7 @@ class GoalIDGenerator:
         self.name = node.name if name is None else name
 
     def set_name(self, name: str) -> None:
-        """Begin ids with ``name`` from now on."""
+        """Start ids with ``name`` from now on."""
         self.name = name
 
     def generate_ID(self) -> Any:

@@ -1,7 +1,7 @@
 """Action servers with goal handles: http://wiki.ros.org/actionlib.
 
-The server decides what becomes of a goal, and publishes the list of its goals on ``status``: on each change, and five
-times a second.
+The server decides the outcome of each goal, and publishes the list of its goals on ``status``: after each change, and
+five times a second.
 """
 
 from __future__ import annotations
@@ -32,36 +32,36 @@ if TYPE_CHECKING:
 __all__ = ["ActionServer", "ServerGoalHandle"]
 
 STATUS_HZ = 5.0
-"""How often the list of goals is published."""
+"""Rate at which the list of goals is published [Hz]."""
 
 STATUS_LIST_TIMEOUT = 5.0
-"""How long a goal that is over stays in the list [s], so that every client hears of its end."""
+"""How long a finished goal stays in the list [s], so that every client learns of its end."""
 
 SHARE = 16
-"""A list of n goals is published after n/16 changes at the latest; after each change if nothing else is due."""
+"""A list of n goals is published after n/16 changes at most; after each change if no other work is due."""
 
 STALE = "it was sent at or before the time up to which goals were cancelled"
-"""Why a goal is refused that arrives after its own cancellation."""
+"""Text for a goal that arrives after it was cancelled."""
 
 
 class ActionServer:
-    """Takes goals, any number at a time, and hands each to ``goal_cb(handle)``.
+    """Accepts any number of goals at a time, and passes each to ``goal_cb(handle)``.
 
     Args:
-        node: whose server it is.
+        node: the server's node.
         ns: the action's name; the five topics are below it.
         ActionSpec: the action's type, such as ``actionlib_tutorials.msg.FibonacciAction``.
-        goal_cb: gets the handle of each new goal, and sooner or later decides: accepted, rejected, and how it ends.
-        cancel_cb: gets the handle of each goal of which cancellation is asked.
-        auto_start: start at once; else :meth:`start` does.
-        numpy: how numeric arrays in goals arrive: as numpy arrays, or as rospy's tuples.
-        strict: whether illegal steps raise; as the graph if not given.
-        handle_class: of which class the handles are.
+        goal_cb: called with the handle of each new goal; accepts or rejects it, and later ends it.
+        cancel_cb: called with the handle of each goal that a client asks to cancel.
+        auto_start: start at once; otherwise call :meth:`start`.
+        numpy: deliver numeric arrays in goals as numpy arrays; if False, as rospy's tuples.
+        strict: raise on illegal transitions; the graph's setting by default.
+        handle_class: the class of the handles.
 
     Parameters (http://wiki.ros.org/actionlib): ``actionlib_status_frequency``, searched upwards from the node [Hz, 5; 0
-    for changes only]; ``<ns>/status_list_timeout`` [s, 5]. Raises ``ActionException`` for what is no action type.
+    for changes only]; ``<ns>/status_list_timeout`` [s, 5]. Raises ``ActionException`` if the type is not an action.
 
-    A goal that is over leaves the list ``status_list_timeout`` after its end.
+    A finished goal is removed from the list ``status_list_timeout`` after its end.
 
     """
 
@@ -90,7 +90,7 @@ class ActionServer:
         self.cancel_callback = cancel_cb
         self._numpy = numpy
         self.lock: AbstractContextManager[Any] = nullcontext()
-        """Held while a goal or a cancellation that arrives is taken; scripts get a lock here (actionlib's ``lock``)."""
+        """Held while an incoming goal or cancellation is handled; scripts get a lock here (actionlib's ``lock``)."""
         self.status_list: list[StatusTracker] = []
         self._by_id: dict[str, StatusTracker] = {}
         self._unpublished = 0
@@ -98,7 +98,7 @@ class ActionServer:
         self._stale_from = inf
         self.status_list_timeout = Duration()
         self.last_cancel = Time()
-        """Up to which stamp goals were cancelled: one that comes later with an older stamp is cancelled, too."""
+        """Goals up to this stamp are cancelled, including those that arrive later with an older stamp."""
         self.id_generator = GoalIDGenerator(node)
         if auto_start:
             self.start()
@@ -107,11 +107,11 @@ class ActionServer:
         return f"<{type(self).__name__} of {self.ns} in {self.node.name}>"
 
     def register_goal_callback(self, cb: Callable[[ServerGoalHandle], object]) -> None:
-        """Hand new goals to ``cb`` from now on."""
+        """Pass new goals to ``cb`` from now on."""
         self.goal_callback = cb
 
     def register_cancel_callback(self, cancel_cb: Callable[[ServerGoalHandle], object]) -> None:
-        """Hand cancellations to ``cancel_cb`` from now on."""
+        """Pass cancellations to ``cancel_cb`` from now on."""
         self.cancel_callback = cancel_cb
 
     @property
@@ -123,10 +123,10 @@ class ActionServer:
         """Return an empty result."""
         return self.types.result()
 
-    # -- beginning and end ---------------------------------------------------------------------------------------
+    # -- start and stop ------------------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Open the five topics. Harmless when repeated."""
+        """Open the five topics. Safe to call again."""
         self.node.scheduler.on_hub(self._start)
 
     def _start(self) -> None:
@@ -163,7 +163,7 @@ class ActionServer:
         return STATUS_HZ if found is None else float(node.get_param(found, expect=float))
 
     def stop(self) -> None:
-        """Leave the five topics; goals stay as they are, and nobody hears of them any more."""
+        """Leave the five topics; goals keep their status, which is no longer published."""
         self.node.scheduler.on_hub(self._stop)
 
     def _stop(self) -> None:
@@ -175,16 +175,16 @@ class ActionServer:
         for end in (self.goal_sub, self.cancel_sub, self.status_pub, self.feedback_pub, self.result_pub):
             end.unregister()
 
-    # -- what is said --------------------------------------------------------------------------------------------
+    # -- outgoing messages ---------------------------------------------------------------------------------------
 
     def complain(self, error: ActionException) -> None:
-        """Raise an error of whoever uses the server, or log it in rospy's style. For the handles."""
+        """Raise an error of the server's user, or log it in rospy's style. Called by the handles."""
         if self.strict:
             raise error
         self.node.logerr(error)
 
     def publish_status(self) -> None:
-        """Publish the list of goals now; those that are over for long enough leave it."""
+        """Publish the list of goals now, without those that have been over for long enough."""
         now = self.node.now()
         self._drop_stale(now)
         self._unpublished = 0
@@ -194,10 +194,10 @@ class ActionServer:
             self.status_pub.publish(message)
 
     def publish_change(self) -> None:
-        """Publish the list of goals because one has changed: at once, or, if it is long, with further changes.
+        """Publish the list of goals after a change: at once, or, if the list is long, together with further changes.
 
-        Each publication costs as much as the list is long. A list that is published after a fixed share of its length
-        has changed costs the same for each goal, however many there are.
+        The cost of each publication grows with the length of the list. By publishing after a fixed share of the list
+        has changed, the cost per goal does not depend on the number of goals.
         """
         self._unpublished += 1
         if self._unpublished * SHARE >= len(self.status_list):
@@ -222,17 +222,17 @@ class ActionServer:
         self._stale_from = min((end for _, end in ends if end >= limit), default=inf)
 
     def end(self, tracker: StatusTracker) -> None:
-        """Note that nothing more is to be told of a goal. For the handles."""
+        """Record the time at which a goal ended. Called by the handles."""
         tracker.handle_destruction_time = now = self.node.now()
         self._stale_from = min(self._stale_from, now.to_nsec())
 
     def publish_result(self, status: Any, result: Any) -> None:
-        """Publish a result, and the list of goals after it. For the handles."""
+        """Publish a result, and the list of goals after it. Called by the handles."""
         self._say("result", status, result)
         self.publish_change()
 
     def publish_feedback(self, status: Any, feedback: Any) -> None:
-        """Publish feedback on the goal of ``status``. For the handles."""
+        """Publish feedback on the goal of ``status``. Called by the handles."""
         self._say("feedback", status, feedback)
 
     def _say(self, part: str, status: Any, content: Any) -> None:
@@ -241,20 +241,20 @@ class ActionServer:
         end: Publisher = self.result_pub if part == "result" else self.feedback_pub
         message = end.message_class(status=status, **{part: content})
         message.header.stamp = self.node.now()
-        if end.num_connections():  # a client that has gone is no reason to warn of lost messages
+        if end.num_connections():  # a client that has left is no reason to warn of lost messages
             end.publish(message)
 
     @property
     def _open(self) -> bool:
         return self.started and not self.node.is_shutdown()
 
-    # -- what arrives --------------------------------------------------------------------------------------------
+    # -- incoming messages ---------------------------------------------------------------------------------------
 
     def _handle(self, tracker: StatusTracker) -> ServerGoalHandle:
         return self.handle_class(tracker, self, tracker.handle_tracker)
 
     def internal_goal_callback(self, action_goal: Any) -> None:
-        """Take what arrives on ``goal``."""
+        """Handle a message on ``goal``."""
         with self.lock:
             self._take(action_goal)
 
@@ -277,16 +277,16 @@ class ActionServer:
         self._by_id[tracker.status.goal_id.id] = tracker
 
     def _take_again(self, known: StatusTracker) -> None:
-        """Take a goal whose id is in the list: sent twice, or cancelled before it came."""
+        """Handle a goal whose id is already listed: it was sent twice, or cancelled before it arrived."""
         if known.status.status == Status.RECALLING:
             known.status.status = Status.RECALLED
-            self.end(known)  # actionlib forgets to, and lists the goal for ever
+            self.end(known)  # actionlib does not, and lists the goal for ever
             self.publish_result(known.status, self.get_default_result())
         elif known.handle_tracker is None:
             self.end(known)
 
     def internal_cancel_callback(self, request: Any) -> None:
-        """Take what arrives on ``cancel``."""
+        """Handle a message on ``cancel``."""
         with self.lock:
             self._cancel(request)
 
@@ -313,7 +313,7 @@ class ActionServer:
             self.node.guarded(self.cancel_callback, handle, what=f"a cancellation of {self.ns}")
 
     def _note_early(self, request: Any) -> None:
-        """Remember the cancellation of a goal that has not arrived yet: topics may overtake one another."""
+        """Remember the cancellation of a goal that has not arrived yet: messages on two topics may change order."""
         note = StatusTracker(self.id_generator, self.node.now(), request, Status.RECALLING)
         self.end(note)
         self._list(note)

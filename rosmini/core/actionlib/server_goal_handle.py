@@ -1,4 +1,4 @@
-"""What a server's author has of a goal: its message, and what to make of it."""
+"""The handle that a server's author gets for a goal: its message, and methods to decide its outcome."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ __all__ = ["GoalServer", "ServerGoalHandle"]
 
 
 class GoalServer(Protocol):
-    """What a handle needs of its server."""
+    """The part of a server that its handles use."""
 
     node: Node
     ns: str
 
     def complain(self, error: ActionException) -> None:
-        """Raise an error of whoever uses the server, or log it."""
+        """Raise an error of the server's user, or log it."""
 
     def get_default_result(self) -> Any:
         """Return an empty result."""
 
     def publish_change(self) -> None:
-        """Publish the list of goals because one has changed."""
+        """Publish the list of goals after a change."""
 
     def end(self, tracker: StatusTracker) -> None:
-        """Note that nothing more is to be told of a goal."""
+        """Record the time at which a goal ended."""
 
     def publish_result(self, status: Any, result: Any) -> None:
         """Publish a result."""
@@ -44,11 +44,11 @@ class GoalServer(Protocol):
 
 
 class ServerGoalHandle:
-    """One goal at the server: its message, its status, and what to make of it.
+    """One goal at the server: its message, its status, and methods to decide its outcome.
 
-    A step that the machine does not have (:mod:`rosmini.core.actionlib.server_machine`) raises ``IllegalTransition``,
-    and one of a handle without a goal ``ActionException``; at a server of rospy's style it is logged as an error and
-    nothing happens, as there.
+    An illegal transition (:mod:`rosmini.core.actionlib.server_machine`) raises ``IllegalTransition``, and a
+    transition of a handle without a goal raises ``ActionException``. A server in rospy's style logs an error instead,
+    as rospy does.
     """
 
     def __init__(
@@ -61,11 +61,11 @@ class ServerGoalHandle:
         self.action_server = action_server
         self.handle_tracker = handle_tracker
         self.goal: Any = None if status_tracker is None else status_tracker.goal
-        """The goal as it came, a message such as ``FibonacciActionGoal``; None for a handle without a goal."""
+        """The action goal as received, such as ``FibonacciActionGoal``; None for a handle without a goal."""
 
     @property
     def status(self) -> Any:
-        """The ``actionlib_msgs/GoalStatus``; an empty one without a goal."""
+        """The ``actionlib_msgs/GoalStatus``; an empty one if there is no goal."""
         tracker = self.status_tracker
         return (
             message_class("actionlib_msgs/GoalStatus")()
@@ -91,19 +91,19 @@ class ServerGoalHandle:
 
     @property
     def state(self) -> Status:
-        """The status as a name."""
+        """The status as an enum member."""
         return Status(self.status.status)
 
     def get_goal(self) -> Any:
-        """Return the goal, a message such as ``FibonacciGoal``; None without a goal."""
+        """Return the goal, a message such as ``FibonacciGoal``, or None."""
         return None if self.goal is None else self.goal.goal
 
     def get_goal_id(self) -> Any:
-        """Return the ``actionlib_msgs/GoalID``; an empty one, and an error in the log, without a goal."""
+        """Return the ``actionlib_msgs/GoalID``; without a goal, log an error and return an empty one."""
         return self.get_goal_status().goal_id
 
     def get_goal_status(self) -> Any:
-        """Return the ``actionlib_msgs/GoalStatus``; an empty one, and an error in the log, without a goal."""
+        """Return the ``actionlib_msgs/GoalStatus``; without a goal, log an error and return an empty one."""
         if self.goal is None:
             self._complain(ActionException("this goal handle has no goal: its id and status are empty"))
         return self.status
@@ -112,30 +112,30 @@ class ServerGoalHandle:
         """Return an empty result."""
         return self._server().get_default_result()
 
-    # -- what the server decides ---------------------------------------------------------------------------------
+    # -- transitions ---------------------------------------------------------------------------------------------
 
     def set_accepted(self, text: str = "") -> None:
-        """Begin with the goal: it is ``ACTIVE``, or ``PREEMPTING`` if its client wants it back already."""
+        """Accept the goal: it becomes ``ACTIVE``, or ``PREEMPTING`` if its client has already cancelled it."""
         self._step(GoalEvent.ACCEPT, text)
 
     def set_rejected(self, result: Any = None, text: str = "") -> None:
-        """Refuse the goal before having begun."""
+        """Reject the goal before it becomes active."""
         self._step(GoalEvent.REJECT, text, result)
 
     def set_succeeded(self, result: Any = None, text: str = "") -> None:
-        """Say that the goal is reached."""
+        """Report that the goal is reached."""
         self._step(GoalEvent.SUCCEED, text, result)
 
     def set_aborted(self, result: Any = None, text: str = "") -> None:
-        """Give the goal up."""
+        """Report that the goal cannot be reached."""
         self._step(GoalEvent.ABORT, text, result)
 
     def set_canceled(self, result: Any = None, text: str = "") -> None:
-        """Stop as asked: ``RECALLED`` if it had not begun, else ``PREEMPTED``."""
+        """Report the goal as cancelled: ``RECALLED`` if it was never active, otherwise ``PREEMPTED``."""
         self._step(GoalEvent.CANCEL, text, result)
 
     def set_cancel_requested(self) -> bool:
-        """Note that a client wants the goal cancelled; False where that changes nothing. For the server."""
+        """Record that a client cancels the goal; return False if that has no effect. Called by the server."""
         if self.goal is None:
             return False
         try:
@@ -146,7 +146,7 @@ class ServerGoalHandle:
         return True
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Tell how far the goal has come: a message such as ``FibonacciFeedback``."""
+        """Publish progress: a message such as ``FibonacciFeedback``."""
         if self.goal is None:
             self._complain(ActionException("publish_feedback() was called on a goal handle that has no goal"))
         else:

@@ -1,7 +1,7 @@
-"""The server's state machine: what may become of a goal (http://wiki.ros.org/actionlib/DetailedDescription).
+"""The server's state machine: the life of a goal (http://wiki.ros.org/actionlib/DetailedDescription).
 
-Pure: a status and an event in, a status out. A client only asks (:attr:`GoalEvent.CANCEL_REQUEST`); all else the server
-decides.
+It does no I/O: it takes a status and an event and returns a status. A client can only request
+(:attr:`GoalEvent.CANCEL_REQUEST`); the server decides everything else.
 
 >>> next_status(Status.PENDING, GoalEvent.ACCEPT).name
 'ACTIVE'
@@ -22,7 +22,7 @@ __all__ = ["SERVER_TRANSITIONS", "GoalEvent", "next_status"]
 
 
 class GoalEvent(Enum):
-    """What can happen to a goal; the values are the methods of a server's goal handle."""
+    """Events in the life of a goal; the values are the methods of a server's goal handle."""
 
     ACCEPT = "set_accepted"
     REJECT = "set_rejected"
@@ -45,11 +45,11 @@ SERVER_TRANSITIONS: dict[GoalEvent, dict[Status, Status]] = {
     },
     GoalEvent.CANCEL_REQUEST: {Status.PENDING: Status.RECALLING, Status.ACTIVE: Status.PREEMPTING},
 }
-"""For each event: from which status to which. What is not here is illegal."""
+"""For each event: old status to new status. Anything else is illegal."""
 
 
 def next_status(status: Status, event: GoalEvent) -> Status:
-    """Return what ``event`` makes of a goal that is ``status``. Raises ``IllegalTransition``."""
+    """Return the status of a goal after ``event``. Raises ``IllegalTransition``."""
     allowed = SERVER_TRANSITIONS[event]
     if status in allowed:
         return allowed[status]

@@ -1,4 +1,4 @@
-"""The client for one goal at a time: http://wiki.ros.org/actionlib."""
+"""The action client that follows one goal at a time: http://wiki.ros.org/actionlib."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ __all__ = ["SimpleActionClient"]
 
 
 class SimpleActionClient:
-    """Sends one goal after another, and follows the latest.
+    """Sends goals and follows the latest.
 
-    Arguments and errors are those of ``ActionClient``; with ``strict`` (as the graph if not
-    given) a question about a goal that was never sent raises ``ActionException``, else it is logged as an error, as in
+    Arguments and errors are those of ``ActionClient``. With ``strict`` (the graph's setting by default) a query
+    before the first goal raises ``ActionException``; otherwise it is logged as an error, as in
     rospy.
     """
 
@@ -43,9 +43,9 @@ class SimpleActionClient:
         return f"<{type(self).__name__} of {self.action_client.ns} in {self.node.name}>"
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
-        """Block until a server is there and all five topics are connected.
+        """Block until a server is running and all five topics are connected.
 
-        False after ``timeout`` (None or 0: no limit).
+        Returns False after ``timeout`` (None or 0: no limit).
         """
         return self.action_client.wait_for_server(timeout)
 
@@ -58,15 +58,15 @@ class SimpleActionClient:
         active_cb: Callable[[], object] | None = None,
         feedback_cb: Callable[[Any], object] | None = None,
     ) -> None:
-        """Send a goal and follow it instead of the one before, which goes on unobserved unless the server preempts it.
+        """Send a goal and follow it instead of the previous one, which continues unless the server preempts it.
 
-        ``active_cb()`` is called when the server has accepted it, ``feedback_cb(feedback)`` on feedback, and
+        ``active_cb()`` is called when the server accepts the goal, ``feedback_cb(feedback)`` on feedback, and
         ``done_cb(state, result)`` once, at the end. Raises ``ActionException`` for a goal of another type.
         """
         self.node.scheduler.on_hub(lambda: self._send(goal, done_cb, active_cb, feedback_cb))
 
     def _send(self, goal: Any, done_cb: Any, active_cb: Any, feedback_cb: Any) -> None:
-        """Send a goal; as one step, so that its end cannot come before it is noted whose end that is."""
+        """Send a goal in one step on the hub, so that it cannot end before ``gh`` and the callbacks are set."""
         self.stop_tracking_goal()
         self._done_cb, self._active_cb, self._feedback_cb = done_cb, active_cb, feedback_cb
         self.simple_state = SimpleGoalState.PENDING
@@ -75,9 +75,9 @@ class SimpleActionClient:
     def send_goal_and_wait(
         self, goal: Any, execute_timeout: Timeout = None, preempt_timeout: Timeout = None
     ) -> Status:
-        """Send a goal, wait for its end, and return how it ended.
+        """Send a goal, wait for its end, and return its final status.
 
-        After ``execute_timeout`` the goal is cancelled, and ``preempt_timeout`` is how long the server gets to obey
+        After ``execute_timeout`` the goal is cancelled; the server then has ``preempt_timeout`` to end it
         (None or 0: no limit).
         """
         self.send_goal(goal)
@@ -91,7 +91,7 @@ class SimpleActionClient:
     def wait_for_result(self, timeout: Timeout = None) -> bool:
         """Block until the goal has ended and ``done_cb`` has returned.
 
-        False after ``timeout`` (None or 0: no limit).
+        Returns False after ``timeout`` (None or 0: no limit).
         """
         if self.gh is None:
             self._complain("wait_for_result() was called, and no goal was sent")
@@ -104,16 +104,16 @@ class SimpleActionClient:
             self._waiting.remove(waiter)
 
     def get_result(self) -> Any:
-        """Return the goal's result; None before there is one."""
+        """Return the goal's result, or None if it has not arrived."""
         if self.gh is None:
             self._complain("get_result() was called, and no goal was sent")
             return None
         return self.gh.get_result()
 
     def get_state(self) -> Status:
-        """Return how the goal is getting on: ``PENDING``, ``ACTIVE`` or how it ended; ``LOST`` when none is followed.
+        """Return the goal's status, such as ``PENDING``, ``ACTIVE`` or its final status; ``LOST`` without a goal.
 
-        One that is being recalled is ``PENDING`` still, and one that is being preempted ``ACTIVE``.
+        As in actionlib, a goal that is being recalled counts as ``PENDING``, and one being preempted as ``ACTIVE``.
         """
         if self.gh is None:
             return Status.LOST
@@ -121,7 +121,7 @@ class SimpleActionClient:
         return {Status.RECALLING: Status.PENDING, Status.PREEMPTING: Status.ACTIVE}.get(status, status)
 
     def get_goal_status_text(self) -> str:
-        """Return the text with which the server explains the goal's status."""
+        """Return the server's explanation of the goal's status."""
         if self.gh is None:
             self._complain("get_goal_status_text() was called, and no goal was sent")
             return "ERROR: get_goal_status_text() was called, and no goal was sent"
@@ -138,17 +138,17 @@ class SimpleActionClient:
         self.action_client.cancel_goals_at_and_before_time(time)
 
     def cancel_goal(self) -> None:
-        """Ask the server to cancel the goal; harmless when there is none or it is over."""
+        """Ask the server to cancel the goal; no effect if there is none or it is over."""
         if self.gh is not None:
             self.gh.cancel()
 
     def stop_tracking_goal(self) -> None:
-        """Forget the goal: no callback comes any more. The goal itself goes on."""
+        """Stop following the goal: no callback is called any more. The goal itself continues."""
         handle, self.gh = self.gh, None
         if handle is not None:
             handle.reset()
 
-    # -- what happens --------------------------------------------------------------------------------------------
+    # -- events --------------------------------------------------------------------------------------------------
 
     def _moved(self, handle: ClientGoalHandle) -> None:
         state = handle.get_comm_state()

@@ -1,4 +1,4 @@
-"""The server for one goal at a time; a new goal preempts it (http://wiki.ros.org/actionlib/DetailedDescription)."""
+"""The action server that works on one goal at a time; a new goal preempts it (DetailedDescription of actionlib)."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ if TYPE_CHECKING:
 __all__ = ["SimpleActionServer"]
 
 BUMPED = "This goal was canceled because another goal was received by the simple action server"
-"""Why a goal is cancelled by the server itself, in the words that clients of real servers know."""
+"""Text for a goal that the server cancels itself, as in the original."""
 
 ACCEPTED = "This goal has been accepted by the simple action server"
-"""The status of a goal that is worked on, in the same words."""
+"""Text for an accepted goal, as in the original."""
 
 
 class SimpleActionServer:
     """Works on one goal at a time.
 
-    With ``execute_cb`` each goal is worked on by ``execute_cb(goal)``, which may block (sleep, wait, call services): it
-    has a lane of its own. It looks at :meth:`is_preempt_requested` now and then, and ends with one of
-    :meth:`set_succeeded`, :meth:`set_aborted` and :meth:`set_preempted`. Without it, ``register_goal_callback`` names
-    what is called when a goal can be taken with :meth:`accept_new_goal`, and ``register_preempt_callback`` what is
-    called when the goal shall stop.
+    With ``execute_cb``, ``execute_cb(goal)`` runs once for each goal, in its own lane, and may block (sleep, wait,
+    call services). It checks :meth:`is_preempt_requested` regularly, and ends with :meth:`set_succeeded`,
+    :meth:`set_aborted` or :meth:`set_preempted`. Without it, register a callback with ``register_goal_callback``,
+    called when :meth:`accept_new_goal` can accept a goal, and one with ``register_preempt_callback``, called when the
+    goal should stop.
 
-    A new goal waits until the current one has ended, and asks it to end; of several that wait, the newest is kept. The
+    A new goal requests preemption of the current one and waits for its end; only the newest waiting goal is kept. The
     other arguments are those of :class:`~rosmini.core.actionlib.ActionServer`.
     """
 
@@ -70,7 +70,7 @@ class SimpleActionServer:
         )
         self.current_goal = handle_class(None, self.action_server)
         self.next_goal = self.current_goal
-        """The goal that arrived last: one that waits, or the current one itself."""
+        """The goal that arrived last: a waiting one, or the current one."""
         self._lane = node.spawn(f"{node.name} execute {self.action_server.ns}")
         if auto_start:
             self.start()
@@ -79,7 +79,7 @@ class SimpleActionServer:
         return f"<{type(self).__name__} of {self.action_server.ns} in {self.node.name}>"
 
     def start(self) -> None:
-        """Open the five topics, unless ``auto_start`` has done so."""
+        """Open the five topics, if ``auto_start`` is False."""
         self.action_server.start()
 
     def stop(self) -> None:
@@ -87,9 +87,9 @@ class SimpleActionServer:
         self.action_server.stop()
 
     def register_goal_callback(self, cb: Callable[[], object]) -> None:
-        """Call ``cb()`` when a new goal is there to be accepted.
+        """Call ``cb()`` when a new goal can be accepted.
 
-        Without effect beside ``execute_cb``, which a warning says.
+        With ``execute_cb`` this has no effect but a warning.
         """
         if self.execute_callback is not None:
             self.node.logwarn(
@@ -100,27 +100,27 @@ class SimpleActionServer:
             self.goal_callback = cb
 
     def register_preempt_callback(self, cb: Callable[[], object]) -> None:
-        """Call ``cb()`` when the current goal shall stop: it was cancelled, or another one arrived."""
+        """Call ``cb()`` when the current goal should stop: it was cancelled, or another one arrived."""
         self.preempt_callback = cb
 
-    # -- the goals -----------------------------------------------------------------------------------------------
+    # -- incoming goals ------------------------------------------------------------------------------------------
 
     def is_new_goal_available(self) -> bool:
-        """Tell whether a goal waits to be accepted."""
+        """Return whether a goal is waiting to be accepted."""
         return self.new_goal
 
     def is_preempt_requested(self) -> bool:
-        """Tell whether the current goal shall stop."""
+        """Return whether the current goal should stop."""
         return self.preempt_request
 
     def is_active(self) -> bool:
-        """Tell whether a goal is being worked on."""
+        """Return whether the server is working on a goal."""
         return self.current_goal.state in (Status.ACTIVE, Status.PREEMPTING)
 
     def accept_new_goal(self) -> Any:
-        """Begin with the goal that waits, and return it; a goal that is still being worked on is preempted.
+        """Accept the waiting goal and return it; a goal still in work is preempted.
 
-        None, and an error (``ActionException`` if strict, else logged), when no goal waits.
+        If no goal is waiting: raises ``ActionException`` if strict, otherwise logs an error and returns None.
         """
         return self.node.scheduler.on_hub(self._accept)
 
@@ -138,22 +138,22 @@ class SimpleActionServer:
         new.set_accepted(ACCEPTED)
         return new.get_goal()
 
-    # -- how the current goal ends -------------------------------------------------------------------------------
+    # -- ending the current goal ---------------------------------------------------------------------------------
 
     def set_succeeded(self, result: Any = None, text: str = "") -> None:
-        """Say that the goal is reached."""
+        """Report that the goal is reached."""
         self._current("set_succeeded", result, text)
 
     def set_aborted(self, result: Any = None, text: str = "") -> None:
-        """Give the goal up."""
+        """Report that the goal cannot be reached."""
         self._current("set_aborted", result, text)
 
     def set_preempted(self, result: Any = None, text: str = "") -> None:
-        """Stop as asked."""
+        """Report that the goal was stopped as requested."""
         self._current("set_canceled", result, text)
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Tell how far the goal has come."""
+        """Publish progress."""
         self._current("publish_feedback", feedback)
 
     def get_default_result(self) -> Any:
@@ -172,14 +172,14 @@ class SimpleActionServer:
             raise ActionException(problem)
         self.node.logerr(problem)
 
-    # -- what arrives --------------------------------------------------------------------------------------------
+    # -- incoming messages ---------------------------------------------------------------------------------------
 
     def internal_goal_callback(self, goal: ServerGoalHandle) -> None:
-        """Take a goal that arrives."""
+        """Handle an incoming goal."""
         stamp = goal.get_goal_id().stamp
         rivals = [other for other in (self.current_goal, self.next_goal) if other.goal is not None]
         if any(stamp < other.get_goal_id().stamp for other in rivals):
-            goal.set_canceled(None, BUMPED)  # it was sent before what is here, and overtaken
+            goal.set_canceled(None, BUMPED)  # it was sent before the present goal, but arrived later
             return
         if self.next_goal.goal is not None and self.next_goal != self.current_goal:
             self.next_goal.set_canceled(None, BUMPED)
@@ -192,7 +192,7 @@ class SimpleActionServer:
             self._lane.submit(self._execute)
 
     def internal_preempt_callback(self, goal: ServerGoalHandle) -> None:
-        """Take a cancellation that arrives."""
+        """Handle an incoming cancellation."""
         if goal == self.current_goal:
             self._request_preemption()
         elif goal == self.next_goal:
@@ -209,14 +209,14 @@ class SimpleActionServer:
     # -- the execute callback ------------------------------------------------------------------------------------
 
     def _execute(self) -> None:
-        """Work on the goal that waits, if it has not been replaced meanwhile. In a lane of its own."""
+        """Run the execute callback for the waiting goal, unless it has been replaced. Runs in its own lane."""
         if not self.new_goal or self.execute_callback is None or self.node.is_shutdown():
             return
         goal = self._accept()
         handle = self.current_goal
         try:
             self.execute_callback(goal)
-        except Exception as error:  # a goal whose work failed is over, and its client has to hear of it
+        except Exception as error:  # a goal whose callback failed is over, and its client must learn of it
             if isinstance(error, ROSInterruptException) and self.node.is_shutdown():
                 return
             self._abort(handle, f"Exception in execute callback: {error}")

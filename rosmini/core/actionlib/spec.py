@@ -1,4 +1,4 @@
-"""The types of which an action is made."""
+"""The message types of an action."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["ActionTypes"]
 
 
 class ActionTypes(NamedTuple):
-    """The classes behind an action class such as ``FibonacciAction``."""
+    """The message classes behind an action class such as ``FibonacciAction``."""
 
     action_goal: Any
     action_result: Any

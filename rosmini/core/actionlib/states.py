@@ -1,4 +1,4 @@
-"""The states that actionlib names: those of a goal, of a client's view of it, and of the simple client.
+"""The states that actionlib names: of a goal, of a client's view of it, and of the simple client.
 
 Numbers and names are those of ``actionlib_msgs/GoalStatus`` and of actionlib's Python classes
 (http://wiki.ros.org/actionlib/DetailedDescription).
@@ -12,11 +12,11 @@ __all__ = ["CommState", "SimpleGoalState", "Status", "TerminalState"]
 
 
 class _Named(IntEnum):
-    """Numbers with names, as actionlib's own classes of constants have them."""
+    """Named numbers, as in actionlib's classes of constants."""
 
     @classmethod
     def to_string(cls, number: int) -> str:
-        """Return the name of a state, ``NO_SUCH_STATE_<number>`` for any other number."""
+        """Return the name of a state, or ``NO_SUCH_STATE_<number>``."""
         try:
             return cls(number).name
         except ValueError:
@@ -24,7 +24,7 @@ class _Named(IntEnum):
 
 
 class Status(_Named):
-    """How a goal is getting on: the constants of ``actionlib_msgs/GoalStatus``."""
+    """Status of a goal: the constants of ``actionlib_msgs/GoalStatus``."""
 
     PENDING = 0
     ACTIVE = 1
@@ -39,7 +39,7 @@ class Status(_Named):
 
     @property
     def is_terminal(self) -> bool:
-        """True for a status that never changes again."""
+        """True if the status can no longer change."""
         return self in _TERMINAL
 
 
@@ -56,7 +56,7 @@ _TERMINAL = frozenset(
 
 
 class TerminalState(_Named):
-    """How a goal can end, with the numbers of :class:`Status`."""
+    """Final status of a goal, with the numbers of :class:`Status`."""
 
     RECALLED = 8
     REJECTED = 5
@@ -67,7 +67,7 @@ class TerminalState(_Named):
 
 
 class CommState(_Named):
-    """What a client knows about its goal: the states of the client's machine."""
+    """A client's view of its goal: the states of the client's machine."""
 
     WAITING_FOR_GOAL_ACK = 0
     PENDING = 1
@@ -78,11 +78,11 @@ class CommState(_Named):
     PREEMPTING = 6
     DONE = 7
     LOST = 8
-    """Of no machine: what a handle that follows no goal any more answers."""
+    """Not a state of the machine: reported by a handle that no longer follows its goal."""
 
 
 class SimpleGoalState(_Named):
-    """The three states that :class:`~rosmini.core.actionlib.SimpleActionClient` makes of them."""
+    """The three states of :class:`~rosmini.core.actionlib.SimpleActionClient`."""
 
     PENDING = 0
     ACTIVE = 1

@@ -1,4 +1,4 @@
-"""What a server's list has of one goal."""
+"""An entry in a server's list of goals."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ __all__ = ["StatusTracker"]
 
 
 class StatusTracker:
-    """One goal in a server's list: its message, its status, and since when nothing more is to be told of it.
+    """One goal in a server's list: its message, its status, and the time of its end.
 
-    Made of an action goal (``FibonacciActionGoal``), which is ``PENDING`` and gets an id and a stamp if it has none; or
-    of an id and a status, for a goal that has not arrived and is cancelled already.
+    Made from an action goal (``FibonacciActionGoal``), which is ``PENDING`` and gets an id and a stamp if it has none;
+    or from an id and a status, for a goal that was cancelled before it arrived.
     """
 
     def __init__(
@@ -33,9 +33,9 @@ class StatusTracker:
         self.id_generator = id_generator
         self.goal: Any = None
         self.handle_tracker: Any = None
-        """The handle that the server made for it first; None as long as it needed none."""
+        """The first handle that the server made for the goal; None before that."""
         self.handle_destruction_time = Time()
-        """Since when it is over; 0 while it is not."""
+        """When the goal ended; 0 before that."""
         self.status = message_class("actionlib_msgs/GoalStatus")()
         if goal_id is not None:
             self.status.goal_id, self.status.status = goal_id, status

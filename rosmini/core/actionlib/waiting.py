@@ -1,4 +1,4 @@
-"""Waiting on a node's own clock, as rospy's time-outs of actions do."""
+"""Timeouts on a node's clock, as in rospy's actions."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 __all__ = ["Timeout", "seconds_of", "wait_on"]
 
 Timeout = float | Duration | None
-"""Seconds; None and zero (rospy's default) are "for ever"."""
+"""Seconds; None and zero (rospy's default) mean no limit."""
 
 AFTER_NS = 10_000_000
-"""How long a wait of a node takes that has been shut down [ns]."""
+"""Duration of a wait on a node that has been shut down [ns]."""
 
 
 def seconds_of(timeout: Timeout) -> float | None:
-    """Return a time-out in seconds, None for "for ever"."""
+    """Return a timeout in seconds, or None for no limit."""
     seconds = timeout.to_sec() if isinstance(timeout, Duration) else timeout
     return seconds or None
 
@@ -30,9 +30,9 @@ def seconds_of(timeout: Timeout) -> float | None:
 def wait_on(node: Node, waiter: Waiter, timeout: Timeout, holds: Callable[[], bool]) -> bool:
     """Block until ``waiter`` is woken, for at most ``timeout`` of the node's time; return ``holds()``.
 
-    A node that shuts down meanwhile ends the wait, as in rospy: what it says then is what holds. A wait that begins
-    later lasts ``AFTER_NS``: a loop around it (``while not client.wait_for_server(timeout)``) does not see the end of
-    its node, and who ends it by force has to get a turn.
+    If the node shuts down meanwhile, the wait ends, as in rospy, and returns ``holds()``. A wait that begins after
+    the shutdown lasts ``AFTER_NS``: a loop around it (``while not client.wait_for_server(timeout)``) does not see the
+    shutdown of its node, and the thread that ends the loop needs a turn.
     """
     is_over = node.is_shutdown()
     seconds = seconds_of(timeout)

@@ -1,7 +1,7 @@
 """Reading ``.cfg`` files: http://wiki.ros.org/dynamic_reconfigure/Tutorials/HowToWriteYourFirstCfgFile.
 
-Such a file is a Python program that ROS runs. Here it is read and never run: each of its statements is one of a list,
-and what they calculate and call goes through :mod:`rosmini.core.expressions`, where only what is listed exists.
+In ROS such a file is a Python program. Here it is parsed and never run: only certain statements are accepted, and their
+expressions and calls are evaluated by :mod:`rosmini.core.expressions`, which allows only listed operations.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from .cfg_generator import Generator
 from .description import KINDS, Description
 
 LARGEST = 1_000_000
-"""Bytes of a ``.cfg`` file."""
+"""Maximum size of a ``.cfg`` file [bytes]."""
 
 MOST_STATEMENTS = 10_000
 
@@ -47,14 +47,14 @@ _SENSOR_LEVELS = Namespace(
 
 @dataclass(frozen=True)
 class CfgFile:
-    """What a ``.cfg`` file describes.
+    """The contents of a ``.cfg`` file.
 
     Attributes:
-        name: that of the module, without ``Config``.
-        line: the line that gives it.
-        tree: the groups and parameters, as generated modules have them in ``config_description``.
-        constants: the value of each constant, by its name.
-        notes: what is odd and yet works, and the line.
+        name: the name of the module, without ``Config``.
+        line: the line that sets the name.
+        tree: the groups and parameters, in the form of ``config_description`` in generated modules.
+        constants: the values of the constants, by name.
+        notes: warnings, each with its line.
 
     """
 
@@ -66,10 +66,10 @@ class CfgFile:
 
 
 def read_cfg(path: Path) -> CfgFile:
-    """Read a ``.cfg`` file. Raises `DefinitionError` with the line for what is not understood or is wrong."""
+    """Read a ``.cfg`` file. Raises `DefinitionError`, with the line, for anything wrong or unsupported."""
     try:
         data = files.read(path, LARGEST)
-        with warnings.catch_warnings():  # of "\d"
+        with warnings.catch_warnings():  # invalid escapes such as "\d"
             warnings.simplefilter("ignore")
             statements = ast.parse(data, str(path)).body
     except OSError as error:
@@ -96,7 +96,7 @@ def read_cfg(path: Path) -> CfgFile:
 
 
 class _Reader:
-    """Reads one statement after another."""
+    """Interprets one statement after another."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -104,7 +104,7 @@ class _Reader:
         self._generator = Generator(path.name, self._budget)
         self._made = False
         self.ended = False
-        """The file has called ``exit``."""
+        """True once the file has called ``exit``."""
         self._names: dict[str, Any] = {}
         self._functions: dict[str, Any] = {**FUNCTIONS, "exit": Function("exit", self._exit)}
         self._functions["quit"] = self._functions["exit"]
@@ -124,7 +124,7 @@ class _Reader:
         }
 
     def read(self, statement: ast.stmt) -> None:
-        """Do what a statement says. Raises `NotAllowed` for what is not understood, and what is wrong in calls."""
+        """Execute one statement. Raises `NotAllowed` if it is not supported, and the errors of the calls in it."""
         self._generator.line = statement.lineno
         match statement:
             case ast.Import(names=names):
@@ -145,7 +145,7 @@ class _Reader:
                 raise NotAllowed(f"the statement `{words}` is not understood")
 
     def result(self) -> CfgFile:
-        """What was read. Raises `DefinitionError` if the file never says so."""
+        """Return the result. Raises `DefinitionError` if the file never calls ``generate``."""
         made = self._generator
         if made.generated is None:
             raise DefinitionError(

@@ -1,4 +1,4 @@
-"""What the statements of a ``.cfg`` file call: a generator of our own, which only takes notes.
+"""The generator that the statements of a ``.cfg`` file call: it only records the calls.
 
 Names, arguments and checks are those of dynamic_reconfigure's ``ParameterGenerator``
 (http://wiki.ros.org/dynamic_reconfigure/Tutorials/HowToWriteYourFirstCfgFile).
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 MOST = 2000
-"""How many parameters, groups or constants a file may have."""
+"""Maximum number of parameters, groups and constants in a file."""
 
 DEEPEST = 20
-"""How deep groups may be nested."""
+"""Maximum nesting depth of groups."""
 
 _NAME = re.compile(r"[a-zA-Z][a-zA-Z0-9_]*\Z")
 _CPP = {"str": "std::string", "int": "int", "double": "double", "bool": "bool"}
@@ -30,23 +30,23 @@ _CPP_CONSTANTS = {**{kind: f"const {name}" for kind, name in _CPP.items()}, "str
 
 
 class Generator:
-    """Notes of what a file describes. Calls raise ``ValueError``, ``TypeError`` or ``RosminiError``: what is wrong."""
+    """The recorded contents of a file. Calls raise ``ValueError``, ``TypeError`` or ``RosminiError``."""
 
     def __init__(self, file: str, budget: Budget) -> None:
         self.file = file
         self.line = 0
-        """The line of the statement that is read."""
+        """The line of the current statement."""
         self.constants: list[dict[str, Any]] = []
         self.notes: list[tuple[str, int]] = []
-        """What is odd and yet works, and the line."""
+        """Warnings, each with its line."""
         self.generated: tuple[str, int] | None = None
-        """The name that ``generate`` was given, and its line."""
+        """The name passed to ``generate``, and its line."""
         self._budget = budget
         self._seen: dict[tuple[str, str], int] = {}
         self.tree = self._group("Default", "", state=True, parent=0)
 
     def namespace(self) -> Namespace:
-        """What ``ParameterGenerator()`` gives."""
+        """Return the result of ``ParameterGenerator()``."""
         members = self._members(self.tree, 0)
         calls: dict[str, Callable[..., Any]] = {
             "const": self._const,
@@ -57,7 +57,7 @@ class Generator:
         return Namespace("gen", members)
 
     def _members(self, tree: dict[str, Any], depth: int) -> dict[str, Any]:
-        """What a group can do."""
+        """Return the methods of a group."""
 
         def add(
             name: str,
@@ -165,7 +165,7 @@ class Generator:
         return 0
 
     def _note(self, what: str, name: str) -> None:
-        """Note a name. Raises ``ValueError`` if it comes twice, or there are too many."""
+        """Record a name. Raises ``ValueError`` if it is a duplicate, or if there are too many."""
         if (what, name) in self._seen:
             first = self._seen[what, name]
             raise ValueError(
@@ -180,7 +180,7 @@ class Generator:
 
 
 def _cpp(kind: str) -> dict[str, str]:
-    """The types of C++, which generated modules name, too."""
+    """Return the C++ type names, which generated modules contain."""
     return {"ctype": _CPP[kind], "cconsttype": _CPP_CONSTANTS[kind]}
 
 
@@ -197,7 +197,7 @@ def _check_name(what: str, name: Any) -> None:
 
 
 def _check_quotes(description: str) -> None:
-    """The real generator refuses them here, so a file with them works on no robot."""
+    """Refuse quotes as the real generator does: a file that contains them works on no robot."""
     if '"' in description or "'" in description:
         raise ValueError(
             f"the description of a constant or enumeration cannot have quotes: {description}"[:200]

@@ -1,4 +1,4 @@
-"""The client: hears of another node's parameters, and changes them."""
+"""The client of another node's parameters: receives their values and changes them."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 _TRUE = ("yes", "true", "t", "1")
 _PATIENCE = 1.0
-"""After how many seconds a client that waits for ever says what it waits for."""
+"""Time after which a client without timeout logs that it is waiting [s]."""
 
 
 class Client:
-    """Changes the parameters of the server ``name`` (usually the name of its node), and hears of changes.
+    """Changes the parameters of the server ``name`` (usually the name of its node), and receives its updates.
 
-    Waits for the server, for at most ``timeout`` seconds of the node's time. ``config_callback(config)`` is called with
-    each new configuration, ``description_callback(parameters)`` with each description. Raises ``ROSException`` after
+    Waits for the server, for at most ``timeout`` seconds of the node's time. ``config_callback(config)`` is called for
+    each new configuration, ``description_callback(parameters)`` for each description. Raises ``ROSException`` after
     the timeout.
     """
 
@@ -73,12 +73,12 @@ class Client:
                 return
         self.node.wait_for_service(service, timeout)
 
-    # -- what the server says ------------------------------------------------------------------------------------
+    # -- received from the server --------------------------------------------------------------------------------
 
     def get_configuration(self, timeout: float | None = None) -> Config | None:
-        """Return the latest configuration; wait for the first.
+        """Return the latest configuration; wait for the first one.
 
-        None after ``timeout`` seconds, or when the node shuts down.
+        Returns None after ``timeout`` seconds, or when the node shuts down.
         """
         self._wait(lambda: self.config is not None, timeout, "configuration")
         return self.config
@@ -86,7 +86,7 @@ class Client:
     def get_parameter_descriptions(self, timeout: float | None = None) -> list[dict[str, Any]] | None:
         """Return a dictionary for each parameter: name, type, default, min, max, level, description, edit_method.
 
-        None as above.
+        Returns None as above.
         """
         self._wait(lambda: self.description is not None, timeout, "description")
         return None if self.description is None else [one.as_dict() for one in self.description.parameters]
@@ -94,7 +94,7 @@ class Client:
     def get_group_descriptions(self, timeout: float | None = None) -> Config | None:
         """Return the tree of groups: id, parent, name, type, state, ``parameters`` as above, and ``groups``.
 
-        None as above.
+        Returns None as above.
         """
         self._wait(lambda: self.description is not None, timeout, "description")
         if self.description is None:
@@ -127,7 +127,7 @@ class Client:
             self._updated(early)
 
     def _updated(self, message: Any) -> None:
-        if self.description is None:  # the two topics may overtake one another
+        if self.description is None:  # messages on two topics may change order
             self._early = message
             return
         self.config = self._decoded(message, self.description)
@@ -145,14 +145,14 @@ class Client:
         values, states = decode_values(message)
         return Config({**values, "groups": group_tree(description.root, states, values)})
 
-    # -- what is asked of it -------------------------------------------------------------------------------------
+    # -- requests ------------------------------------------------------------------------------------------------
 
     def update_configuration(self, changes: Mapping[str, Any]) -> Config:
-        """Change parameters, and states of groups (``{"groups": {name: state}}``); return what holds then.
+        """Change parameters, and states of groups (``{"groups": {name: state}}``); return the new configuration.
 
-        Values become what their parameters are, if they can: the text "2.5" a double, "yes" and "true" a bool, the name
-        in an enumeration its value. Raises ``DynamicReconfigureParameterException`` for a parameter that is not there
-        and a value that cannot become one, ``DynamicReconfigureCallbackException`` if the server refuses.
+        Values are converted to the parameter's type where possible: the text "2.5" to a double, "yes" and "true" to a
+        bool, the name of an enumeration constant to its value. Raises ``DynamicReconfigureParameterException`` for an
+        unknown parameter or an unsuitable value, ``DynamicReconfigureCallbackException`` if the server refuses.
         """
         self._wait(lambda: self.description is not None, None, "description")
         description = self.description
@@ -174,13 +174,13 @@ class Client:
         return self._decoded(answer.config, description)
 
     def close(self) -> None:
-        """Hear of changes no more. Harmless when repeated."""
+        """Stop receiving updates. Safe to call again."""
         for subscriber in self._subscribers:
             subscriber.unregister()
 
     @property
     def config_callback(self) -> Callable[[Config], object] | None:
-        """What is called with each new configuration; when it is set, also with the one that is known already."""
+        """The callback for configurations; when it is set, it is also called with the latest one."""
         return self._config_callback
 
     @config_callback.setter
@@ -191,7 +191,7 @@ class Client:
 
     @property
     def description_callback(self) -> Callable[[list[dict[str, Any]]], object] | None:
-        """What is called with each description; when it is set, also with the one that is known already."""
+        """The callback for descriptions; when it is set, it is also called with the latest one."""
         return self._description_callback
 
     @description_callback.setter
@@ -202,14 +202,14 @@ class Client:
 
 
 def _describe(tree: Config, description: Description) -> None:
-    """Put descriptions where a configuration has values."""
+    """Replace the values in a configuration's tree by the parameters' descriptions."""
     tree["parameters"] = [one.as_dict() for one in description.group(tree["name"]).parameters]
     for inner in tree["groups"].values():
         _describe(inner, description)
 
 
 def _converted(parameter: ReconfigurableParameter, value: Any) -> Any:
-    """Return a value as the parameter's type. Raises ``DynamicReconfigureParameterException`` if it cannot be that."""
+    """Convert a value to the parameter's type. Raises ``DynamicReconfigureParameterException`` if that fails."""
     kind = KINDS[parameter.type]
     if isinstance(value, str) and kind is bool:
         return value.lower() in _TRUE

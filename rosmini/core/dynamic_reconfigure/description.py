@@ -1,6 +1,6 @@
-"""What can be reconfigured: parameters with types, ranges and levels, in groups.
+"""Descriptions of reconfigurable parameters, with types, ranges and levels, in groups.
 
-A :class:`Description` is made from the module that a ``.cfg`` file becomes (its ``config_description``, or that
+A :class:`Description` is made from the module generated from a ``.cfg`` file (its ``config_description``, or that
 dictionary itself: http://wiki.ros.org/dynamic_reconfigure/Tutorials), or from a node's typed parameters,
 :class:`rosmini.core.parameters.Parameters`.
 """
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
 KINDS: dict[str, type] = {"bool": bool, "int": int, "str": str, "double": float}
-"""dynamic_reconfigure's names of types, and Python's types."""
+"""dynamic_reconfigure's type names, with the Python types."""
 
 _RANGES: dict[str, tuple[Any, Any, Any]] = {
     "bool": (False, False, True),
@@ -29,14 +29,14 @@ _RANGES: dict[str, tuple[Any, Any, Any]] = {
     "str": ("", "", ""),
     "double": (0.0, -math.inf, math.inf),
 }
-"""Default, minimum and maximum of a type where a description says nothing."""
+"""Default, minimum and maximum of each type, for descriptions that omit them."""
 
 
 def cast_value(name: str, kind: str, value: Any) -> Any:
     """Return ``value`` as the Python type of ``kind``.
 
-    Raises ``DynamicReconfigureParameterException`` if it is of another type. An int is welcome as a double. Numpy's
-    scalars are taken for Python's.
+    Raises ``DynamicReconfigureParameterException`` for a value of another type. An int is accepted as a double, and
+    numpy's scalars as Python's.
     """
     if hasattr(value, "tolist"):
         value = value.tolist()
@@ -56,12 +56,12 @@ def cast_value(name: str, kind: str, value: Any) -> Any:
 
 @dataclass(frozen=True)
 class ReconfigurableParameter:
-    """One parameter: ``type`` is bool, int, str or double, ``level`` a bit mask.
+    """One parameter: ``type`` is bool, int, str or double, ``level`` is a bit mask.
 
-    The callback is given the bitwise or of the levels of all parameters that changed: so one bit can stand for several
-    parameters, and ``level & bit`` is set if one of them changed.
+    The callback receives the bitwise OR of the levels of all changed parameters. Several parameters may share a bit:
+    ``level & bit`` is non-zero if at least one of them changed.
 
-    ``edit_method`` is the text of a dictionary by which user interfaces show it (an enumeration), or empty.
+    ``edit_method`` is the text of a dictionary for user interfaces (an enumeration), or empty.
     """
 
     name: str
@@ -74,23 +74,23 @@ class ReconfigurableParameter:
     edit_method: str = ""
 
     def clamp(self, value: Any) -> Any:
-        """Return the value nearest to ``value`` in the range.
+        """Return ``value`` limited to the range.
 
-        A text's bound counts only if it is not empty, as in ROS.
+        An empty text as a bound means no limit, as in ROS.
         """
         low, high = (None if bound == "" else bound for bound in (self.min, self.max))
         return limited_value(value, low, high)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return what clients are told of the parameter."""
+        """Return the dictionary that describes the parameter to clients."""
         return {each.name: getattr(self, each.name) for each in fields(self)}
 
 
 @dataclass(frozen=True)
 class ParameterGroup:
-    """Parameters that belong together, and groups within.
+    """A group of parameters, with subgroups.
 
-    ``type`` says how it is shown (``collapse``, ``tab``, ``hide``...).
+    ``type`` tells user interfaces how to show it (``collapse``, ``tab``, ``hide``...).
     """
 
     name: str
@@ -102,16 +102,16 @@ class ParameterGroup:
     groups: tuple[ParameterGroup, ...] = ()
 
     def walk(self) -> Iterator[ParameterGroup]:
-        """Yield this group and all in it, each before those within."""
+        """Yield this group and all its subgroups, parents first."""
         yield self
         for group in self.groups:
             yield from group.walk()
 
 
 class Description:
-    """All parameters of a server. ``root`` is the group of all, which has the number 0.
+    """All parameters of a server. ``root`` is the outermost group, number 0.
 
-    Raises ``DynamicReconfigureParameterException`` for a name that comes twice.
+    Raises ``DynamicReconfigureParameterException`` for a duplicate name.
     """
 
     def __init__(self, root: ParameterGroup) -> None:
@@ -132,7 +132,7 @@ class Description:
                 )
 
     def __getitem__(self, name: str) -> ReconfigurableParameter:
-        """Return a parameter. Raises ``DynamicReconfigureParameterException``, which names similar ones."""
+        """Return a parameter. Raises ``DynamicReconfigureParameterException``, with similar names."""
         try:
             return self._by_name[name]
         except KeyError:
@@ -143,7 +143,7 @@ class Description:
             raise DynamicReconfigureParameterException(f"there is no parameter {name!r}; {hint}") from None
 
     def group(self, name: str) -> ParameterGroup:
-        """Return a group. Raises ``DynamicReconfigureParameterException``, which names similar ones."""
+        """Return a group. Raises ``DynamicReconfigureParameterException``, with similar names."""
         for group in self.groups:
             if group.name == name:
                 return group
@@ -153,24 +153,24 @@ class Description:
 
     @property
     def defaults(self) -> dict[str, Any]:
-        """Each parameter's default."""
+        """Default of each parameter."""
         return {parameter.name: parameter.default for parameter in self.parameters}
 
     @property
     def min(self) -> dict[str, Any]:
-        """Each parameter's least value."""
+        """Minimum of each parameter."""
         return {parameter.name: parameter.min for parameter in self.parameters}
 
     @property
     def max(self) -> dict[str, Any]:
-        """Each parameter's greatest value."""
+        """Maximum of each parameter."""
         return {parameter.name: parameter.max for parameter in self.parameters}
 
     @classmethod
     def of(cls, source: Any) -> Description:
-        """Make one from a description, a ``.cfg`` module, its dictionary, or a class of typed parameters.
+        """Make a description from a ``.cfg`` module, its dictionary, a class of typed parameters, or a description.
 
-        Raises ``DynamicReconfigureParameterException`` for anything else and for what is wrong in it.
+        Raises ``DynamicReconfigureParameterException`` for anything else, and for errors in it.
         """
         if isinstance(source, Description):
             return source
@@ -188,7 +188,7 @@ class Description:
 
 
 class _Numbers:
-    """Numbers for groups that have none."""
+    """Assigns ids to groups that have none."""
 
     def __init__(self) -> None:
         self.next = 0
@@ -219,7 +219,7 @@ def _group_of(tree: Mapping[str, Any], numbers: _Numbers, parent: int = 0) -> Pa
 
 
 def _wanted(one: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what is needed of a parameter's dictionary, which has more in it: lines of files, names of C++ types."""
+    """Return the items of a parameter's dictionary that we use; it also contains file lines and C++ types."""
     return {each.name: one[each.name] for each in fields(ReconfigurableParameter) if each.name in one}
 
 
@@ -233,7 +233,7 @@ def filled_parameter(
     max: Any = None,
     edit_method: str = "",
 ) -> ReconfigurableParameter:
-    """Return a parameter, with what the type says where default, minimum or maximum are None.
+    """Return a parameter; a default, minimum or maximum of None is replaced by that of the type.
 
     The default may be out of the range. Raises ``DynamicReconfigureParameterException`` for a wrong type.
     """
@@ -257,7 +257,7 @@ def _parameter(*args: Any, **named: Any) -> ReconfigurableParameter:
 
 
 def _with_module_values(group: ParameterGroup, module: Any) -> ParameterGroup:
-    """Return the group with a module's ``defaults``, ``min`` and ``max``, which a program may have changed."""
+    """Return the group with a module's ``defaults``, ``min`` and ``max``, which the program may have changed."""
     tables = [
         (field, getattr(module, table, {}))
         for field, table in (("default", "defaults"), ("min", "min"), ("max", "max"))
@@ -282,7 +282,7 @@ _KIND_OF = {python: kind for kind, python in KINDS.items()}
 
 
 def _enumeration(choices: tuple[str, ...], meaning: str) -> str:
-    """Return the ``edit_method`` of a text that is one of ``choices``, as ``.cfg`` files make it."""
+    """Return the ``edit_method`` of a text with these ``choices``, as generated from ``.cfg`` files."""
     constants = [
         {"name": each, "type": "str", "value": each, "description": "", "ctype": "std::string"}
         for each in choices
@@ -291,7 +291,7 @@ def _enumeration(choices: tuple[str, ...], meaning: str) -> str:
 
 
 def _group_of_fields(source: type[Parameters]) -> ParameterGroup:
-    """Return the declared parameters of a class. Namespaces and lists are read only when the node starts."""
+    """Return the declared parameters of a class, without namespaces and lists, which are read only at start-up."""
     members: dict[str, list[ReconfigurableParameter]] = {}
     for declared, python in declared_fields(source):
         about = declared.metadata

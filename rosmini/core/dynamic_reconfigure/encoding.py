@@ -1,4 +1,4 @@
-"""Values and descriptions as messages, and back: http://docs.ros.org/en/api/dynamic_reconfigure/html/index-msg.html."""
+"""Conversion to and from messages: http://docs.ros.org/en/api/dynamic_reconfigure/html/index-msg.html."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _CLASSES = {
 
 
 class Config(dict[str, Any]):
-    """A dictionary whose items are attributes, too: ``config.gain`` is ``config["gain"]``."""
+    """A dictionary whose items are also attributes: ``config.gain`` is ``config["gain"]``."""
 
     def __getattr__(self, name: str) -> Any:
         try:
@@ -34,7 +34,7 @@ class Config(dict[str, Any]):
         self[name] = value
 
     def copy(self) -> Config:
-        """Return a copy; what is in it is shared."""
+        """Return a shallow copy."""
         return Config(self)
 
 
@@ -45,9 +45,9 @@ def _message(name: str, *values: Any) -> Any:
 def group_tree(
     group: ParameterGroup, states: Mapping[str, bool], values: Mapping[str, Any] | None = None
 ) -> Config:
-    """Return the item ``groups`` of a configuration: states of groups, their parameters, and the groups within.
+    """Return the item ``groups`` of a configuration: the states of groups, their parameters, and their subgroups.
 
-    A parameter's value is in ``parameters`` and beside it: ROS's server and client each do one of these.
+    Each value appears in ``parameters`` and beside it, because ROS's server uses one form and its client the other.
     """
     held = {one.name: values[one.name] for one in group.parameters if values and one.name in values}
     return Config(
@@ -73,7 +73,7 @@ def group_states(tree: Mapping[str, Any]) -> dict[str, bool]:
 def encode_values(
     description: Description, values: Mapping[str, Any], states: Mapping[str, bool] | None = None
 ) -> Any:
-    """Return a ``Config`` message of some or all parameters, and of the groups whose states are given."""
+    """Return a ``Config`` message with the given parameters and states of groups."""
     message = _message("Config")
     for name, value in values.items():
         kind = description[name].type
@@ -107,7 +107,7 @@ def encode_description(description: Description) -> Any:
 
 
 def decode_description(message: Any) -> Description:
-    """Return what a ``ConfigDescription`` message describes.
+    """Return the description in a ``ConfigDescription`` message.
 
     Raises ``DynamicReconfigureParameterException`` if it has no group 0.
     """

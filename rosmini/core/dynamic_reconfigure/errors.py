@@ -1,4 +1,4 @@
-"""What goes wrong when parameters are changed; dynamic_reconfigure's names."""
+"""Errors of dynamic_reconfigure, with its names."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from rosmini.core.errors import RosminiError
 
 
 class DynamicReconfigureException(RosminiError):
-    """The base of the others."""
+    """Base class of these errors."""
 
 
 class DynamicReconfigureParameterException(DynamicReconfigureException):
-    """There is no such parameter or group, it cannot have such a value, or its description is wrong."""
+    """There is no such parameter or group, the value is not allowed, or the description is wrong."""
 
 
 class DynamicReconfigureCallbackException(DynamicReconfigureException):

@@ -1,4 +1,4 @@
-"""The server: offers a node's parameters for change, and publishes every change."""
+"""The server: makes a node's parameters changeable, and publishes each change."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ if TYPE_CHECKING:
     from rosmini.core.graph.lanes import Lane
 
 _ALL_LEVELS = -1
-"""The level of the first call: all bits are set."""
+"""Level passed to the first call of the callback: all bits set."""
 
 
 class Server:
-    """Offers parameters of ``node`` for change, in ``namespace`` (the node's private one, if not given).
+    """Makes parameters of ``node`` changeable, in ``namespace`` (by default the node's private one).
 
-    ``type`` is whatever :meth:`Description.of` takes. Values are those on the Parameter Server, else the defaults,
-    limited to their ranges with a warning; a float is rounded where an int is needed, as roscpp does.
-    ``callback(config, level)`` is called with all values, at once and then for each change, and returns the
-    configuration to hold: ``level`` is the bitwise or of the levels of the parameters that changed, 0 if none did, and
-    -1 (all bits set) in the first call. What holds is written to the Parameter Server and published on
+    ``type`` is any source that :meth:`Description.of` accepts. Initial values come from the Parameter Server, or are
+    the defaults. They are limited to their ranges with a warning; a float is rounded for an int, as in roscpp.
+    ``callback(config, level)`` is called with all values, at the start and after each change, and returns the
+    configuration to apply: ``level`` is the bitwise OR of the levels of the changed parameters, 0 if none changed, and
+    -1 (all bits set) in the first call. The new values are written to the Parameter Server and published on
     ``parameter_updates``;
-    ``parameter_descriptions`` has the description, and the service ``set_parameters`` takes changes. Callbacks come one
-    after another. One that fails changes nothing.
+    ``parameter_descriptions`` has the description, and the service ``set_parameters`` accepts changes. The callback is
+    never called twice at the same time. If it fails, nothing changes.
 
-    Raises ``DynamicReconfigureParameterException`` for a wrong description and for a value of a wrong type on the
+    Raises ``DynamicReconfigureParameterException`` for a wrong description or a value of the wrong type on the
     Parameter Server, ``DynamicReconfigureCallbackException`` if the callback returns nothing.
     """
 
@@ -73,9 +73,9 @@ class Server:
     def update_configuration(self, changes: Mapping[str, Any]) -> Config:
         """Change parameters, and states of groups in the item ``groups`` (as in a configuration).
 
-        Return what holds then. A value out of its range is limited. Raises ``DynamicReconfigureParameterException`` for
-        a parameter that is not there or a value of another type, what the callback raises, and
-        ``DynamicReconfigureCallbackException`` if that calls this method or returns nothing.
+        Returns the new configuration. Values are limited to their range. ``DynamicReconfigureParameterException`` is raised
+        for an unknown parameter or a value of another type, the errors of the callback, and
+        ``DynamicReconfigureCallbackException`` if the callback calls this method or returns nothing.
         """
         values = {name: value for name, value in changes.items() if name != "groups"}
         return self._update(values, group_states(changes["groups"]) if "groups" in changes else {})
@@ -95,7 +95,7 @@ class Server:
             return self._change(values, {**group_states(self.config["groups"]), **states}, level)
 
     def _set(self, request: Any) -> Any:
-        """Answer the service."""
+        """Handle a request to the service."""
         config = self._update(*decode_values(request.config))
         return [self._encoded(config)]
 
@@ -151,7 +151,7 @@ class Server:
 
     @contextmanager
     def _alone(self) -> Iterator[None]:
-        """One change after another, also when a callback blocks."""
+        """Run one change at a time, even if a callback blocks."""
         me = self.node.scheduler.current()
         if self._owner is me:
             raise DynamicReconfigureCallbackException(
@@ -172,7 +172,7 @@ class Server:
 
 
 def _prefix(namespace: str) -> str:
-    """Return what comes before the names of topics and parameters: ``~`` or a namespace with ``/`` at its end."""
+    """Return the prefix of the names of topics and parameters: ``~`` or a namespace that ends with ``/``."""
     if not namespace:
         return "~"
     if namespace[0] not in "/~":

@@ -1,9 +1,9 @@
-"""Expressions from outside, confined: Python's arithmetic, comparisons, comprehensions and a list of functions.
+"""Confined evaluation of expressions: Python's arithmetic, comparisons, comprehensions and a list of functions.
 
-Robot descriptions (``${...}`` of xacro), parameter files (``rad(2*pi)``) and ``rosbag filter`` hold expressions that
-ROS hands to Python's ``eval``, which cannot be confined by hiding builtins. Here the syntax tree is walked once and
-becomes functions of our own: kinds of nodes, functions and methods that are not listed do not exist. Attributes of
-values are read by the caller's `Fields`, never by ``getattr``. Sizes and steps are counted before they are spent, so
+Robot descriptions (``${...}`` of xacro), parameter files (``rad(2*pi)``) and ``rosbag filter`` contain expressions
+that ROS passes to Python's ``eval``, which hiding builtins cannot confine. Here the syntax tree is compiled into
+closures. Kinds of nodes, functions and methods that are not listed do not exist. Attributes of
+values are read by the caller's `Fields`, never by ``getattr``. Sizes and steps are counted in advance, so
 ``10**10**10`` and ``'a'*10**9`` are errors.
 """
 

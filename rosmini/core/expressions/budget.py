@@ -1,4 +1,4 @@
-"""The budget of an expression, counted before it is spent, and the errors of expressions."""
+"""The budget of an expression, charged in advance, and the errors of expressions."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ from rosmini.core.collisions import MOST, collide
 from rosmini.core.errors import RosminiError
 
 BITS = 4096
-"""The size of the largest whole number."""
+"""Maximum size of an integer [bits]."""
 
 LARGEST = 1_000_000
-"""How many elements and characters, all told, a value may have that an expression makes."""
+"""Maximum total number of elements and characters in a value."""
 
 STEPS = 2_000_000
-"""How many turns of loops, made elements and made characters an evaluation may cost."""
+"""Maximum number of loop iterations, new elements and new characters of one evaluation."""
 
 STEPS_OF_A_FILE = 200_000
-"""The same for all expressions of a file together, which earn `STEPS_OF_A_CHARACTER` more by their length."""
+"""The same for all expressions of a file together; each character adds `STEPS_OF_A_CHARACTER`."""
 
 STEPS_OF_A_CHARACTER = 10
 
 READ_AT_ONCE = 32
-"""How many elements one of Python's own functions reads while a loop makes one turn."""
+"""Number of elements that a built-in function reads in the time of one loop iteration."""
 
 COMPARED_AT_ONCE = 1024
-"""How many characters one of Python's own searches compares while a loop makes one turn."""
+"""Number of characters that a built-in search compares in the time of one loop iteration."""
 
 BITS_SQUARED = 1 << 18
-"""Arithmetic with whole numbers of so many bits, squared, takes as long as one turn of a loop."""
+"""Arithmetic with integers of this many bits, squared, takes as long as one loop iteration."""
 
 _SHOWN = 60
 _ATOMS = frozenset({bool, float, int, type(None)})
@@ -37,22 +37,22 @@ _VIEWS: tuple[Any, ...] = (type({}.keys()), type({}.values()), type({}.items()))
 _HOLDERS: tuple[Any, ...] = (list, tuple, dict, set, *_VIEWS)
 _NUMBERS = frozenset({bool, float, int})
 _SMALL = 1 << 256
-"""Whole numbers up to this one cost no more than others."""
+"""Integers up to this one cost no more than others."""
 
 
 class ExpressionError(RosminiError):
-    """An expression is not valid, or it failed; ``__cause__`` is Python's error."""
+    """An expression is invalid or failed; ``__cause__`` is Python's error."""
 
     has_spot = False
-    """Whether the message already names the part of the expression."""
+    """True if the message already contains the part of the expression."""
 
 
 class NotAllowed(ExpressionError):
-    """An expression uses what a confined one may not use, or would cost more than it may."""
+    """An expression uses an unsupported feature, or would exceed its budget."""
 
 
 class Budget:
-    """What evaluations may cost together, in steps. By default each evaluation has its own."""
+    """The budget shared by some evaluations, in steps. By default each evaluation has its own."""
 
     __slots__ = ("left",)
 
@@ -60,22 +60,22 @@ class Budget:
         self.left = steps
 
     def earn(self, length: int) -> None:
-        """Allow more for so many characters of a file: a long file may cost more than a short one."""
+        """Extend the budget for ``length`` characters of a file: a long file may cost more than a short one."""
         self.left += STEPS_OF_A_CHARACTER * length
 
     def spend(self, steps: int) -> None:
-        """Raises `NotAllowed` when nothing is left."""
+        """Charge ``steps``. Raises `NotAllowed` when nothing is left."""
         self.left -= steps
         if self.left < 0:
             raise NotAllowed("this would take too many steps")
 
     def read(self, value: Any) -> None:
-        """Pay for one of Python's own functions that looks at all of a value."""
+        """Charge for a built-in function that reads the whole value."""
         kind = type(value)
         if kind is int:
             if not -_SMALL < value < _SMALL:
                 self.compute(value.bit_length())
-        elif kind in _ATOMS:  # most are, in loops
+        elif kind in _ATOMS:  # the usual case in loops
             return
         elif isinstance(value, _HOLDERS):
             self.spend(weight(value) // READ_AT_ONCE)
@@ -83,7 +83,7 @@ class Budget:
             self.spend(len(value) // READ_AT_ONCE)
 
     def made(self, value: Any) -> Any:
-        """Pay for a value that was made, and return it. Raises `NotAllowed` if it is too large."""
+        """Charge for a new value, and return it. Raises `NotAllowed` if it is too large."""
         if isinstance(value, int):
             if not -_SMALL < value < _SMALL:
                 check_bits(value.bit_length())
@@ -93,11 +93,11 @@ class Budget:
         return value
 
     def compute(self, bits: int) -> None:
-        """Pay for arithmetic with whole numbers of so many bits, which takes the square of their length."""
+        """Charge for arithmetic with integers of ``bits`` bits, which takes quadratic time."""
         self.spend(bits * bits // BITS_SQUARED)
 
     def search(self, text: Any, words: Any) -> None:
-        """Pay for one of Python's searches that may compare each character with each."""
+        """Charge for a built-in search that may compare each character with each."""
         if isinstance(text, str | bytes) and isinstance(words, str | bytes):
             self.spend(len(text) * len(words) // COMPARED_AT_ONCE)
 
@@ -108,28 +108,28 @@ class Budget:
         return keys
 
     def room(self, size: int) -> None:
-        """Pay for a value of `size` elements before it is made. Raises `NotAllowed` if it would be too large."""
+        """Charge for a value of `size` elements before it is made. Raises `NotAllowed` if it would be too large."""
         if size > LARGEST:
             raise NotAllowed(f"a value of more than {LARGEST} elements")
         self.spend(size)
 
     def collect(self, values: Iterable[Any]) -> list[Any]:
-        """Make a list of what can be looped over."""
+        """Return a list of the elements of an iterable."""
         if isinstance(values, Collection):
             self.room(len(values))
-        return list(values)  # a loop of ours pays for itself
+        return list(values)  # loops in expressions are charged as they run
 
 
 def check_bits(bits: int) -> None:
-    """Raises `NotAllowed` for a whole number of too many bits."""
+    """Raise `NotAllowed` for an integer of too many bits."""
     if bits > BITS:
         raise NotAllowed(f"a whole number of more than {BITS} bits")
 
 
 def weight(value: Any) -> int:
-    """How many elements and characters a value has, all told; slightly more than `LARGEST` if it is more.
+    """Return the total number of elements and characters in a value; slightly above `LARGEST` if it is larger.
 
-    The digits of large whole numbers count as characters.
+    The digits of large integers count as characters.
     """
     total = 0
     waiting: list[Any] = [value]
@@ -158,5 +158,5 @@ def _digits(value: Any) -> int:
 
 
 def cut(text: str) -> str:
-    """A text, shortened if it is long."""
+    """Return a text, shortened if it is long."""
     return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
