@@ -141,7 +141,7 @@ class IllegalName(RosminiError, ValueError):
 
 
 class InvalidRate(RosminiError, ZeroDivisionError, ValueError):
-    """A rate is not positive (rospy raises ``ZeroDivisionError`` for 0, ``ValueError`` for NaN, accepts negative ones)."""
+    """A rate is not positive (rospy raises ``ZeroDivisionError`` for 0, ``ValueError`` for NaN, else nothing)."""
 
 
 class UnknownPackage(RosminiError):
@@ -315,7 +315,7 @@ def _repr(value: Any, room: int) -> str:
     if isinstance(value, int) and value.bit_length() > 256:
         return f"<an integer of {value.bit_length()} bits>"
     cls = type(value)
-    parts = getattr(cls, "__match_args__", ())  # messages, data classes and named tuples list their fields here
+    parts = getattr(cls, "__match_args__", ())  # fields of messages, data classes, named tuples
     if parts:
         named = ((f"{part}=", getattr(value, part, None)) for part in parts)
         return _joined(f"{cls.__name__}(", named, ")", room)

@@ -1,6 +1,6 @@
-"""Files from outside: looked at before they are read.
+"""Files that users and other programs provide, checked before they are read.
 
-Whatever a path from outside names: testing it raises nothing, and reading it never blocks on a pipe or fills the
+For any path, checks do not raise anything, and reading never blocks on a pipe or fills the
 memory.
 """
 
@@ -13,7 +13,7 @@ import stat
 __all__ = ["LARGEST", "check", "exists", "is_file", "names_in", "path_of", "read"]
 
 LARGEST = 64_000_000
-"""Bytes of a file that is read at once."""
+"""Maximum size of a file that is read at once [bytes]."""
 
 KINDS = (
     (stat.S_ISDIR, "it is a folder"),
@@ -27,17 +27,17 @@ Path = str | os.PathLike[str]
 
 
 def exists(path: Path) -> bool:
-    """Tell whether there is something at a path; of a path that cannot be one there is nothing."""
+    """Return whether a path exists; False for a path that is invalid."""
     return os.path.exists(path)  # noqa: PTH110 (Path.exists raises for a name that is too long)
 
 
 def is_file(path: Path) -> bool:
-    """Tell whether there is a regular file at a path."""
+    """Return whether a path is a regular file."""
     return os.path.isfile(path)  # noqa: PTH113 (Path.is_file raises for a name that is too long)
 
 
 def names_in(folder: Path) -> list[str]:
-    """The names of what is in a folder, sorted; nothing if it is no folder, or is not ours to read."""
+    """Return the sorted names in a folder; empty if it is not a folder or not readable."""
     try:
         return sorted(os.listdir(folder))  # noqa: PTH208 (names, of a path of any kind)
     except (OSError, ValueError):
@@ -45,17 +45,17 @@ def names_in(folder: Path) -> list[str]:
 
 
 def path_of(address: str) -> str:
-    r"""The path that ``file://...`` means, on this system: ``file:///C:/robot.stl`` is ``C:\robot.stl`` on Windows."""
+    r"""Return the path of ``file://...`` on this system: ``file:///C:/robot.stl`` is ``C:\robot.stl`` on Windows."""
     from urllib.request import url2pathname
 
     return url2pathname(address.partition("://")[2])
 
 
 def check(path: Path, largest: int = LARGEST) -> os.stat_result:
-    """The `stat` of a file that can be read. Raises `OSError` if it is missing, not a regular file, or too large."""
+    """Return the `stat` of a readable file. Raises `OSError` if it is missing, not a regular file, or too large."""
     try:
         found = os.stat(path)  # noqa: PTH116 (a path of any kind)
-    except ValueError as error:  # a NUL in it, or what the file system's encoding has not
+    except ValueError as error:  # a NUL, or a character that the file system cannot encode
         raise OSError(errno.EINVAL, "its name holds what no name can hold", os.fspath(path)) from error
     for is_kind, what in KINDS:
         if is_kind(found.st_mode):
@@ -66,11 +66,11 @@ def check(path: Path, largest: int = LARGEST) -> os.stat_result:
 
 
 def read(path: Path, largest: int = LARGEST) -> bytes:
-    """The bytes of a file. Raises `OSError` as `check` does."""
+    """Return the bytes of a file. Raises `OSError` as `check` does."""
     size = check(path, largest).st_size
     with open(path, "rb") as file:  # noqa: PTH123 (a path of any kind)
-        data = file.read(size + 1)  # as much memory is taken as is asked for
-        if len(data) > size:  # some files of the system say that they are empty
+        data = file.read(size + 1)  # read() allocates as much memory as it is asked for
+        if len(data) > size:  # some system files report size 0
             data += file.read(largest + 1 - len(data))
     if len(data) > largest:
         raise _too_large(path, largest)

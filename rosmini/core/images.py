@@ -1,4 +1,4 @@
-"""Images from outside, by their size before they are read."""
+"""Image files, checked by size before they are read."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 __all__ = ["LARGEST", "ImageError", "opened"]
 
 LARGEST = 100_000_000
-"""How many pixels an image may have: a map of 10,000 x 10,000 cells."""
+"""Maximum number of pixels: a map of 10,000 x 10,000 cells."""
 
 BYTES = 5
-"""How many bytes a pixel may take in a file."""
+"""Maximum file size per pixel [bytes]."""
 
 FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TGA", "TIFF", "WEBP")
-"""What SDL_image reads for ROS, as Pillow calls it. Pillow has others that run programs."""
+"""The formats that SDL_image reads in ROS, by Pillow's names. Some of Pillow's other formats run programs."""
 
 
 class ImageError(RosminiError):
@@ -32,13 +32,13 @@ class ImageError(RosminiError):
 
 @contextmanager
 def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
-    """An image whose pixels can be read. Raises `ImageError`, also while they are read, and `FileNotFoundError`."""
+    """Open an image for reading its pixels. Raises `ImageError`, also while reading, and `FileNotFoundError`."""
     from PIL import Image, UnidentifiedImageError
 
     try:
         files.check(path, LARGEST * BYTES)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # the limit here is another
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # our limit replaces it
             with Image.open(path, formats=FORMATS) as image:
                 if image.width * image.height > LARGEST:
                     raise ImageError(f"it has {image.width} x {image.height} pixels; {LARGEST} are allowed")
@@ -49,7 +49,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
         raise ImageError(f"this is no image ({', '.join(FORMATS)})") from error
     except Image.DecompressionBombError as error:
         raise ImageError(f"it has too many pixels; {LARGEST} are allowed") from error
-    # What Pillow raises for a broken one.
+    # Errors that Pillow raises for broken files.
     except (
         OSError,
         SyntaxError,

@@ -1,8 +1,8 @@
-"""XML as a tree that knows its lines: what URDF, SDF and launch files are read from.
+"""XML as a tree with line numbers, from which URDF, SDF and launch files are read.
 
-Everything that is wrong with such a file is told as ``file:line: what``; `Element.error` makes such an error for those
-who read the tree further. What comes from outside may be hostile: entities, which a few lines can blow up to gigabytes
-or make read other files, are refused (by defusedxml), and so is a tree deeper than any that a robot needs.
+All errors in such a file have the form ``file:line: text``; `Element.error` makes such an error for code
+that interprets the tree. Files may be hostile: defusedxml refuses entities, which can expand to gigabytes
+or read other files, and trees nested deeper than any robot needs are refused too.
 """
 
 from __future__ import annotations
@@ -27,37 +27,37 @@ if TYPE_CHECKING:
 __all__ = ["DEEPEST", "FARTHEST", "HEAVIEST", "Element", "MarkupError", "parse", "parse_file"]
 
 FARTHEST = 1e9
-"""No length in metres, and no angle, is larger: what is, is a mistake, and cannot be calculated with."""
+"""Maximum of a length [m] or an angle; larger ones are mistakes and cause overflows."""
 
 HEAVIEST = 1e15
-"""No mass in kilograms, and no inertia, is larger."""
+"""Maximum of a mass [kg] or an inertia."""
 
 DEEPEST = 200
-"""How many elements may stand inside one another."""
+"""Maximum nesting depth of elements."""
 
 NO_PATH = "<text>"
 
 
 class MarkupError(DefinitionError):
-    """An XML file is broken, or says what it may not, at ``file``, line ``line``."""
+    """An XML file is broken, or has invalid contents, at ``file``, line ``line``."""
 
 
 @dataclass(eq=False)
 class Element:
-    """An element: its tag, attributes, text and child elements, and where it was written."""
+    """An element: its tag, attributes, text and child elements, with file and line."""
 
     tag: str
     attributes: dict[str, str] = field(default_factory=dict)
     text: str = ""
-    """Stripped; what stands between the children is joined."""
+    """Stripped; the texts between the children are joined."""
     children: list[Element] = field(default_factory=list)
     line: int = 0
     """Counted from 1."""
     path: str = NO_PATH
     failure: type[MarkupError] = MarkupError
-    """What `error` makes."""
+    """The class of the errors that `error` makes."""
     written: str = ""
-    """The text as it is written, with all its blanks: for YAML, where they mean something."""
+    """The text with all its white space, which is significant in YAML."""
 
     def __repr__(self) -> str:
         return f"<{self.tag}> at {self.path}:{self.line}"
@@ -66,17 +66,17 @@ class Element:
         return iter(self.children)
 
     def error(self, message: str) -> MarkupError:
-        """An error at this element, to be raised."""
+        """Return an error at this element, to be raised."""
         return self.failure(message, self.path, self.line)
 
     # ---- elements inside ----
 
     def all(self, *tags: str) -> list[Element]:
-        """The children with one of these tags, in order."""
+        """Return the children with one of these tags, in order."""
         return [child for child in self.children if child.tag in tags]
 
     def find(self, way: str) -> Element | None:
-        """The first element on a way down (``"inertial/mass"``), or None."""
+        """Return the first element with this path (``"inertial/mass"``), or None."""
         at = self
         for tag in way.split("/"):
             found = next((child for child in at.children if child.tag == tag), None)
@@ -86,7 +86,7 @@ class Element:
         return at
 
     def need(self, tag: str) -> Element:
-        """The child with this tag. Raises `MarkupError` if there is none."""
+        """Return the child with this tag. Raises `MarkupError` if there is none."""
         found = self.find(tag)
         if found is None:
             there = {child.tag for child in self.children}
@@ -95,24 +95,24 @@ class Element:
         return found
 
     def walk(self) -> Iterator[Element]:
-        """The element itself and all below it, in the order in which they were written."""
+        """Yield the element and all its descendants, in document order."""
         yield self
         for child in self.children:
             yield from child.walk()
 
     def word(self, way: str, default: str = "") -> str:
-        """The text of an element on a way down, or `default` where it is missing or empty."""
+        """Return the text of the element with this path, or `default` if it is missing or empty."""
         found = self.find(way)
         return (found.text if found is not None else "") or default
 
     # ---- attributes ----
 
     def get(self, name: str, default: str = "") -> str:
-        """An attribute, or `default`."""
+        """Return an attribute, or `default`."""
         return self.attributes.get(name, default)
 
     def attribute(self, name: str) -> str:
-        """An attribute that must be there and must not be empty. Raises `MarkupError`."""
+        """Return a required attribute. Raises `MarkupError` if it is missing or empty."""
         value = self.attributes.get(name, "").strip()
         if not value:
             hint = nearest(name, self.attributes)
@@ -121,7 +121,7 @@ class Element:
         return value
 
     def number(self, name: str, default: float | None = None, *, most: float = math.inf) -> float:
-        """An attribute that is a number; `default` where it is missing. Raises `MarkupError`."""
+        """Return a number from an attribute, or `default` if it is missing. Raises `MarkupError`."""
         if default is not None and name not in self.attributes:
             return default
         return self.floats(self.attribute(name), 1, name, most=most)[0]
@@ -129,7 +129,7 @@ class Element:
     def numbers(
         self, name: str, count: int, default: tuple[float, ...] | None = None, *, most: float = math.inf
     ) -> tuple[float, ...]:
-        """An attribute of `count` numbers with blanks between; `default` where it is missing. Raises `MarkupError`."""
+        """Return `count` numbers from an attribute, or `default` if it is missing. Raises `MarkupError`."""
         if default is not None and name not in self.attributes:
             return default
         return self.floats(self.attribute(name), count, name, most=most)
@@ -137,9 +137,9 @@ class Element:
     def floats(
         self, text: str, count: int | None = None, what: str = "", *, most: float = math.inf
     ) -> tuple[float, ...]:
-        """The numbers in a text of this element, `count` of them or any; all must be finite and at most `most`.
+        """Return the numbers in a text of this element, `count` or any number; all must be finite and at most `most`.
 
-        Raises `MarkupError`, which calls them `what`, or else by the tag.
+        Raises `MarkupError`, which calls them `what`, or by the tag.
         """
         name = what or f"<{self.tag}>"
         words = text.split()
@@ -161,7 +161,7 @@ class Element:
         return tuple(values)
 
     def flag(self, text: str, what: str = "") -> bool:
-        """What a text of this element says: true or false, 1 or 0. Raises `MarkupError`."""
+        """Convert a text of this element: true or false, 1 or 0. Raises `MarkupError`."""
         value = {"true": True, "1": True, "false": False, "0": False}.get(text.strip().lower())
         if value is None:
             raise self.error(f"{what or f'<{self.tag}>'} is true or false, not {shown(text.strip())}")
@@ -170,7 +170,7 @@ class Element:
     # ---- back to text ----
 
     def source(self, indent: str = "") -> str:
-        """The element as XML again: the same tags, attributes and texts; blanks and comments are not kept."""
+        """Return the element as XML, with the same tags, attributes and texts, but without white space and comments."""
         head = f"{indent}<{self.tag}" + "".join(f" {k}={quoteattr(v)}" for k, v in self.attributes.items())
         if not self.children:
             return f"{head}>{escape(self.text)}</{self.tag}>" if self.text else f"{head}/>"
@@ -186,12 +186,12 @@ def parse(
     *,
     late_declaration: bool = False,
 ) -> Element:
-    """The root of an XML text, which errors say is in `path`.
+    """Return the root of an XML text; `path` appears in errors.
 
     With `late_declaration`, comments and blank lines may precede `<?xml ...?>`, as in TinyXML, which Gazebo uses.
 
-    Raises `MarkupError`, or the kind of it that `failure` names, for what is not XML, defines entities, or is nested
-    deeper than `DEEPEST`; `Element.error` of every element makes errors of that kind too.
+    Raises `MarkupError`, or its subclass `failure`, for a text that is not XML, defines entities, or is nested
+    deeper than `DEEPEST`; `Element.error` of all elements makes errors of that class too.
     """
     from defusedxml.common import DefusedXmlException
     from defusedxml.sax import make_parser
@@ -202,7 +202,7 @@ def parse(
     parser.setContentHandler(builder)
     source = xml.sax.xmlreader.InputSource(name)
     if isinstance(text, str):
-        # A text has no encoding any more, whatever its first line says.
+        # A str has no encoding any more, whatever its declaration says.
         text = text.encode("utf-8", "surrogatepass")
         source.setEncoding("utf-8")
     if late_declaration:
@@ -216,7 +216,7 @@ def parse(
     except DefusedXmlException as error:
         what = "may not define or use entities: they can make a small file huge, or read other files"
         raise failure(f"an XML file from outside {what}", name, builder.place()) from error
-    except (LookupError, ValueError) as error:  # an encoding that nobody knows
+    except (LookupError, ValueError) as error:  # an unknown encoding
         raise failure(f"this is not XML: {error}", name, 1) from error
     return builder.root
 
@@ -229,7 +229,7 @@ _LATE_DECLARATION = re.compile(
 def parse_file(
     path: str | PathLike[str], failure: type[MarkupError] = MarkupError, *, late_declaration: bool = False
 ) -> Element:
-    """The root of an XML file. Raises as `parse` does, and if the file cannot be read."""
+    """Return the root of an XML file. Raises as `parse` does, and if the file cannot be read."""
     try:
         text = read(path)
     except OSError as error:
@@ -238,7 +238,7 @@ def parse_file(
 
 
 class _Builder(xml.sax.handler.ContentHandler):
-    """Makes elements of what the parser meets."""
+    """Makes elements from the parser's events."""
 
     root: Element
 
@@ -275,7 +275,7 @@ class _Builder(xml.sax.handler.ContentHandler):
 
 
 def _reason(message: str, column: int, text: bytes, builder: _Builder) -> str:
-    """What the parser says, in words that help."""
+    """Return the parser's error, in helpful words."""
     if not text.strip():
         return "this is empty, there is no XML in it"
     if message == "mismatched tag" and builder.open:

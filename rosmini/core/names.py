@@ -1,7 +1,7 @@
 """ROS names: validation, resolution, remapping (http://wiki.ros.org/Names, http://wiki.ros.org/Remapping%20Arguments).
 
 A *graph resource name* (node, topic, service, parameter) is global (``/scan``), relative (``scan``), private
-(``~scan``) or, as a relative name without ``/``, a base name. :func:`resolve` makes a global name of any of them.
+(``~scan``) or, if relative and without ``/``, a base name. :func:`resolve` converts them to global names.
 A *package resource name* is ``package/Type``.
 """
 
@@ -35,7 +35,7 @@ __all__ = [
 ]
 
 ROS_RELEASE = {"ROS_VERSION": "1", "ROS_DISTRO": "noetic", "ROS_PYTHON_VERSION": "3"}
-"""The environment variables that name the ROS release, which conditions in manifests (REP 149) read, too."""
+"""Environment variables that identify the ROS release; conditions in manifests (REP 149) refer to them too."""
 
 GRAPH_NAME = re.compile(r"(?:[~/A-Za-z][A-Za-z0-9_/]*)?")
 BASE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -49,8 +49,8 @@ REMAPPING = re.compile(r"[~/A-Za-z_][\w/]*:=.*")
 def check_name(name: str, what: str = "name") -> str:
     """Return ``name`` if its characters are legal in a graph resource name; the empty name is legal.
 
-    ``what`` says in the message what is named (``"topic"``). Raises ``IllegalName`` with a caret under the first
-    character that breaks the rules.
+    ``what`` is the kind of name in the message (``"topic"``). Raises ``IllegalName`` with a caret under the first
+    illegal character.
     """
     if isinstance(name, str) and GRAPH_NAME.fullmatch(name):
         return name
@@ -60,29 +60,29 @@ def check_name(name: str, what: str = "name") -> str:
 
 
 def check_base_name(name: str, what: str = "node name") -> str:
-    """Return ``name`` if it is a legal base name, one without any namespace. Raises ``IllegalName``."""
+    """Return ``name`` if it is a legal base name, without a namespace. Raises ``IllegalName``."""
     if isinstance(name, str) and BASE_NAME.fullmatch(name):
         return name
     raise _illegal(name, what, first="", rest="_", rule="a letter, then letters, digits and '_'")
 
 
 def is_legal_name(name: str | None) -> bool:
-    """Tell whether ``name`` is a legal graph resource name by ``rosgraph.names``: '//' works, but is none.
+    """Return whether ``rosgraph.names`` calls ``name`` legal: a name with '//' works, but is not legal.
 
-    Raises ``TypeError`` for what is no text.
+    Raises ``TypeError`` for a value that is not a str.
     """
     return name is not None and GRAPH_NAME.fullmatch(name) is not None and "//" not in name
 
 
 def is_legal_base_name(name: str | None) -> bool:
-    """Tell whether ``name`` is a legal base name, one without a namespace. Raises ``TypeError`` for what is no text."""
+    """Return whether ``name`` is a legal base name, without a namespace. Raises ``TypeError`` if it is not a str."""
     return name is not None and BASE_NAME.fullmatch(name) is not None
 
 
 def split_resource_name(name: str, package: str | None = None) -> tuple[str, str]:
     """Split a package resource name: ``"std_msgs/String"`` is ``("std_msgs", "String")``.
 
-    A name without a package belongs to ``package``, if that is given. Raises ``IllegalName``.
+    A name without a package belongs to ``package``, if given. Raises ``IllegalName``.
     """
     full = f"{package}/{name}" if package is not None and isinstance(name, str) and "/" not in name else name
     match = PACKAGE_RESOURCE.fullmatch(full) if isinstance(full, str) else None
@@ -131,7 +131,7 @@ def _reason(char: str, at_start: bool, first: str, rest: str) -> str:
     return f"{shown} is not allowed"
 
 
-# ---- taking names apart and putting them together ----
+# ---- splitting and joining names ----
 
 
 def is_global(name: str) -> bool:
@@ -145,9 +145,9 @@ def is_private(name: str) -> bool:
 
 
 def namespace(name: str) -> str:
-    """Return the namespace that ``name`` is in, with its closing slash: ``/robot1/`` for ``/robot1/talker``.
+    """Return the namespace of ``name``, with a trailing slash: ``/robot1/`` for ``/robot1/talker``.
 
-    Raises ``ValueError`` for None and ``TypeError`` for anything else that is no text.
+    Raises ``ValueError`` for None and ``TypeError`` for anything else that is not a str.
     """
     if name is None:
         raise ValueError("None is no name: namespace() takes a text, such as '/robot1/talker'")
@@ -157,14 +157,14 @@ def namespace(name: str) -> str:
 
 
 def join(ns: str, name: str) -> str:
-    """Put ``name`` into the namespace ``ns``; global and private names stay as they are."""
+    """Put ``name`` into the namespace ``ns``; global and private names do not change."""
     if not ns or is_global(name) or is_private(name):
         return name
     return ns + name if ns.endswith("/") or ns == "~" else f"{ns}/{name}"
 
 
 def canonicalize(name: str) -> str:
-    """Take double and closing slashes out: ``/a//b/`` is ``/a/b``."""
+    """Remove double and trailing slashes: ``/a//b/`` becomes ``/a/b``."""
     if not name or name == "/":
         return name
     parts = "/".join(part for part in name.split("/") if part)
@@ -198,12 +198,12 @@ def resolve(
     """Resolve ``name`` to a global name, as rospy does.
 
     Args:
-        name: any graph resource name; the empty one stands for the namespace itself (with a closing slash).
-        namespace: where relative names start, ``/`` or ``/robot1``.
-        node_name: the node's global name, under which private names are.
+        name: any graph resource name; the empty name means the namespace itself (with a trailing slash).
+        namespace: the namespace of relative names, ``/`` or ``/robot1``.
+        node_name: the node's global name, the namespace of private names.
         remappings: applied to the resolved name.
-        what: for the message, what is named ("topic").
-        check: whether illegal characters are refused (rospy lets them pass in parameter names).
+        what: the kind of name, for the message ("topic").
+        check: refuse illegal characters (rospy accepts them in parameter names).
 
     Raises ``IllegalName``, also for a private name if there is no ``node_name``.
 
@@ -219,7 +219,7 @@ def resolve(
                 f"{name} is private to a node, and there is no node yet: call init_node first, or name the node"
             )
         node_name = join(canonicalize(namespace) or "/", "node")
-    # rospy reads "~/rate" as "/rate" (roscpp as "/node/rate"): scripts written for rospy get here what they get there.
+    # rospy reads "~/rate" as "/rate" (roscpp as "/node/rate"); we do as rospy.
     private = is_private(name)
     resolved = join(node_name, canonicalize(name)[1:]) if private else resolve_for(name, node_name)
     return remappings.apply(resolved, node_name) if remappings is not None else resolved
@@ -229,15 +229,15 @@ def resolve(
 
 
 def is_remapping(argument: str) -> bool:
-    """True for a command-line argument that ROS takes for itself: ``a:=b``, ``_rate:=10``, ``__name:=talker``."""
+    """True for a command-line argument that ROS consumes: ``a:=b``, ``_rate:=10``, ``__name:=talker``."""
     return REMAPPING.fullmatch(argument) is not None
 
 
 class Remappings:
-    """What ``:=`` arguments say: renamed names, the node's private parameters, and ROS's special keys.
+    """The ``:=`` arguments: remapped names, private parameters of the node, and ROS's special keys.
 
-    ``names`` maps names as they were written; ``private_parameters`` has values by names without their underscore;
-    ``special`` has ``__name``, ``__ns``, ``__log``, ``__ip``, ``__hostname`` and ``__master`` by these keys.
+    ``names`` maps names as written; ``private_parameters`` maps names without the underscore to values;
+    ``special`` contains ``__name``, ``__ns``, ``__log``, ``__ip``, ``__hostname`` and ``__master``.
     """
 
     def __init__(self, rules: Mapping[str, Any] | None = None) -> None:
@@ -275,27 +275,27 @@ class Remappings:
 
     @staticmethod
     def other_arguments(argv: Iterable[str]) -> list[str]:
-        """Return the arguments that are the script's own (``rospy.myargv``)."""
+        """Return the script's own arguments (``rospy.myargv``)."""
         return [argument for argument in argv if not is_remapping(argument)]
 
     @property
     def node_name(self) -> str | None:
-        """The node's name, if ``__name:=`` gives one."""
+        """The node's name from ``__name:=``, or None."""
         return self.special.get("__name")
 
     @property
     def namespace(self) -> str | None:
-        """The node's namespace, if ``__ns:=`` gives one; always global."""
+        """The node's namespace from ``__ns:=``, always global, or None."""
         given = self.special.get("__ns")
         return None if given is None else canonicalize("/" + given)
 
     @property
     def log_file(self) -> str | None:
-        """The path of the node's log file, if ``__log:=`` gives one."""
+        """The path of the node's log file from ``__log:=``, or None."""
         return self.special.get("__log")
 
     def apply(self, resolved: str, node_name: str) -> str:
-        """Return what the global name ``resolved`` is called for ``node_name``."""
+        """Return the global name that ``resolved`` is remapped to for ``node_name``."""
         if not self.names:
             return resolved
         table = self._resolved.get(node_name)
@@ -314,7 +314,7 @@ def _is_parameter(source: str) -> bool:
 
 
 def _yaml(argument: str, text: str) -> Any:
-    from rosmini.core.yaml_text import documents  # slow to import, and few nodes get parameters this way
+    from rosmini.core.yaml_text import documents  # slow to import, and few nodes need it
 
     def failure(message: str, _source: str, _line: int | None) -> ROSInitException:
         return ROSInitException(f"invalid command-line parameter {shown(argument)}: {message}")
@@ -326,10 +326,10 @@ def _yaml(argument: str, text: str) -> Any:
 
 
 class AnonymousNames:
-    """Makes names for anonymous nodes, shaped as rospy's ``talker_<pid>_<milliseconds>``.
+    """Makes names for anonymous nodes, in rospy's form ``talker_<pid>_<milliseconds>``.
 
-    A counter that starts at ``seed`` stands for the process id, and the graph's time for the wall clock, so that
-    the same run gives the same names.
+    A counter from ``seed`` replaces the process id, and graph time the wall-clock time, so that
+    each run gives the same names.
     """
 
     def __init__(self, seed: int = 1) -> None:

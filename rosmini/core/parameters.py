@@ -1,4 +1,4 @@
-"""Parameters of a node, declared once: name, type, default, range, unit and meaning.
+"""Typed parameters of a node, each declared once with name, type, default, range, unit and meaning.
 
 >>> @dataclass(frozen=True)
 ... class Settings(Parameters):
@@ -6,14 +6,14 @@
 >>> Settings.table()
 [('~rate', 'float', '10.0', '0.0 ...', 'Hz', 'how often to look')]
 
-`Settings.read(node)` takes them from the Parameter Server (http://wiki.ros.org/Parameter%20Server).
+`Settings.read(node)` reads them from the Parameter Server (http://wiki.ros.org/Parameter%20Server).
 `rosmini.core.dynamic_reconfigure` changes them while the node runs.
 
-A field's type is bool, int, float or str; `tuple[T, ...]` for a list; a class of parameters for a namespace or, in a
-list, for dictionaries; or a union of these. A parameter whose type allows None may be missing.
+The type of a field is bool, int, float or str; `tuple[T, ...]` for a list; a class of parameters for a namespace or,
+in a list, for dictionaries; or a union of these. A parameter whose type allows None may be missing.
 
-Numbers are converted as `ros::param` of roscpp converts them: an int to a float, and a float to the nearest int. The
-original nodes ignore a value of another type silently and use the default; here it is an error.
+Numbers are converted as in roscpp's `ros::param`: an int to a float, and a float to the nearest int. The
+original nodes silently ignore a value of another type and use the default; here it is an error.
 """
 
 from __future__ import annotations
@@ -42,11 +42,11 @@ def parameter(
     level: int = 0,
     group: str = "",
 ) -> Any:
-    """One parameter of a class derived from `Parameters`; its name and its type are those of the field.
+    """Declare a parameter in a class derived from `Parameters`; the field gives its name and type.
 
-    A `dynamic` class limits values to the range; elsewhere a value outside of it cannot be used, and is an error.
-    Range and choices of a list are those of its elements. Without `choices` any text will do. `level` and `group` are
-    for parameters that are changed while the node runs: see `rosmini.core.dynamic_reconfigure`.
+    A `dynamic` class limits values to the range; in others, a value outside the range is an error.
+    Range and choices of a list apply to its elements. Without `choices`, any text is allowed. `level` and `group` are
+    used for parameters that change while the node runs: see `rosmini.core.dynamic_reconfigure`.
     """
     about = {"meaning": meaning, "unit": unit, "minimum": minimum, "maximum": maximum, "choices": choices}
     return field(default=default, metadata={**about, "level": level, "group": group})
@@ -54,46 +54,46 @@ def parameter(
 
 @dataclass(frozen=True)
 class Place:
-    """A namespace on the Parameter Server: its global name, how the node `owner` calls it, and that node's name."""
+    """A namespace on the Parameter Server: its global name, its label for messages, and the name of the node."""
 
     name: str
     label: str
     owner: str
     warn: Callable[[str], object]
-    """Reports an unknown name."""
+    """Called with a warning about an unknown name."""
 
     def inside(self, name: str) -> Place:
-        """A namespace in this one."""
+        """Return a namespace inside this one."""
         return Place(f"{self.name}/{name}", f"{self.label}{name}/", self.owner, self.warn)
 
 
 @dataclass(frozen=True)
 class Parameters:
-    """The base of a node's parameters."""
+    """Base class of a node's parameters."""
 
     allowed: ClassVar[tuple[str, ...]] = ()
-    """Names that may be set beside the parameters, because somebody else reads them."""
+    """Additional names that are allowed, because other code reads them."""
 
     strict: ClassVar[bool] = False
-    """Whether an unknown name is an error. By default the node warns of it: the original nodes do not look at it."""
+    """If True, an unknown name is an error; by default only a warning, as the original nodes ignore it."""
 
     dynamic: ClassVar[bool] = False
-    """Whether a `Server` of dynamic_reconfigure offers the fields of this class: it limits values to their ranges, with
-    a warning, and takes any text. A derived class does not inherit this."""
+    """If True, a `Server` of dynamic_reconfigure offers the fields of this class: it limits values to their ranges,
+    with a warning, and accepts any text. Subclasses do not inherit this."""
 
     shared: ClassVar[bool] = False
-    """Whether every namespace in this one may belong to somebody else, such as a plugin."""
+    """If True, every namespace inside this one may belong to other code, such as a plugin."""
 
     def others(self) -> Iterable[str]:
-        """Further such names, where they depend on the values of parameters: those of plugins, for example."""
+        """Return more such names that depend on the values of parameters: those of plugins, for example."""
         return ()
 
     @classmethod
     def read(cls, node: Node, namespace: str = "~", /, **given: Any) -> Self:
-        """The parameters set in a namespace, the node's private one by default; those `given` take precedence.
+        """Return the parameters in a namespace, by default the node's private one; those `given` take precedence.
 
-        Raises `ParameterError`, which names the parameter, for a wrong type, a value that cannot be used, and an
-        unknown name if the class is `strict`: otherwise the node warns of it. Nothing changes on the Parameter Server.
+        Raises `ParameterError`, which names the parameter, for a wrong type or value, and for an
+        unknown name if the class is `strict`; otherwise the node warns of it. Does not change the Parameter Server.
         """
         name = node.resolve_parameter(namespace)
         label = "~" if namespace == "~" else namespace.rstrip("/") + "/"
@@ -102,7 +102,7 @@ class Parameters:
 
     @classmethod
     def table(cls, label: str = "~") -> list[tuple[str, str, str, str, str, str]]:
-        """Name (after `label`), type, default, range, unit and meaning of each parameter, in order of declaration."""
+        """Return name (after `label`), type, default, range, unit and meaning of each parameter, as declared."""
         rows = []
         for declared, kind in declared_fields(cls):
             about = declared.metadata
@@ -121,7 +121,7 @@ class Parameters:
 
 
 def _read(cls: type[Parameters], tree: Any, place: Place) -> dict[str, Any]:
-    """The checked values of a namespace's parameters."""
+    """Return the checked values of the parameters in a namespace."""
     if not isinstance(tree, dict):
         raise ParameterError(
             f"parameter {place.name} is the {type(tree).__name__} {tree!r}, and {place.label} is a namespace of "
@@ -160,7 +160,7 @@ def _unknown(name: str, names: list[str], place: Place) -> str:
 
 
 def _converted(value: Any, declared: Field[Any], kind: Any, place: Place, *, limited: bool = False) -> Any:
-    """A value as a field of this type holds it."""
+    """Return a value converted to the type of a field."""
     options = _options(kind)
     for option in options:
         if isinstance(value, dict) and _is_namespace(option):
@@ -179,9 +179,9 @@ def _converted(value: Any, declared: Field[Any], kind: Any, place: Place, *, lim
 
 
 def rounded(value: Any) -> Any:
-    """A float as the int that `ros::param::get` of roscpp makes of it, which rounds numbers below 0 down.
+    """Return a float as an int, rounded as by roscpp's `ros::param::get`, which rounds negative numbers down.
 
-    Anything else, and a float that is not finite, is returned as it is.
+    Other values, and floats that are not finite, are returned unchanged.
     """
     if not isinstance(value, float) or not math.isfinite(value):
         return value
@@ -189,7 +189,7 @@ def rounded(value: Any) -> Any:
 
 
 def limited_value(value: Any, low: Any, high: Any) -> Any:
-    """The value nearest to `value` in a range, whose bounds may be None."""
+    """Return `value` limited to a range, whose bounds may be None."""
     if high is not None and value > high:
         return type(value)(high)
     if low is not None and value < low:
@@ -222,13 +222,13 @@ _SCALARS = (bool, int, float, str)
 
 
 def declared_fields(cls: type[Parameters]) -> tuple[tuple[Field[Any], Any], ...]:
-    """The fields of a class with their types."""
+    """Return the fields of a class with their types."""
     hints = get_type_hints(cls)
     return tuple((declared, hints[declared.name]) for declared in fields(cls))
 
 
 def _options(kind: Any) -> tuple[Any, ...]:
-    """The types of a union but None, or the only one."""
+    """Return the types of a union except None, or the single type."""
     union = get_origin(kind) in (Union, types.UnionType)
     return tuple(part for part in (get_args(kind) if union else (kind,)) if part is not type(None))
 
@@ -238,12 +238,12 @@ def _is_namespace(option: Any) -> bool:
 
 
 def is_scalar(kind: Any) -> bool:
-    """Whether a field of this type holds no list and no namespace."""
+    """Return whether a field of this type is neither a list nor a namespace."""
     return all(option in _SCALARS for option in _options(kind))
 
 
 def _spelled(kind: Any) -> str:
-    """A type in words."""
+    """Return a type in words."""
     return " or ".join(_spelled_options(kind))
 
 
@@ -258,7 +258,7 @@ def _spelled_options(kind: Any) -> Iterator[str]:
 
 
 def _listed(default: Any) -> str:
-    """A default as YAML has it."""
+    """Return a default in YAML."""
     if isinstance(default, tuple):
         return f"[{', '.join(map(_listed, default))}]"
     if isinstance(default, Parameters):

@@ -1,4 +1,4 @@
-"""Who can be asked: the Master, in somebody's name, and each node by its slave API."""
+"""Interfaces for talking to the Master, in the name of a node, and to each node's slave API."""
 
 from __future__ import annotations
 
@@ -6,34 +6,34 @@ from typing import Any, Protocol
 from urllib.parse import urlsplit
 
 Triple = list[Any]
-"""What every method of the Master and of a node answers: [code, status, value]."""
+"""The response of every method of the Master and of a node: [code, status, value]."""
 
 
 class Asker(Protocol):
     """The Master as one caller sees it."""
 
     def call(self, method: str, *arguments: Any) -> Triple:
-        """Return the Master's answer. Raises ``MasterUnreachable``."""
+        """Return the Master's response. Raises ``MasterUnreachable``."""
 
     def ask(self, method: str, *arguments: Any) -> Any:
-        """Return the value of the answer. Raises ``ROSException`` for any code but 1, and ``MasterUnreachable``."""
+        """Return the value of the response. Raises ``ROSException`` if the code is not 1, and ``MasterUnreachable``."""
 
     def find(self, method: str, *arguments: Any) -> Any:
-        """Return the value of the answer, or None if the code is not 1. Raises ``MasterUnreachable``."""
+        """Return the value of the response, or None if the code is not 1. Raises ``MasterUnreachable``."""
 
 
 class Slaves(Protocol):
-    """The nodes."""
+    """The slave APIs of all nodes."""
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API. Raises ``TransportException`` when nobody answers."""
+        """Call a method of a node's slave API. Raises ``TransportException`` if there is no response."""
 
     def probe_service(self, uri: str, header: dict[str, str]) -> dict[str, str]:
-        """Return the header with which a service's server answers. Raises ``TransportException`` when nobody does."""
+        """Return the header sent by a service's server. Raises ``TransportException`` if there is no response."""
 
 
 class Clock(Protocol):
-    """The time in which questions take their time."""
+    """The clock of requests."""
 
     def now_ns(self) -> int:
         """Return the time in nanoseconds."""
@@ -51,14 +51,14 @@ class Peers(Protocol):
 
     @property
     def transport(self) -> Slaves:
-        """The way to the nodes."""
+        """The connection to the nodes."""
 
     @property
     def scheduler(self) -> Clock:
         """The clock."""
 
     def ask_as(self, caller_id: str) -> Asker:
-        """Return the Master as a caller of this name sees it."""
+        """Return the Master as seen by a caller of this name."""
 
 
 def host_of(uri: str) -> str:

@@ -1,4 +1,4 @@
-"""Plugins: classes of one interface, found by their ROS names as by pluginlib (http://wiki.ros.org/pluginlib).
+"""Plugins: implementations of an interface, found by ROS names as with pluginlib (http://wiki.ros.org/pluginlib).
 
 >>> class Planner(Plugin):
 ...     def plan(self) -> str: ...
@@ -8,9 +8,9 @@
 >>> Planner.create("straight_planner::StraightPlanner").plan()
 'straight on'
 
-A class that derives from `Plugin` itself is an interface; what derives from an interface and has a name is a plugin.
-Other distributions add theirs as entry points of the group `rosmini.plugins`
-(`"my_pkg/MyPlanner" = "my_pkg.planner:MyPlanner"`), which are imported when somebody asks for them.
+A direct subclass of `Plugin` is an interface; a named subclass of an interface is a plugin.
+Other distributions declare theirs as entry points of the group `rosmini.plugins`
+(`"my_pkg/MyPlanner" = "my_pkg.planner:MyPlanner"`), which are imported on demand.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ GROUP = "rosmini.plugins"
 
 
 class PluginError(RosminiError):
-    """There is no such plugin, there are two of one name, or it cannot be loaded."""
+    """There is no such plugin, two have the same name, or it cannot be loaded."""
 
 
 class Plugin:
-    """The base of interfaces."""
+    """Base class of interfaces."""
 
     plugin_name: ClassVar[str] = ""
     """The plugin's ROS name, `package/Class`; empty for an interface."""
@@ -45,7 +45,7 @@ class Plugin:
         if not all(name.split("/")) or "/" not in name:
             raise PluginError(f"the plugin {cls.__qualname__} is called {plugin!r}: a name is package/Class")
         other = cls._plugins.get(name)
-        # A cell of a notebook may define its class again.
+        # Running a notebook cell again defines its classes again.
         if other is not None and (other.__module__, other.__qualname__) != (cls.__module__, cls.__qualname__):
             raise PluginError(f"two plugins are called {name}: {_where(other)} and {_where(cls)}; rename one")
         cls.plugin_name = name
@@ -53,9 +53,9 @@ class Plugin:
 
     @classmethod
     def named(cls, name: str) -> type[Self]:
-        """The class of a plugin of this interface, by its ROS name; `package::Class` is the same as `package/Class`.
+        """Return a plugin's class by its ROS name; `package::Class` is the same as `package/Class`.
 
-        Raises `PluginError`, which suggests similar names and lists all, if there is none.
+        Raises `PluginError`, with similar names and a list of all, if there is none.
         """
         wanted = _canonical(name)
         if wanted not in cls._plugins:
@@ -72,12 +72,12 @@ class Plugin:
 
     @classmethod
     def create(cls, name: str, *args: Any, **options: Any) -> Self:
-        """A new object of the plugin with this name. Raises as `named`, and what its constructor raises."""
+        """Create an instance of the plugin with this name. Raises as `named`, and the errors of its constructor."""
         return cls.named(name)(*args, **options)
 
     @classmethod
     def names(cls) -> list[str]:
-        """The names of all plugins of this interface that can be loaded, sorted."""
+        """Return the names of all plugins of this interface that can be loaded, sorted."""
         for entry in entry_points(group=GROUP):
             with suppress(PluginError):
                 _load(entry)

@@ -1,10 +1,10 @@
 """ROS's ``time`` and ``duration``: two integers, seconds and nanoseconds.
 
-The rules are genpy's, to the letter (http://wiki.ros.org/rospy/Overview/Time): which operands may be combined and
-what comes out, the canonical form (0 <= nsecs < 1e9, so that -0.5 s is ``Duration(-1, 500000000)``), and mutable
-fields (``msg.header.stamp.secs = 3`` works; call :meth:`TVal.canon` after putting a field out of range).
+The rules are exactly genpy's (http://wiki.ros.org/rospy/Overview/Time): which operands may be combined and
+the result, the canonical form (0 <= nsecs < 1e9, so that -0.5 s is ``Duration(-1, 500000000)``), and mutable
+fields (``msg.header.stamp.secs = 3`` works; call :meth:`TVal.canon` if a field is out of range).
 
-There is no ``now()`` here: only a node knows what time it is.
+There is no ``now()`` here: only a node knows the time.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ NSECS_PER_SEC = 1_000_000_000
 
 
 class TVal:
-    """What :class:`Time` and :class:`Duration` have in common.
+    """Base class of :class:`Time` and :class:`Duration`.
 
-    ``secs`` is a number of seconds, whole or not; ``nsecs`` adds nanoseconds and is allowed only beside whole seconds.
+    ``secs`` is a number of seconds; ``nsecs`` adds nanoseconds, and is only allowed with an integer ``secs``.
     Raises ``ValueError`` for fractional seconds together with nanoseconds.
     """
 
     __slots__ = ("nsecs", "secs")
-    _slot_types: ClassVar[list[str]] = ["int32", "int32"]  # tools print times as if they were messages
+    _slot_types: ClassVar[list[str]] = ["int32", "int32"]  # tools print times like messages
     _peer: ClassVar[
         type[TVal]
     ]  # what a value may be compared with; set below each class, which has no name before
@@ -51,33 +51,33 @@ class TVal:
 
     @classmethod
     def from_sec(cls, float_secs: float) -> Self:
-        """Make one from seconds as a float; what is below a nanosecond is cut off."""
+        """Make one from seconds as a float, truncated to nanoseconds."""
         secs = int(float_secs)
         return cls(secs, int((float_secs - secs) * NSECS_PER_SEC))
 
     @classmethod
     def from_nsec(cls, nsecs: int) -> Self:
-        """Make one from a whole number of nanoseconds, exactly."""
+        """Make one from an integer number of nanoseconds."""
         secs, rest = divmod(nsecs, NSECS_PER_SEC)
         return cls(secs, rest)
 
     @property
     def sec(self) -> int:
-        """The field ``secs`` under the name that ROS 2 and rosbags give it."""
+        """The field ``secs``, under the name that ROS 2 and rosbags use."""
         return self.secs
 
     @property
     def nanosec(self) -> int:
-        """The field ``nsecs`` under the name that ROS 2 and rosbags give it."""
+        """The field ``nsecs``, under the name that ROS 2 and rosbags use."""
         return self.nsecs
 
     def set(self, secs: int, nsecs: int) -> None:
-        """Set both fields as they are, without bringing them to canonical form."""
+        """Set both fields as given, without normalising them."""
         self.secs = secs
         self.nsecs = nsecs
 
     def canon(self) -> None:
-        """Bring the fields to canonical form, carrying whole seconds out of ``nsecs``."""
+        """Normalise the fields, carrying whole seconds from ``nsecs`` to ``secs``."""
         carry, self.nsecs = divmod(self.nsecs, NSECS_PER_SEC)
         self.secs += carry
 
@@ -86,11 +86,11 @@ class TVal:
         return self.secs == 0 and self.nsecs == 0
 
     def to_sec(self) -> float:
-        """Seconds as a float (about 200 ns of resolution for today's dates)."""
+        """Return seconds as a float (with a resolution of about 200 ns for today's dates)."""
         return float(self.secs) + float(self.nsecs) / 1e9
 
     def to_nsec(self) -> int:
-        """Nanoseconds as an integer, exactly."""
+        """Return nanoseconds as an integer, exactly."""
         return self.secs * NSECS_PER_SEC + self.nsecs
 
     def __bool__(self) -> bool:
@@ -112,7 +112,7 @@ class TVal:
         self.secs, self.nsecs = state
 
     def __eq__(self, other: object) -> bool:
-        # Never NotImplemented: a Time equals no Duration, and no mock or number either.
+        # Never NotImplemented: a Time equals neither a Duration nor a mock or number.
         return isinstance(other, self._peer) and self.to_nsec() == other.to_nsec()
 
     def __lt__(self, other: Any) -> bool:
@@ -128,7 +128,7 @@ class TVal:
         return self.to_nsec() >= other.to_nsec() if isinstance(other, self._peer) else NotImplemented
 
     def __cmp__(self, other: Any) -> int:
-        """Python 2's comparison, which old scripts still call: -1, 0 or 1. Raises ``TypeError`` for strangers."""
+        """Compare as in Python 2, for old scripts: -1, 0 or 1. Raises ``TypeError`` for other types."""
         if not isinstance(other, self._peer):
             raise TypeError(f"cannot compare {self!r} to {other!r}: it is no {self._peer.__name__}")
         return (self > other) - (self < other)
@@ -138,9 +138,9 @@ TVal._peer = TVal  # noqa: SLF001
 
 
 class Time(TVal):
-    """A point in time: seconds and nanoseconds since 1970-01-01 (or since the simulation's own zero).
+    """A point in time: seconds and nanoseconds since 1970-01-01 (or since the start of a simulation).
 
-    Raises ``TypeError`` if it would lie before zero, as genpy does.
+    Raises ``TypeError`` for a negative time, as genpy does.
     """
 
     __slots__ = ("nsecs", "secs")
@@ -155,7 +155,7 @@ class Time(TVal):
             raise TypeError(f"time values must be positive, not {self.to_sec()} s: is this a Duration?")
 
     def to_time(self) -> float:
-        """Seconds as a float, as ``time.time()`` gives them."""
+        """Return seconds as a float, like ``time.time()``."""
         return self.to_sec()
 
     __hash__ = TVal.__hash__
@@ -183,7 +183,7 @@ class Time(TVal):
 
 
 class Duration(TVal):
-    """A difference of two times, which may be negative."""
+    """A difference between two times, which may be negative."""
 
     __slots__ = ("nsecs", "secs")
 

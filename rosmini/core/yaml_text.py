@@ -1,7 +1,7 @@
-"""YAML from outside: its documents, one by one, with errors that name the line.
+"""Safe reading of YAML: one document after another, with line numbers in errors.
 
-It is PyYAML's safe loader (YAML 1.1: ``yes`` is a truth value, ``010`` is eight, ``1e5`` without a point is text),
-which makes plain data only. A few lines of aliases (``*name``) could grow to gigabytes there, or contain themselves:
+It uses PyYAML's safe loader (YAML 1.1: ``yes`` is a boolean, ``010`` is eight, ``1e5`` without a point is text),
+which only makes plain data. A few lines of aliases (``*name``) could expand to gigabytes, or contain themselves:
 such documents are refused before they are constructed.
 """
 
@@ -20,18 +20,18 @@ from rosmini.core.collisions import collide
 __all__ = ["Loader", "children", "documents", "line_of"]
 
 MOST = 100_000
-"""How many values a document may have, those that aliases stand for included."""
+"""Maximum number of values in a document, with aliases expanded."""
 
 LONGEST_NUMBER = 1000
-"""How many characters a number may have."""
+"""Maximum length of a number [characters]."""
 
 Failure = Callable[[str, str, int | None], Exception]
-"""Makes an error of a message, the name of the source, and a line."""
+"""Makes an error from a message, the name of the source, and a line."""
 
 
 SHORT, SHORT_WITH_TABS = 10_000, 100_000
-"""How many characters a text may have that PyYAML's own parser reads: it is ten times as slow as libyaml, but its
-errors say more, and it refuses tabs as ROS does."""
+"""Maximum length of a text for PyYAML's own parser [characters]: it is ten times as slow as libyaml, but has better
+error messages, and refuses tabs as ROS does."""
 
 
 class _Parser(yaml.reader.Reader, yaml.scanner.Scanner, yaml.parser.Parser):
@@ -44,7 +44,7 @@ class _Parser(yaml.reader.Reader, yaml.scanner.Scanner, yaml.parser.Parser):
 
 
 def _parser(text: str) -> Any:
-    """The parser of a text: libyaml's for a long one, where it is available."""
+    """Return the parser for a text: libyaml's for a long one, if available."""
     is_short = len(text) <= (SHORT_WITH_TABS if "\t" in text else SHORT)
     if is_short or not yaml.__with_libyaml__:
         return _Parser(text)
@@ -52,12 +52,12 @@ def _parser(text: str) -> Any:
 
     try:
         return CParser(text)
-    except UnicodeEncodeError:  # of half a character, which PyYAML's parser refuses as one of ours
+    except UnicodeEncodeError:  # half a surrogate pair, which PyYAML's parser refuses with a YAML error
         return _Parser(text)
 
 
 class Loader(Composer, SafeConstructor, Resolver):
-    """PyYAML's safe loader, which counts what it makes."""
+    """PyYAML's safe loader with a limit on the number of values."""
 
     name = ""
 
@@ -71,7 +71,7 @@ class Loader(Composer, SafeConstructor, Resolver):
         self.made = 0
 
     def compose_node(self, parent: Any, index: Any) -> Any:
-        """Compose one node, which is one more."""
+        """Compose one node, and count it."""
         self.made += 1
         if self.made > MOST:
             mark = self.peek_event().start_mark
@@ -79,7 +79,7 @@ class Loader(Composer, SafeConstructor, Resolver):
         return super().compose_node(parent, index)
 
     def construct_object(self, node: Any, deep: bool = False) -> Any:
-        """Make the value of a node; what is wrong with one is told with its line."""
+        """Construct the value of a node; errors get its line."""
         try:
             return super().construct_object(node, deep)
         # 2026-13-45, .e999, a list as a key; !!float "", !!bool x, !!timestamp 1
@@ -89,7 +89,7 @@ class Loader(Composer, SafeConstructor, Resolver):
             raise yaml.MarkedYAMLError(problem=f"{what}: {error}", problem_mark=node.start_mark) from error
 
     def construct_mapping(self, node: Any, deep: bool = False) -> Any:
-        """Make a mapping of a node. Many different keys with the same hash are refused: they take quadratic time."""
+        """Construct a mapping. Refuse many different keys with the same hash, which would take quadratic time."""
         if isinstance(node, yaml.MappingNode):
             self.flatten_mapping(node)
             keys = [key for key, _ in node.value if key.tag != "tag:yaml.org,2002:str"]
@@ -100,25 +100,25 @@ class Loader(Composer, SafeConstructor, Resolver):
         return super().construct_mapping(node, deep)
 
     def _hashable(self, node: Any, deep: bool) -> Hashable:
-        """The value of a key, once it is made; that it has no hash is told later."""
+        """Return the value of a key; None for one that is not hashable, which is reported later."""
         value = self.construct_object(node, deep)
         return value if isinstance(value, Hashable) else None
 
     def construct_yaml_int(self, node: Any) -> Any:
-        """Make a whole number of a text."""
+        """Construct an integer."""
         if len(node.value) > LONGEST_NUMBER:
             raise yaml.MarkedYAMLError(problem="a number of too many digits", problem_mark=node.start_mark)
         return super().construct_yaml_int(node)
 
 
-# PyYAML's types know its own loaders only.
+# PyYAML's types only know its own loaders.
 Loader.add_constructor("tag:yaml.org,2002:int", Loader.construct_yaml_int)  # type: ignore[type-var]
 
 
 def documents(
     text: str, source: str, failure: Failure, loader: type[Loader] = Loader
 ) -> Iterator[tuple[Any, yaml.Node]]:
-    """The documents in a text, as values and as nodes. Raises what `failure` makes, with `source` and a line."""
+    """Yield the documents in a text, as values and as nodes. Raises `failure(...)` with `source` and a line."""
     reading: Loader | None = None
     try:
         reading = loader(text)
@@ -139,12 +139,12 @@ def documents(
 
 
 def line_of(node: yaml.Node | None) -> int | None:
-    """Where a node begins, counted from 1."""
+    """Return the line of a node, counted from 1."""
     return None if node is None or node.start_mark is None else node.start_mark.line + 1
 
 
 def children(node: yaml.Node) -> Iterator[tuple[str, yaml.Node, yaml.Node]]:
-    """How each value in a node is reached (``/key``, ``[0]``), where that is written, and its node."""
+    """Yield the path of each value in a node (``/key``, ``[0]``), the node with its line, and the value's node."""
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
             yield f"/{key.value if isinstance(key, yaml.ScalarNode) else '?'}", key, value
@@ -165,7 +165,7 @@ def _no_yaml(
 
 
 def _refuse_endless(node: yaml.Node, source: str, failure: Failure) -> None:
-    """Refuse a document that holds itself, or that grows out of all bounds through its aliases."""
+    """Refuse a document that contains itself, or that aliases expand beyond the limit."""
     sizes: dict[int, int] = {}
     open_nodes: set[int] = set()
 

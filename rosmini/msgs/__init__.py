@@ -1,12 +1,12 @@
-"""Message, service and action classes, made from ``.msg``, ``.srv`` and ``.action`` files as ROS 1 makes them.
+"""Message, service and action classes, made from ``.msg``, ``.srv`` and ``.action`` files as in ROS 1.
 
     from rosmini.msgs.std_msgs.msg import String        # always
     from std_msgs.msg import String                     # after rosmini.msgs.install()
     String = rosmini.msgs.message_class("std_msgs/String")
 
-All three give the same class. Classes exist for every package that can be found (those that come with rosmini and
-those on ROS_PACKAGE_PATH) and are made when they are first asked for. ``define_message`` makes a class from a text that
-is in no file.
+All three return the same class. Classes exist for every package on the path (those of rosmini and
+those on ROS_PACKAGE_PATH), and are made on first use. ``define_message`` makes a class from a text that
+is not in a file.
 """
 
 from __future__ import annotations
@@ -35,21 +35,21 @@ enable_own_imports()
 
 
 def message_class(name: str) -> type[Any]:
-    """The class of a message type such as "std_msgs/String".
+    """Return the class of a message type such as "std_msgs/String".
 
-    Raises ``UnknownType`` or ``UnknownPackage`` with the nearest names, and
-    :class:`~rosmini.core.errors.DefinitionError` with file and line if a definition is broken.
+    Raises ``UnknownType`` or ``UnknownPackage`` with similar names, and
+    :class:`~rosmini.core.errors.DefinitionError` with file and line if a definition is wrong.
     """
     return _registry().message_class(name)
 
 
 def service_class(name: str) -> type[Any]:
-    """The class of a service type such as "std_srvs/SetBool"; raises as :func:`message_class` does."""
+    """Return the class of a service type such as "std_srvs/SetBool"; raises as :func:`message_class` does."""
     return _registry().service_class(name)
 
 
 def action_class(name: str) -> type[Any]:
-    """The class of an action such as "move_base_msgs/MoveBase"; raises as :func:`message_class` does."""
+    """Return the class of an action such as "move_base_msgs/MoveBase"; raises as :func:`message_class` does."""
     return _registry().action_class(name)
 
 

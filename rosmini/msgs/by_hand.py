@@ -1,7 +1,7 @@
-"""Hand-written message classes, with ``__slots__``, ``_slot_types`` and their own functions to write and read.
+"""Hand-written message classes, with ``__slots__``, ``_slot_types``, and functions to serialise themselves.
 
-Scripts derive them from ``genpy.Message``. They get what the library asks of all message classes; their bytes are what
-their own ``serialize`` writes.
+Scripts derive them from ``genpy.Message``. This module adds the interface of generated classes; their bytes come from
+their own ``serialize``.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def set_slots(message: Any, args: tuple[Any, ...], kwds: dict[str, Any]) -> None:
-    """Set all fields, by position or by keyword, those not given to None. Raises as genpy's constructor does."""
+    """Set all fields, by position or by keyword; the others become None. Raises as genpy's constructor does."""
     names = list(message.__slots__)
     kind = type(message).__name__
     if args and kwds:
@@ -38,7 +38,7 @@ def set_slots(message: Any, args: tuple[Any, ...], kwds: dict[str, Any]) -> None
 
 
 def complete(cls: Any, base: type[MessageContract]) -> None:
-    """Give a class that somebody has written, on top of ``base``, what the library asks of message classes."""
+    """Add the interface of generated message classes to a hand-written class derived from ``base``."""
     for function in ("serialize", "deserialize"):
         if getattr(cls, function) is getattr(base, function):
             setattr(cls, function, _missing(cls.__name__, function))
@@ -74,7 +74,7 @@ def _written(cls: type[MessageContract], message: Any) -> bytes:
     buffer = BytesIO()
     try:
         message.serialize(buffer)
-    except SerializationError:  # it says what is wrong
+    except SerializationError:  # its message names the field
         raise
     except ERRORS as error:
         raise explain(cls, message, error) from error

@@ -1,14 +1,14 @@
-"""Python source for the fast paths of one message class: making, freezing, thawing, writing and reading it.
+"""Generated Python source for the fast functions of a message class: init, freeze, thaw, encode and read.
 
-Nested messages are flattened, so that neighbouring numbers cross :mod:`struct` in one call (the three integers of a
-``Header``, the seven floats of a ``Pose``). ``print(source(cls, "freeze"))`` shows what is run, with ``f0``, ``f1`` ...
-for the names of fields: no name from outside is in the source that is compiled. They are put into the finished code,
-where names are data.
+Nested messages are flattened, so that one call of :mod:`struct` handles neighbouring numbers (the three integers of a
+``Header``, the seven floats of a ``Pose``). ``print(source(cls, "freeze"))`` shows the source, with ``f0``, ``f1`` ...
+for the names of fields: no name from a definition is part of the compiled source. The names are inserted into the
+code object, where they are data.
 
-Why this is not rosbags' ROS 1 serde, which the tests compare it with: rospy replaces text that is not UTF-8 where
-rosbags raises, an array of empty messages lets rosbags loop for as long as a hostile length says, byte arrays have to
-be numpy arrays there, and each type costs the generation of thirteen functions. The checks on publishing are the
-same struct calls, so that reading and writing come out of them nearly for free.
+We do not use rosbags' ROS 1 serialisation, with which the tests compare: rospy replaces text that is not UTF-8 where
+rosbags raises; for an array of empty messages, rosbags loops as often as a hostile length says; it requires numpy
+for byte arrays; and it generates thirteen functions per type. Publishing needs the same struct calls to check
+messages, so reading and writing cost little extra code.
 """
 
 from __future__ import annotations
@@ -57,12 +57,12 @@ def compiled(generator: Generator) -> Callable[..., Any]:
 
 
 def source(cls: type[MessageContract], purpose: str) -> str:
-    """The source that :func:`compile_function` compiles."""
+    """Return the source that :func:`compile_function` compiles."""
     return Generator(cls, purpose).source()
 
 
 def _named(code: CodeType, names: dict[str, str]) -> CodeType:
-    """The code with the names of fields in place of their slots, comprehensions in it included."""
+    """Return the code with the names of fields instead of their slots, including nested code objects."""
 
     def named(slots: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(names.get(slot, slot) for slot in slots)
@@ -77,7 +77,7 @@ def _named(code: CodeType, names: dict[str, str]) -> CodeType:
 
 
 class _Node:
-    """One message or time in the flattened tree: the variables that hold it, and its class."""
+    """One message or time in the flattened tree: its class, and the variables for source and target."""
 
     def __init__(self, path: str, cls: type[Any], parent: _Node | None, name: str, number: int) -> None:
         self.path, self.cls, self.parent, self.name = path, cls, parent, name
@@ -89,11 +89,11 @@ class _Node:
 
 
 Leaf = tuple[_Node, str, "Field | None", str]
-"""A field that is no message: its node, its name there, its definition (None in a time), and its kind."""
+"""A field that is not a message: its node, its name in the node, its definition (None in a time), its type."""
 
 
 class Generator:
-    """Writes the source of one function of a message class."""
+    """Generates the source of one function of a message class."""
 
     def __init__(self, cls: type[MessageContract], purpose: str) -> None:
         self.cls, self.purpose = cls, purpose
@@ -101,7 +101,7 @@ class Generator:
         self.globals: dict[str, Any] = {"__builtins__": __builtins__}
         self.used: dict[tuple[str, int], str] = {}
         self.slots: dict[str, str] = {}
-        """What stands for the name of a field in the source."""
+        """The placeholders for names of fields in the source."""
         self.nodes: list[_Node] = []
         self.nested: dict[str, type[MessageContract]] = {}
         self.leaves: list[Leaf] = []
@@ -130,7 +130,7 @@ class Generator:
     # ---- pieces ----
 
     def use(self, name: str, value: Any) -> str:
-        """Give the generated code a global; each value has a name of its own."""
+        """Add a global to the generated code, and return its unique name."""
         unique = self.used.get((name, id(value)))
         if unique is None:
             unique = f"{name}_{len(self.used)}"
@@ -139,7 +139,7 @@ class Generator:
         return unique
 
     def slot(self, name: str) -> str:
-        """What stands in the source for the name of an attribute."""
+        """Return the placeholder for the name of an attribute."""
         return self.slots.setdefault(name, f"f{len(self.slots)}")
 
     def emit(self, line: str, depth: int = 1) -> None:
@@ -151,7 +151,7 @@ class Generator:
         return "\n".join(self.lines) + "\n"
 
     def runs(self) -> Iterator[list[Leaf]]:
-        """The leaves in wire order, neighbouring numbers together."""
+        """Yield the leaves in wire order, with neighbouring numbers grouped."""
         run: list[Leaf] = []
         for leaf in self.leaves:
             if leaf[3] != "string" and (leaf[2] is None or leaf[2].size is None):
@@ -179,7 +179,7 @@ class Generator:
                 self.emit(f"{node.source} = {node.parent.source}.{self.slot(node.name)}", depth)
 
     def emit_targets(self, depth: int) -> None:
-        """Make the objects, as instances of the classes without ``__setattr__`` for speed (see message.py)."""
+        """Create the objects, as instances of the classes without ``__setattr__`` for speed (see message.py)."""
         for node in self.nodes:
             if node.is_time:
                 new = self.use("new", object.__new__)
@@ -194,7 +194,7 @@ class Generator:
             if not node.is_time:
                 self.emit(f"{node.target}.__class__ = {self.use('made', node.cls)}", depth)
             elif node.parent is self.nodes[0]:
-                # genpy brings the times that are fields of the message itself to canonical form
+                # genpy normalises times that are direct fields of the message
                 wrong = f"{node.target}.nsecs > 999999999"
                 wrong += f" or {node.target}.nsecs < 0" if node.cls is Duration else ""
                 self.emit(f"if {wrong}:", depth)
@@ -218,7 +218,7 @@ class Generator:
         return f"{name}.pack({', '.join(arguments)})"
 
     def array_function(self, field: Field, *, verb: str) -> str:
-        """The name of the function that freezes (or thaws) one array field."""
+        """Return the name of the function that freezes (or thaws) an array field."""
         size = -1 if field.size is None else field.size
         if field.base in BYTES:
             return self.use("array", fields.freeze_bytes(size))
@@ -234,7 +234,7 @@ class Generator:
         return self.use("array", _list_freezer(element, size))
 
     def not_frozen(self, field: Field, v: str) -> str:
-        """The condition that the array `v` is not yet a read-only one over bytes."""
+        """Return the condition that the array `v` is not yet a read-only one over bytes."""
         wrong = [
             f"type({v}) is not {self.use('ndarray', np.ndarray)}",
             f"type({v}.base) is not {self.use('_bytes', bytes)}",
@@ -254,7 +254,7 @@ class Generator:
         self.emit(f"def init(self, /, *_args, {''.join(f'{slot}=None, ' for slot in slots)}**_unknown):", 0)
         self.emit("if _args or _unknown:")
         values = f"{self.use('_arguments', _arguments)}(self, _args, {self.use('_names', names)}, ({listed}), _unknown)"
-        if slots:  # all by position, as most calls with any are
+        if slots:  # the usual case: all fields by position
             right = f"{self.use('_len', len)}(_args) == {len(slots)} and {' is '.join(slots)} is None"
             values = f"_args if {right} and not _unknown else {values}"
         self.emit(f"{listed or '_'} = {values}", 2)
@@ -300,7 +300,7 @@ class Generator:
         self.emit("return o")
 
     def emit_checked(self, leaf: Leaf, value: str, depth: int) -> None:
-        """Freeze what a variable holds: a text or an array."""
+        """Freeze the text or array in a variable."""
         _, _, field, kind = leaf
         if field is None or field.size is None:
             self.emit(f"if type({value}) is not str or not {value}.isascii():", depth)
@@ -334,7 +334,7 @@ class Generator:
     _thaw_numpy = _thaw_genpy_numpy = _thaw
 
     def thawed(self, field: Field, kind: str, value: str) -> str:
-        """The expression for an array field as a subscriber gets it."""
+        """Return the expression for an array field in the form that a subscriber gets."""
         as_arrays = self.purpose != "thaw"
         if kind in BYTES:
             if self.purpose != "thaw_numpy":
@@ -405,7 +405,7 @@ class Generator:
         self.emit("return o, pos")
 
     def place(self, node: _Node, name: str) -> str:
-        """The arguments that tell an error in which type and field it is."""
+        """Return the arguments that tell an error the type and the field."""
         return f"{self.use('type', self.cls._type)}, {self.use('path', node.field_path(name))}"
 
     def emit_length(self, variable: str, depth: int) -> None:
@@ -417,7 +417,7 @@ class Generator:
         self.emit("stop = pos + n", depth)
         self.emit("if stop > end:", depth)
         self.emit(f"raise {self.use('short', fields.short)}({place}, n, end - pos)", depth + 1)
-        # as in rospy, what is not UTF-8 becomes U+FFFD
+        # as in rospy, bytes that are not UTF-8 become U+FFFD
         self.emit(f"{target} = str(data[pos:stop], 'utf-8', 'replace')", depth)
         self.emit("pos = stop", depth)
 
@@ -493,5 +493,5 @@ def _arguments(
     values: tuple[Any, ...],
     unknown: dict[str, Any],
 ) -> Any:
-    """The values for the fields when a constructor was called by position, or wrongly."""
+    """Return the values of the fields for a constructor call by position, or raise for a wrong call."""
     return message._positional(args, dict(zip(names, values, strict=True)), unknown)

@@ -1,4 +1,4 @@
-"""What a message class knows about itself: the contract between `Message` and the modules that it is built from."""
+"""The interface of message classes that the other modules rely on."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class MessageContract:
-    """The base of `Message`, for annotations."""
+    """Base class of `Message`, for annotations."""
 
     __slots__ = ()
 
@@ -27,9 +27,9 @@ class MessageContract:
     _fields_class: ClassVar[type[MessageContract]]
     _measure: ClassVar[Measure]
     _plain: ClassVar[bool]
-    """A frozen message is what a receiver gets: it has no arrays of numbers, which rospy gives as tuples and bytes."""
+    """True if a frozen message needs no conversion for rospy's tuples and bytes: it has no arrays of numbers."""
     _plain_numpy: ClassVar[bool]
-    """A frozen message is what a receiver gets who wants numpy arrays: there are no bytes in it."""
+    """True if a frozen message needs no conversion for receivers of numpy arrays: it contains no bytes."""
 
     _freeze: ClassVar[Callable[[Any], Any]]
     _thaw: ClassVar[Callable[[Any], Any]]

@@ -1,4 +1,4 @@
-"""Message, service and action classes from a text, for types without a file, and to compare versions of one."""
+"""Message, service and action classes from a text, for types without a file, and for comparing versions."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ if TYPE_CHECKING:
 
 
 def define_message(name: str, text: str) -> type[Any]:
-    """The class of the message type "package/Type" with the ``.msg`` text ``text`` (http://wiki.ros.org/msg).
+    """Return a class for the message type "package/Type" with the ``.msg`` text ``text`` (http://wiki.ros.org/msg).
 
-    Each call makes a class of its own, also for a name that was given before or that has a file: so two versions of a
-    type can stand side by side. Only types that have files can be nested. Raises
-    :class:`~rosmini.core.errors.DefinitionError` with the line that is wrong.
+    Each call makes a new class, even for a name that was used before or that has a file, so two versions of a
+    type can exist at the same time. Only types that have files can be nested. Raises
+    :class:`~rosmini.core.errors.DefinitionError` with the line of an error.
     """
     return _class_of(parse_message(text, name), "msg")
 
 
 def define_service(name: str, text: str) -> type[Any]:
-    """The class of the service type "package/Type" with the ``.srv`` text ``text`` (http://wiki.ros.org/srv).
+    """Return a class for the service type "package/Type" with the ``.srv`` text ``text`` (http://wiki.ros.org/srv).
 
-    Its attributes ``_request_class`` and ``_response_class`` are the classes of the two messages. Raises as
+    Its attributes ``_request_class`` and ``_response_class`` are the two message classes. Raises as
     :func:`define_message` does.
     """
     spec = parse_service(text, name)
@@ -41,9 +41,9 @@ def define_service(name: str, text: str) -> type[Any]:
 
 
 def define_action(name: str, text: str) -> tuple[type[Any], type[Any], type[Any], type[Any]]:
-    """The classes of the action "package/Type" that ``text``, as in an ``.action`` file, defines.
+    """Return the classes of the action "package/Type" defined by ``text``, as in an ``.action`` file.
 
-    Four of the seven: the action itself, as clients and servers take it, and its goal, result and feedback. Raises as
+    These are four of the seven: the action, for clients and servers, and its goal, result and feedback. Raises as
     :func:`define_message` does.
     """
     specs = split_action(text, name)
@@ -56,7 +56,7 @@ def define_action(name: str, text: str) -> tuple[type[Any], type[Any], type[Any]
 def _class_of(
     spec: MessageSpec, folder: str, own: Mapping[str, type[Message]] | None = None
 ) -> type[Message]:
-    """Make a class; ``own`` are those that it may nest beside the ones that have files."""
+    """Make a class; its nested types may be in ``own`` or have files."""
     known, mine, nested = registry(), own or {}, {}
 
     def definition(name: str) -> MessageSpec:
@@ -70,9 +70,7 @@ def _class_of(
         except (UnknownType, UnknownPackage) as error:
             hint = nearest(field.base.removeprefix(f"{spec.package}/"), BUILTIN_TYPES)
             raise spec.error(field.line, f"unknown type '{field.base}': {hint or error}") from error
-    measure(
-        spec, lambda base: nested[base]._measure
-    )  # before the md5 sum, which takes as long as the type is large
+    measure(spec, lambda base: nested[base]._measure)  # before the md5 sum, whose cost grows with the type
     return make_message_class(
         spec,
         nested,

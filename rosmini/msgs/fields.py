@@ -1,8 +1,8 @@
-"""What a field may hold: the conversions that the generated code calls, and the diagnosis when one fails.
+"""Valid values of fields: the conversions called by the generated code, and error messages if one fails.
 
-A value is accepted exactly if :mod:`struct` packs it, as in genpy: a bool or a numpy integer in an int field, an int
-in a float field, but no float in an int field. Two additions to genpy: numpy arrays are taken wherever lists are, and
-a ``str`` is refused as a list of strings (genpy sends its letters).
+A value is accepted if :mod:`struct` packs it, as in genpy: a bool or a numpy integer in an int field, an int
+in a float field, but no float in an int field. There are two differences from genpy: numpy arrays are accepted as
+lists, and a ``str`` is refused as a list of strings (genpy sends its letters).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from .contract import MessageContract
     from .definition import Field
 
-# What a wrong value can raise in generated code; AttributeError: None or a number where a message belongs.
+# Errors that a wrong value can cause in generated code; AttributeError: None or a number instead of a message.
 ERRORS = (struct.error, TypeError, ValueError, OverflowError, AttributeError, SerializationError)
 
 DTYPES = {
@@ -39,7 +39,7 @@ DTYPES = {
 
 
 def checked_text(value: Any) -> str:
-    """A string field's value as a plain ``str`` that UTF-8 can hold. Raises ``TypeError`` or ``ValueError``."""
+    """Return a string field's value as a plain, encodable ``str``. Raises ``TypeError`` or ``ValueError``."""
     if not isinstance(value, str):
         raise TypeError("not a str")
     value.encode()
@@ -47,12 +47,12 @@ def checked_text(value: Any) -> str:
 
 
 def as_bool(value: Any) -> Any:
-    """A bool of numpy, which struct does not take, as one of Python; anything else as it is."""
+    """Convert a numpy bool, which struct does not accept, to a Python bool; return other values unchanged."""
     return bool(value) if isinstance(value, np.bool_) else value
 
 
 def freeze_bytes(size: int) -> Callable[[Any], bytes]:
-    """The conversion of a ``uint8[]`` or ``char[]`` field of ``size`` elements (-1: any number) to ``bytes``."""
+    """Return the conversion of a ``uint8[]`` or ``char[]`` field of ``size`` elements (-1: any number) to ``bytes``."""
 
     def convert(values: Any) -> bytes:
         if type(values) is bytes:
@@ -76,12 +76,12 @@ def freeze_bytes(size: int) -> Callable[[Any], bytes]:
 
 @lru_cache(maxsize=256)
 def _packer(code: str, count: int) -> Callable[..., bytes]:
-    """Return what packs this many numbers."""
+    """Return a function that packs this many numbers."""
     return struct.Struct(f"<{count}{code}").pack
 
 
 def array_freezer(kind: str, size: int) -> Callable[[Any], NDArray[Any]]:
-    """The conversion of a numeric array field to a numpy array over ``bytes``, which nobody can write to."""
+    """Return the conversion of a numeric array field to a read-only numpy array over ``bytes``."""
     code, dtype = FORMATS[kind], DTYPES[kind]
     frombuffer, ndarray = np.frombuffer, np.ndarray
 
@@ -116,12 +116,12 @@ def array_freezer(kind: str, size: int) -> Callable[[Any], NDArray[Any]]:
 
 
 def bools_from(data: bytes) -> NDArray[Any]:
-    """A bool array over bytes from a wire, where any byte but 0 means true."""
+    """Return a bool array over bytes from the wire, where any byte but 0 means true."""
     return np.frombuffer((np.frombuffer(data, np.uint8) != 0).tobytes(), np.bool_)
 
 
 def _array_bytes(values: NDArray[Any], dtype: np.dtype[Any]) -> bytes:
-    """The little-endian bytes of a numpy array as ``dtype``, refusing whatever struct would refuse of its elements."""
+    """Return the little-endian bytes of a numpy array as ``dtype``; refuse elements that struct would refuse."""
     if values.ndim != 1:
         raise ValueError(f"an array of {values.ndim} dimensions")
     if values.dtype == dtype:
@@ -144,7 +144,7 @@ def _array_bytes(values: NDArray[Any], dtype: np.dtype[Any]) -> bytes:
 
 
 def explain(cls: type[MessageContract], message: Any, cause: Exception) -> SerializationError:
-    """The error for a message that could not be converted: which field, what it holds, what its ROS type is."""
+    """Return the error for a message that could not be converted: with the field, its value and its ROS type."""
     try:
         check(cls, message)
     except SerializationError as error:
@@ -153,7 +153,7 @@ def explain(cls: type[MessageContract], message: Any, cause: Exception) -> Seria
 
 
 def check(cls: type[MessageContract], message: Any) -> None:
-    """Raise ``SerializationError`` for the first field with a value that its type cannot hold, such as 2 in a bool."""
+    """Raise ``SerializationError`` for the first field with an invalid value, such as 2 in a bool."""
     try:
         _check(cls, message, "")
     except SerializationError as error:
@@ -174,9 +174,9 @@ def _check(cls: type[MessageContract], message: Any, prefix: str) -> None:
 
 
 def check_field(field: Field, path: str, value: Any, nested: type[MessageContract] | None) -> None:
-    """Raise ``SerializationError`` unless ``value`` can stand in a field, which errors call ``path``.
+    """Raise ``SerializationError`` unless ``value`` is valid for a field, which errors call ``path``.
 
-    ``nested`` is the class of a field of messages.
+    ``nested`` is the message class of the field, or None.
     """
     if field.size is None:
         _check_value(nested, field, path, value)
@@ -251,22 +251,22 @@ def _check_number(kind: str, path: str, value: Any) -> None:
 
 
 def _shown(value: Any) -> str:
-    """A value and its type, short enough for one line."""
+    """Return a value and its type, short enough for one line."""
     if value is None:
         return "None"
     return f"{shown(value)} ({type(value).__name__})"
 
 
-# ---- bytes from outside ----
+# ---- received bytes ----
 
 
 def short(cls_name: str, path: str, wanted: int, left: int) -> DeserializationError:
-    """The error for a length on the wire that goes beyond the data."""
+    """Return the error for a length on the wire that exceeds the data."""
     problem = f"field {path} claims {wanted} bytes, but only {left} are left"
     return DeserializationError(f"{cls_name}: {problem}: the data is cut off, or of another type")
 
 
 def too_many(cls_name: str, path: str, count: int, left: int) -> DeserializationError:
-    """The error for an array on the wire with more elements than the data can hold."""
+    """Return the error for an array on the wire with more elements than fit into the data."""
     problem = f"field {path} claims {count} elements, but only {left} bytes are left"
     return DeserializationError(f"{cls_name}: {problem}: the data is cut off, or of another type")

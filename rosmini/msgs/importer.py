@@ -1,7 +1,7 @@
-"""``import`` for messages: ``rosmini.msgs.std_msgs.msg`` always, ``std_msgs.msg`` after :func:`install`.
+"""Import hooks for messages: ``rosmini.msgs.std_msgs.msg`` always, ``std_msgs.msg`` after :func:`install`.
 
-The modules are made on the fly, and so is each class in them when it is first asked for. Both paths lead to the same
-class objects, because both ask the one registry.
+Modules are created on demand, and so are the classes in them. Both paths lead to the same
+class objects, because both use the same registry.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ class UnknownPackageImport(UnknownPackage, ModuleNotFoundError):
 
 
 def how_to_import(text: object) -> str:
-    """Say how a script gets the class of the type that ``text`` names ("std_msgs/String", "std_msgs.String").
+    """Return how a script imports the type named by ``text`` ("std_msgs/String", "std_msgs.String").
 
-    Empty where it names none.
+    Returns an empty text if there is no such type.
     """
     parts = [part for part in re.split(r"[/.]", text) if part not in _KINDS] if isinstance(text, str) else []
     if len(parts) != 2:
@@ -53,7 +53,7 @@ def how_to_import(text: object) -> str:
 
 
 class _DefinitionsModule(ModuleType):
-    """``<package>.msg`` or ``<package>.srv``: its attributes are the classes."""
+    """``<package>.msg`` or ``<package>.srv``: its attributes are the message or service classes."""
 
     def __init__(self, name: str, package: str, kind: str) -> None:
         super().__init__(
@@ -77,7 +77,7 @@ class _DefinitionsModule(ModuleType):
         return [*self._names(), "__name__", "__doc__"]
 
     def __getattr__(self, name: str) -> Any:
-        # Tools look for all sorts of attributes; only what can be a type is worth an error that is not AttributeError.
+        # Tools look up many attributes; only a possible type name deserves an error that is not AttributeError.
         if name.startswith("_"):
             raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'", name=name, obj=self)
         full_name = f"{self._package}/{name}"
@@ -96,7 +96,7 @@ class _DefinitionsModule(ModuleType):
 
 
 class _PackageModule(ModuleType):
-    """A package; its submodules ``msg`` and ``srv`` are imported when they are first asked for."""
+    """A package; its submodules ``msg`` and ``srv`` are imported on first use."""
 
     def __init__(self, name: str, package: str) -> None:
         super().__init__(name, f"The messages and services of the ROS package {package}.")
@@ -110,7 +110,7 @@ class _PackageModule(ModuleType):
             from importlib import import_module
 
             return import_module(f"{self.__name__}.{name}")
-        if name[:1].isupper():  # a type: what `from std_msgs import String` and `std_msgs.String` mean
+        if name[:1].isupper():  # a type, as in `from std_msgs import String` and `std_msgs.String`
             hint = how_to_import(f"{self._package}.{name}").partition(" and give")[0]
             where = "in its modules " + " and ".join(
                 f"{self._package}.{kind}" for kind in _kinds(self._package)
@@ -122,7 +122,7 @@ class _PackageModule(ModuleType):
 
 
 def _kinds(package: str) -> list[str]:
-    """The submodules of a package."""
+    """Return the submodules of a package."""
     found = registry()
     return [
         kind for kind, names in (("msg", found.messages(package)), ("srv", found.services(package))) if names
@@ -139,7 +139,7 @@ class _DefinitionsLoader(Loader):
         return _DefinitionsModule(spec.name, self.package, self.kind)
 
     def exec_module(self, module: ModuleType) -> None:
-        """Nothing to run: the classes are made on demand."""
+        """Do nothing: classes are made on demand."""
 
 
 def _spec(fullname: str, package: str, kind: str | None) -> ModuleSpec:
@@ -147,7 +147,7 @@ def _spec(fullname: str, package: str, kind: str | None) -> ModuleSpec:
 
 
 class _RebuiltLoader(SourceFileLoader):
-    """Reads the source each time: bytecode of a file that was made twice in one second would be the old one."""
+    """Reads the source each time: bytecode would be stale if a file was made twice within a second."""
 
     def get_code(self, fullname: str) -> CodeType:
         path = self.get_filename(fullname)
@@ -155,13 +155,13 @@ class _RebuiltLoader(SourceFileLoader):
 
 
 def _reconfigure_folder(package: str) -> Path | None:
-    """Where catkin_make has made ``PACKAGE.cfg``."""
+    """Return the folder in which catkin_make has made ``PACKAGE.cfg``."""
     source = registry().source
     return source.reconfigure_folder(package) if isinstance(source, PackageSource) else None
 
 
 def _reconfigure_spec(fullname: str) -> ModuleSpec | None:
-    """Where ``PACKAGE.cfg`` or a module in it is; None if there is none, or no package that it can be a part of."""
+    """Return the spec of ``PACKAGE.cfg`` or a module in it, or None if there is none, or no such ROS package."""
     package, *inner = fullname.split(".")
     folder = _reconfigure_folder(package) if isinstance(sys.modules.get(package), _PackageModule) else None
     if folder is None:
@@ -176,7 +176,7 @@ class _OwnFinder(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """As :meth:`importlib.abc.MetaPathFinder.find_spec`. Raises :class:`UnknownPackageImport`."""
+        """Find a module, as in :class:`importlib.abc.MetaPathFinder`. Raises :class:`UnknownPackageImport`."""
         if not fullname.startswith(f"{MODULE_PREFIX}."):
             return None
         package, _, kind = fullname.removeprefix(f"{MODULE_PREFIX}.").partition(".")
@@ -201,7 +201,7 @@ class _OwnFinder(MetaPathFinder):
 
 
 class _TopLevelFinder(MetaPathFinder):
-    """Finds ``<package>.msg``, ``<package>.srv`` and ``<package>.cfg`` for ROS packages."""
+    """Finds ``<package>.msg``, ``<package>.srv`` and ``<package>.cfg`` of ROS packages."""
 
     def __init__(self, *, shadow: bool) -> None:
         self.shadow = shadow
@@ -209,7 +209,7 @@ class _TopLevelFinder(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """As :meth:`importlib.abc.MetaPathFinder.find_spec`."""
+        """Find a module, as in :class:`importlib.abc.MetaPathFinder`."""
         package, _, kind = fullname.partition(".")
         if kind.partition(".")[0] == "cfg":
             return _reconfigure_spec(fullname)
@@ -225,7 +225,7 @@ class _TopLevelFinder(MetaPathFinder):
 
 
 class _LastFinder(MetaPathFinder):
-    """Comes when all others have failed: a package may be new, or its name mistyped."""
+    """Runs after all other finders: finds new packages, and gives hints for mistyped names."""
 
     def find_spec(
         self,
@@ -233,7 +233,7 @@ class _LastFinder(MetaPathFinder):
         path: Sequence[str] | None,  # noqa: ARG002 (the protocol's signature)
         target: ModuleType | None = None,  # noqa: ARG002
     ) -> ModuleSpec | None:
-        """As :meth:`importlib.abc.MetaPathFinder.find_spec`. Raises :class:`UnknownPackageImport` for a near miss."""
+        """Find a new package. Raises :class:`UnknownPackageImport` for another name that looks like one of messages."""
         if "." in fullname or not fullname.endswith(("_msgs", "_msg", "_srvs", "_srv", "_interfaces")):
             return None
         source = registry().source
@@ -246,15 +246,15 @@ class _LastFinder(MetaPathFinder):
 
 
 def _is_real(fullname: str, path: Sequence[str] | None, target: ModuleType | None) -> bool:
-    """True if Python finds such a module by itself; a folder of that name without ``__init__.py`` does not count."""
+    """True if Python itself finds such a module; a folder of that name without ``__init__.py`` does not count."""
     found = PathFinder.find_spec(fullname, path, target)
     return found is not None and found.loader is not None and found.origin is not None
 
 
 def install(*, shadow: bool = False) -> None:
-    """Let ``from std_msgs.msg import String`` find our classes, for every ROS package that can be found.
+    """Let ``from std_msgs.msg import String`` find our classes, for every ROS package on the path.
 
-    Python modules that are really installed under such a name (those of a ROS installation) win, unless ``shadow`` is
+    Real Python modules of such a name (those of a ROS installation) take precedence, unless ``shadow`` is
     true. A second call changes ``shadow``.
     """
     uninstall()
@@ -264,7 +264,7 @@ def install(*, shadow: bool = False) -> None:
 
 
 def uninstall() -> None:
-    """Undo :func:`install`: forget the finders and the modules that came through them."""
+    """Undo :func:`install`: remove the finders and the modules that they loaded."""
     sys.meta_path[:] = [
         finder for finder in sys.meta_path if not isinstance(finder, (_TopLevelFinder, _LastFinder))
     ]
@@ -276,7 +276,7 @@ def uninstall() -> None:
 
 
 def forget(package: str) -> None:
-    """Let imports find the types of a package as its files define them now; classes in use stay as they are."""
+    """Let imports use the current files of a package's types; classes in use do not change."""
     packages = registry().forget(package)
     for module in list(sys.modules.values()):
         if isinstance(module, _DefinitionsModule) and vars(module)["_package"] in packages:
@@ -286,7 +286,7 @@ def forget(package: str) -> None:
 
 
 def _forget_reconfigure(start: str = "") -> None:
-    """Forget the modules of ``PACKAGE.cfg`` that catkin_make has made, those whose names begin so."""
+    """Unload modules of ``PACKAGE.cfg`` made by catkin_make whose names begin with ``start``."""
     for name, module in list(sys.modules.items()):
         if name.startswith(start) and isinstance(getattr(module, "__loader__", None), _RebuiltLoader):
             del sys.modules[name]
@@ -298,7 +298,7 @@ def installed() -> bool:
 
 
 def enable_own_imports() -> None:
-    """Let ``rosmini.msgs.<package>`` be imported. Called once, when ``rosmini.msgs`` is."""
+    """Make ``rosmini.msgs.<package>`` importable. Called once, by ``rosmini.msgs``."""
     if not any(isinstance(finder, _OwnFinder) for finder in sys.meta_path):
-        # in front, because the folders with the stubs would pass for packages without __init__.py
+        # first, because the folders with the stubs would count as namespace packages
         sys.meta_path.insert(0, _OwnFinder())

@@ -1,7 +1,7 @@
-"""How large a message type may be: a definition from outside may say ``float64[99999999999] x``.
+"""Limits on the size of message types: a definition from outside may say ``float64[99999999999] x``.
 
-No type of ROS comes near these limits. They are looked at before anything is made of a definition, so that neither md5
-sums nor classes nor default values can take longer, or more memory, than they allow.
+No ROS type comes near these limits. They are checked before a definition is used, so that md5
+sums, classes and default values cannot take more time or memory than they allow.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ if TYPE_CHECKING:
     from .definition import Field, MessageSpec
 
 MAX_DEPTH = 64
-"""The deepest nesting of messages."""
+"""Maximum nesting depth of messages."""
 MAX_FIELDS = 4096
-"""The largest number of fields of a message, those of nested messages included."""
+"""Maximum number of fields of a message, including those of nested messages."""
 MAX_MEMORY = 64 * 1024 * 1024
-"""The most memory that a message with default values may need [bytes]."""
+"""Maximum memory for a message with default values [bytes]."""
 MAX_EMPTY = 16
-"""How many values without bytes (empty messages) a message or array may have: no data bounds their number."""
+"""Maximum number of values without bytes (empty messages) in a message or array: no data limits their number."""
 
-_OBJECT = 64  # what an object takes in memory, roughly
+_OBJECT = 64  # approximate memory of an object
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """How large a message is: levels, fields (arrays count as one), fewest bytes, default memory, empty messages."""
+    """Size of a message: levels, fields (an array counts as one), minimum bytes, default memory, empty messages."""
 
     depth: int = 0
     fields: int = 0
@@ -41,9 +41,9 @@ class Measure:
 
 
 def measure(spec: MessageSpec, of: Callable[[str], Measure]) -> Measure:
-    """Measure a definition; ``of`` gives the measures of nested types by name.
+    """Measure a definition; ``of`` returns the measures of nested types by name.
 
-    Raises :class:`~rosmini.core.errors.DefinitionError` at the field with which the type becomes too large.
+    Raises :class:`~rosmini.core.errors.DefinitionError` at the field that makes the type too large.
     """
     depth = fields = wire = empty = 0
     memory = _OBJECT
@@ -62,7 +62,7 @@ def measure(spec: MessageSpec, of: Callable[[str], Measure]) -> Measure:
 
 
 def measured(field: Field) -> Measure:
-    """The measure of one value of a type that needs no definition."""
+    """Return the measure of one value of a built-in type."""
     if field.base in FORMATS:
         size = struct.calcsize("<" + FORMATS[field.base])
         return Measure(fields=1, wire=size, memory=1 if field.base in BYTES else 8)

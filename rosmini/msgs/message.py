@@ -1,7 +1,7 @@
-"""The base of all message classes: everything that does not depend on the fields of one type.
+"""The base class of all messages: everything that does not depend on the fields of a type.
 
-A message class comes in two layers. The lower one has only the slots; the generated code makes objects of it, fills
-them at full speed, and then turns them into the upper, public one (``message.__class__ = ...``), whose
+A message class has two layers. The lower one has only slots; the generated code creates and fills instances of it
+at full speed, and then turns them into instances of the upper, public class (``message.__class__ = ...``), whose
 ``__setattr__`` gives a helpful error for a mistyped field.
 """
 
@@ -27,7 +27,7 @@ __all__ = ["Message", "make_message_class"]
 
 
 class _Compiled:
-    """A function of a message class that is generated when it is first asked for."""
+    """A function of a message class that is generated on first use."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
@@ -36,7 +36,7 @@ class _Compiled:
         from .codegen import compile_function
 
         home = next((cls for cls in owner.__mro__ if "_spec" in cls.__dict__), None)
-        if home is None:  # help() and inspect look into the classes below those of types, too
+        if home is None:  # help() and inspect also look at the base classes
             raise AttributeError(
                 f"{owner.__name__} has no {self.name}: it is not the class of a message type"
             )
@@ -48,14 +48,14 @@ class _Compiled:
 class Message(MessageContract):
     """A ROS message; ``isinstance(x, Message)`` is true for messages of every type.
 
-    Made by :func:`rosmini.msgs.message_class`, with the conventions of genpy
+    Classes are made by :func:`rosmini.msgs.message_class`, with the conventions of genpy
     (http://wiki.ros.org/msg, http://docs.ros.org/en/noetic/api/genpy/html/).
     """
 
     __slots__ = ("_cause", "_connection_header")
 
     _cause: int
-    """The number of its publication, where a graph records what happens."""
+    """The number of its publication, if the graph records history."""
     _connection_header: dict[str, Any] | None
 
     _freeze = _Compiled()
@@ -67,11 +67,11 @@ class Message(MessageContract):
 
     @classmethod
     def _decode(cls, data: bytes | bytearray | memoryview) -> Self:
-        """The frozen message that ``data`` holds in ROS 1 serialisation.
+        """Return the frozen message in ``data``, in ROS 1 serialisation.
 
         Raises :class:`DeserializationError` unless ``data`` is exactly one message of this type.
         """
-        # numpy arrays will look into these bytes, so they must be ones that nobody can write to
+        # numpy arrays will refer to these bytes, so they must be immutable
         fixed = data if type(data) is bytes else bytes(data)
         try:
             message, used = cls._read(fixed, 0, len(fixed))
@@ -89,16 +89,16 @@ class Message(MessageContract):
 
     @classmethod
     def _thawer(cls, *, numpy: bool) -> Callable[[Any], Any] | None:
-        """What makes a frozen message its receiver's own, with numpy arrays or with rospy's tuples and bytes.
+        """Return the function that converts a frozen message for a receiver, with numpy arrays or rospy's tuples.
 
-        None: it is already.
+        None if no conversion is needed.
         """
         if cls._plain_numpy if numpy else cls._plain:
             return None
         thaw: Callable[[Any], Any] = cls._thaw_numpy if numpy else cls._thaw
         return thaw
 
-    # ---- classes written by hand ----
+    # ---- hand-written classes ----
 
     def __init_subclass__(cls, **kwds: Any) -> None:
         super().__init_subclass__(**kwds)
@@ -107,7 +107,7 @@ class Message(MessageContract):
 
             complete(cls, Message)
 
-    if not TYPE_CHECKING:  # the classes that are made from definitions have constructors of their own
+    if not TYPE_CHECKING:  # generated classes have their own constructors
 
         def __init__(self, *args: Any, **kwds: Any) -> None:
             from .by_hand import set_slots
@@ -117,23 +117,23 @@ class Message(MessageContract):
     # ---- genpy's interface ----
 
     def serialize(self, buff: BytesIO) -> None:
-        """Write the message to ``buff``. Raises :class:`SerializationError` naming the field that is wrong."""
+        """Write the message to ``buff``. Raises :class:`SerializationError`, with the field."""
         buff.write(type(self)._encode(self))
 
     def deserialize(self, str: bytes) -> Self:
-        """Take all fields from bytes; gives ``self``. Raises :class:`DeserializationError`.
+        """Set all fields from bytes, and return ``self``. Raises :class:`DeserializationError`.
 
-        Unlike genpy it refuses bytes after the end of the message.
+        Unlike genpy, it refuses bytes after the end of the message.
         """
         cls = type(self)
         return self._take(cls._thaw(cls._decode(str)))
 
     def serialize_numpy(self, buff: BytesIO, numpy: ModuleType) -> None:  # noqa: ARG002 (genpy's signature)
-        """As :meth:`serialize`, which takes numpy arrays as well."""
+        """Do the same as :meth:`serialize`, which accepts numpy arrays as well."""
         self.serialize(buff)
 
     def deserialize_numpy(self, str: bytes, numpy: ModuleType) -> Self:  # noqa: ARG002 (genpy's signature)
-        """As :meth:`deserialize`, with numpy arrays where there are numbers; ``uint8[]`` stays bytes, as in genpy."""
+        """Do as :meth:`deserialize`, but use numpy arrays for numbers; ``uint8[]`` remains bytes, as in genpy."""
         cls = type(self)
         return self._take(cls._thaw_genpy_numpy(cls._decode(str)))
 
@@ -146,7 +146,7 @@ class Message(MessageContract):
         return self._slot_types
 
     def _check_types(self, exc: Exception | None = None) -> None:
-        """Raise :class:`SerializationError` if a field is wrong, or with the text of ``exc`` if that is given."""
+        """Raise :class:`SerializationError` if a field is invalid, or with the text of ``exc`` if given."""
         from .fields import check
 
         cls = type(self)
@@ -172,7 +172,7 @@ class Message(MessageContract):
 
     __hash__ = None  # type: ignore[assignment]  # as in genpy: messages can be changed
 
-    if not TYPE_CHECKING:  # a type checker must not think that any attribute will do
+    if not TYPE_CHECKING:  # a type checker must not accept arbitrary attributes
 
         def __getattr__(self, name: str) -> Any:
             if name == "_connection_header":
@@ -194,7 +194,7 @@ class Message(MessageContract):
     def _positional(
         self, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]
     ) -> Sequence[Any]:
-        """The field values of a constructor call by position; raises what genpy raises for a wrong call."""
+        """Return the field values of a constructor call by position; raise genpy's errors for a wrong call."""
         if args and (unknown or any(value is not None for value in given.values())):
             raise TypeError("Message constructor may only use args OR keywords, not both")
         for name in unknown:
@@ -220,7 +220,7 @@ class Message(MessageContract):
 
 
 def _alike(one: Any, other: Any) -> bool:
-    """Equality of field values: lists and tuples are alike, numpy arrays compare as a whole."""
+    """Compare field values: a list equals a tuple with the same elements, numpy arrays compare as a whole."""
     if hasattr(one, "dtype") or hasattr(other, "dtype"):
         import numpy as np
 
@@ -238,7 +238,7 @@ def _set_field(self: Message, name: str, value: Any) -> None:
 
 
 def _first_init(self: Message, /, *args: Any, **kwds: Any) -> None:
-    """Compile the constructor when the first message is made, and go on with it."""
+    """Compile the constructor when the first message is made, and call it."""
     from .codegen import compile_function
 
     home = next(cls for cls in type(self).__mro__ if "_spec" in cls.__dict__)
@@ -254,7 +254,7 @@ def make_message_class(
     text: str,
     module: str,
 ) -> type[Message]:
-    """Make the class for ``spec``; ``nested`` has the classes of its fields by type name.
+    """Make the class for ``spec``; ``nested`` contains the classes of its fields by type name.
 
     Raises :class:`~rosmini.core.errors.DefinitionError` if it is too large: see :mod:`rosmini.msgs.limits`.
     """
@@ -289,7 +289,7 @@ def make_message_class(
         **{constant.name: constant.value for constant in spec.constants},
     }
     cls = type(spec.short_name, (fields_class,), namespace)
-    # The slots are those of the layer below; scripts expect to find the field names here.
+    # The slots belong to the lower layer; scripts expect to find the field names here.
     cls.__slots__ = names  # type: ignore[attr-defined]
     return cls
 

@@ -1,4 +1,4 @@
-"""The classes of all message, service and action types, made from their definitions when they are first asked for."""
+"""The classes of all message, service and action types, made from their definitions on first use."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MODULE_PREFIX = "rosmini.msgs"
 
 
 class Service:
-    """The base of all service classes, which only hold a type, an md5 sum and two message classes."""
+    """Base class of all services, which only have a type, an md5 sum and two message classes."""
 
     _type: ClassVar[str]
     _md5sum: ClassVar[str]
@@ -57,7 +57,7 @@ def make_service_class(
 
 
 class Registry:
-    """Makes and keeps the classes for the definitions of one source. Safe to use from several threads."""
+    """Makes and caches the classes for the definitions of one source. Thread-safe."""
 
     def __init__(self, source: Source, *, is_default: bool = False) -> None:
         self.source = source
@@ -71,10 +71,10 @@ class Registry:
     # ---- classes ----
 
     def message_class(self, name: str) -> type[Any]:
-        """The class of a message type "package/Type"; also of the messages that services and actions are made of.
+        """Return the class of a message type "package/Type", including the messages of services and actions.
 
-        Raises :class:`UnknownType` or :class:`UnknownPackage` with the nearest names, :class:`DefinitionError` with
-        file and line if the definition, or one that it is made from, is broken.
+        Raises :class:`UnknownType` or :class:`UnknownPackage` with similar names, :class:`DefinitionError` with
+        file and line if the definition or that of a nested type is wrong.
         """
         found = self._messages.get(name)
         if found is not None:
@@ -83,7 +83,7 @@ class Registry:
             return self._make_message_class(name)
 
     def service_class(self, name: str) -> type[Any]:
-        """The class of a service type "package/Type". Raises as :meth:`message_class` does."""
+        """Return the class of a service type "package/Type". Raises as :meth:`message_class` does."""
         with self._lock:
             if name not in self._services:
                 spec = self.service_definition(name)
@@ -96,9 +96,9 @@ class Registry:
             return self._services[name]
 
     def action_class(self, name: str) -> type[Any]:
-        """The class of an action "package/Type" (or "package/TypeAction"), as actionlib's constructors take it.
+        """Return the class of an action "package/Type" (or "package/TypeAction"), for actionlib's constructors.
 
-        A message class with the fields ``action_goal``, ``action_result`` and ``action_feedback``.
+        It is a message class with the fields ``action_goal``, ``action_result`` and ``action_feedback``.
         """
         package, _, short = name.partition("/")
         base = short.removesuffix("Action") or short
@@ -109,7 +109,7 @@ class Registry:
                 "action_result",
                 "action_feedback",
             ]:
-                return cls  # an action whose messages were generated into the package's msg folder
+                return cls  # an action whose generated messages are in the package's msg folder
             raise self._unknown("action", name)
         return self.message_class(f"{package}/{base}Action")
 
@@ -120,9 +120,9 @@ class Registry:
             return None
 
     def reduce(self, message: Message) -> tuple[Any, ...] | None:
-        """How to pickle a message: by the name of its type, which every process knows.
+        """Return how to pickle a message: by the name of its type, which every process knows.
 
-        None for messages that another process could not make from a name: those of a subclass or another registry.
+        None for a message of a subclass or another registry, which another process could not find by name.
         """
         cls = type(message)
         if not self.is_default or self._messages.get(cls._type) is not cls:
@@ -132,12 +132,12 @@ class Registry:
     # ---- definitions ----
 
     def definition(self, name: str) -> MessageSpec:
-        """The parsed definition of a message type, whose nested types all exist. Raises as :meth:`message_class`."""
+        """Return a message type's parsed definition, whose nested types all exist. Raises as :meth:`message_class`."""
         with self._lock:
             return self._load(name, ())
 
     def service_definition(self, name: str) -> ServiceSpec:
-        """The parsed definition of a service type. Raises as :meth:`message_class`."""
+        """Return the parsed definition of a service type. Raises as :meth:`message_class`."""
         package, short = self._split(name, "service")
         found = self.source.read(package, "srv", short)
         if found is None:
@@ -148,20 +148,20 @@ class Registry:
         return spec
 
     def messages(self, package: str) -> list[str]:
-        """The names of a package's messages, those of its actions included, sorted; nothing is parsed."""
+        """Return the names of a package's messages, including those of actions, sorted, without parsing them."""
         derived = [
             f"{name}{suffix}" for name in self.source.names(package, "action") for suffix in ACTION_SUFFIXES
         ]
         return sorted({*self.source.names(package, "msg"), *derived})
 
     def services(self, package: str) -> list[str]:
-        """The names of a package's services, sorted; nothing is parsed."""
+        """Return the names of a package's services, sorted, without parsing them."""
         return self.source.names(package, "srv")
 
     def forget(self, package: str) -> set[str]:
-        """Read the definitions of a package again when they are asked for next; also of what contains them.
+        """Discard the definitions of a package, and those that contain them; they are read again on next use.
 
-        Classes that are in use stay as they are. Returns the packages that are concerned.
+        Classes in use do not change. Returns the affected packages.
         """
         with self._lock:
             gone = {name for name in (*self._specs, *self._services) if name.startswith(f"{package}/")}
@@ -301,9 +301,9 @@ class Registry:
 
 
 class _Holder:
-    """Holds the one registry of the process, which the module functions and the import hook use.
+    """Holds the process-wide registry, used by the module functions and the import hook.
 
-    This is the only state of ``rosmini.msgs`` that lives outside objects. It has to: a message type must be the same
+    This is the only global state of ``rosmini.msgs``. It is necessary, because a message type must be the same
     class wherever it is imported.
     """
 
@@ -312,14 +312,14 @@ class _Holder:
 
 
 def _restore(name: str, state: list[Any]) -> Message:
-    """Make a message again from its pickle."""
+    """Restore a message from its pickle."""
     message: Message = object.__new__(registry().message_class(name))
     message.__setstate__(state)
     return message
 
 
 def registry() -> Registry:
-    """The registry of this process, over all packages that can be found."""
+    """Return the registry of this process, for all packages on the path."""
     with _Holder.lock:
         if _Holder.current is None:
             _Holder.current = Registry(PackageSource(), is_default=True)

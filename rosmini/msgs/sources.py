@@ -1,4 +1,4 @@
-"""Where definitions come from: the ``msg``, ``srv`` and ``action`` folders of ROS packages."""
+"""Sources of definitions: the ``msg``, ``srv`` and ``action`` folders of ROS packages."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ class Source(Protocol):
     """A collection of definition texts. ``kind`` is "msg", "srv" or "action"."""
 
     def packages(self) -> list[str]:
-        """The names of all packages that define something, sorted."""
+        """Return the names of all packages with definitions, sorted."""
 
     def has_package(self, package: str) -> bool:
-        """True if this package defines something; answers from what is known already, so it is quick."""
+        """True if this package has definitions; uses cached data, so it is fast."""
 
     def names(self, package: str, kind: str) -> list[str]:
-        """The names of all definitions of one kind in a package, sorted; empty for an unknown package."""
+        """Return the names of all definitions of one kind in a package, sorted; empty for an unknown package."""
 
     def read(self, package: str, kind: str, name: str) -> tuple[str, str] | None:
-        """The text of a definition and the file that it is in, or None if there is none."""
+        """Return the text of a definition and the path of its file, or None."""
 
 
 class PackageSource:
-    """The definition files of the packages in an index; by default of all that can be found.
+    """The definition files of the packages in an index; by default of all packages on the path.
 
-    Without an index of its own it follows changes of ``ROS_PACKAGE_PATH``.
+    Without a given index, it follows changes of ``ROS_PACKAGE_PATH``.
     """
 
     def __init__(self, index: PackageIndex | None = None) -> None:
@@ -44,25 +44,25 @@ class PackageSource:
 
     @property
     def index(self) -> PackageIndex:
-        """The packages that are looked through."""
+        """The package index."""
         if not self._fixed and self._index.paths != search_paths():
             self._index = PackageIndex()
         return self._index
 
     def packages(self) -> list[str]:
-        """As :meth:`Source.packages`."""
+        """See :meth:`Source.packages`."""
         return [name for name in self.index.names() if self.has_package(name)]
 
     def has_package(self, package: str) -> bool:
-        """As :meth:`Source.has_package`."""
+        """See :meth:`Source.has_package`."""
         return self._folder(package) is not None
 
     def names(self, package: str, kind: str) -> list[str]:
-        """As :meth:`Source.names`."""
+        """See :meth:`Source.names`."""
         return sorted(self._files(package, kind))
 
     def read(self, package: str, kind: str, name: str) -> tuple[str, str] | None:
-        """As :meth:`Source.read`.
+        """See :meth:`Source.read`.
 
         Raises :class:`DefinitionError` if the file cannot be read, is too large or is not UTF-8 text.
         """
@@ -79,14 +79,14 @@ class PackageSource:
         return text.replace("\r\n", "\n").replace("\r", "\n"), str(path)
 
     def reconfigure_folder(self, package: str) -> Path | None:
-        """The folder in which catkin_make has made the modules of ``PACKAGE.cfg``, if it has."""
+        """Return the folder in which catkin_make has made the modules of ``PACKAGE.cfg``, if it has."""
         index = self.index
         return reconfigure_modules(package, index.path(package)) if package in index else None
 
     def _folder(self, package: str) -> Path | None:
-        """The folder of a package that defines something.
+        """Return the folder of a package's definitions.
 
-        Where the package that is found defines nothing (Debian's libstd-msgs-dev has headers only), rosmini's own.
+        If the package on the path has none (Debian's libstd-msgs-dev contains only headers), use rosmini's.
         """
         index = self.index
         if package not in index:

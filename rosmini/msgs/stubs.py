@@ -1,4 +1,4 @@
-"""Type stubs of messages and services, whose classes type checkers and editors cannot see."""
+"""Type stubs of messages and services, whose generated classes type checkers and editors cannot see."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 def package_stubs(
     registry: Registry, package: str, head: str, module_of: Callable[[str], str]
 ) -> dict[str, str]:
-    """Return the stub files of a package, by their path in its folder; none if it defines nothing.
+    """Return the stub files of a package, by their path in its folder; none if it has no definitions.
 
-    ``head`` is their first line; ``module_of`` says where the stubs of another package are imported from. Raises as
+    ``head`` is their first line; ``module_of`` returns the module that contains another package's stubs. Raises as
     :meth:`Registry.definition` does.
     """
     messages, services = registry.messages(package), registry.services(package)
@@ -77,10 +77,10 @@ def _message(spec: MessageSpec, own_module: str, others: set[str]) -> str:
 
 
 def _types(field: Field, package: str, own_module: str, others: set[str]) -> tuple[str, str]:
-    """What a field holds, and what a constructor takes for it.
+    """Return the type of a field, and the type that the constructor accepts for it.
 
-    An array may hold a list (yours), a tuple (received) or a numpy array (from the object API), which no one type
-    covers: it reads as ``Any`` for numbers, and as a list for the rest.
+    An array may be a list (yours), a tuple (received) or a numpy array (object API), for which there is no common
+    type: it is annotated as ``Any`` for numbers, and as a list otherwise.
     """
     base = field.base
     if base in INTEGER_RANGES:

@@ -1,7 +1,7 @@
-"""Messages of which little changes from one to the next, such as those of a sensor: what stays is checked once.
+"""Templates for messages that change little, such as those of a sensor: the constant part is checked once.
 
-Publishing takes a snapshot of a message: each field is read, checked and copied. A template makes snapshots from what
-changes alone, and `Publisher.publish_frozen` sends them as they are.
+Publishing takes a snapshot of a message: each field is read, checked and copied. A template makes snapshots from the
+changing fields alone, and `Publisher.publish_frozen` sends them without another copy.
 
 >>> from rosmini.msgs import message_class
 >>> point = message_class("geometry_msgs/PointStamped")()
@@ -33,19 +33,19 @@ __all__ = ["template"]
 
 
 def template(message: Message, *varying: str) -> Callable[..., Any]:
-    """Return a function that makes frozen messages which differ from `message`, as it is now, in the fields `varying`.
+    """Return a function that makes frozen copies of `message`, as it is now, with new values in the fields `varying`.
 
-    Fields are named by their paths ("pose.pose.position.x"); each is a number, a text or an array. The function takes
-    their values in this order. It raises `SerializationError`, which names the field, for what that cannot hold.
+    Fields are given as paths ("pose.pose.position.x") to a number, a text or an array. The function takes
+    their values in this order. It raises `SerializationError`, with the field, for an invalid value.
 
-    Raises `RosminiError` if a path leads to no such field, and `SerializationError` as publishing the message does.
+    Raises `RosminiError` for a path without such a field, and `SerializationError` if `message` is invalid.
     """
     frozen = type(message)._freeze(message)
     cls: Any = type(frozen)
     maker, constant = _maker(cls, varying)
 
     def explained(values: tuple[Any, ...], cause: Exception) -> SerializationError:
-        """Return the error for values of which one does not fit."""
+        """Return the error for a set of values with an invalid one."""
         example = cls._freeze(frozen)
         for path, value in zip(varying, values, strict=True):
             parent, _, name = path.rpartition(".")
@@ -58,7 +58,7 @@ def template(message: Message, *varying: str) -> Callable[..., Any]:
 
 @lru_cache(maxsize=1024)
 def _maker(cls: Any, varying: tuple[str, ...]) -> tuple[Callable[..., Any], tuple[str, ...]]:
-    """Compile what the templates of one class with the same varying fields share; return it and the constant fields."""
+    """Compile the shared code of templates with the same class and varying fields; return it and the other fields."""
     generator = _Template(cls, varying)
     return compiled(generator), tuple(generator.constant)
 
@@ -117,7 +117,7 @@ class _Template(Generator):
         self.emit("return make")
 
     def fresh(self, leaf: Leaf) -> str:
-        """Return the expression for a constant field: lists are copied, for a receiver may write into them."""
+        """Return the expression for a constant field; lists are copied, because a receiver may modify them."""
         _, _, field, _ = leaf
         name = self.constant[self.path(leaf)]
         if field is None or field.size is None or field.base in FORMATS or field.base in BYTES:

@@ -1,4 +1,4 @@
-"""Messages as text, as ``print``, ``rostopic echo`` and ``rosmsg`` show them: YAML in genpy's own layout."""
+"""Messages as text, as shown by ``print``, ``rostopic echo`` and ``rosmsg``: YAML in genpy's layout."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from .contract import MessageContract
 
-PLAIN_WIDTH = 70  # up to this length YAML puts a quoted string on one line, whatever is in it
+PLAIN_WIDTH = 70  # up to this length PyYAML puts a quoted string on one line
 
 
 def strify_message(
@@ -22,11 +22,11 @@ def strify_message(
     field_filter: Callable[[MessageContract], Iterable[str]] | None = None,
     fixed_numeric_width: int | None = None,
 ) -> str:
-    """A message or a field value as YAML text, equal to what genpy's function of this name gives.
+    """Return a message or a field value as YAML text, identical to the output of genpy's function.
 
-    Text with an indent starts with a newline. Times are shown as distances from ``time_offset`` if that is given.
-    ``field_filter`` chooses the fields of a message that are shown; ``fixed_numeric_width`` is a number of characters.
-    ``current_time`` is there for compatibility and not used.
+    Text with an indent starts with a newline. Times are shown relative to ``time_offset`` if given.
+    ``field_filter`` selects the fields to show; ``fixed_numeric_width`` is a number of characters.
+    ``current_time`` is unused, for compatibility.
     """
     return _Writer(time_offset, field_filter, fixed_numeric_width).text(val, indent)
 
@@ -92,9 +92,7 @@ class _Writer:
             if field.name not in chosen:
                 continue
             value = getattr(val, field.name)
-            if (
-                "uint8[" in field.type
-            ):  # bytes are shown as the numbers they stand for; those of a char[] are not
+            if "uint8[" in field.type:  # bytes are shown as numbers, except those of a char[]
                 value = (
                     list(value)
                     if isinstance(value, bytes)

@@ -73,7 +73,7 @@ class Server:
     def update_configuration(self, changes: Mapping[str, Any]) -> Config:
         """Change parameters, and states of groups in the item ``groups`` (as in a configuration).
 
-        Returns the new configuration. Values are limited to their range. ``DynamicReconfigureParameterException`` is raised
+        Returns the new configuration. Values are limited to their range. Raises `DynamicReconfigureParameterException`
         for an unknown parameter or a value of another type, the errors of the callback, and
         ``DynamicReconfigureCallbackException`` if the callback calls this method or returns nothing.
         """

@@ -1,4 +1,4 @@
-"""An expression: checked once, evaluated as often as one likes."""
+"""Confined expressions: checked once, evaluated any number of times."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from .budget import Budget, ExpressionError, NotAllowed, check_bits, cut
 from .functions import FUNCTIONS, MATH, METHODS, OPERATORS, Function, Namespace, compute, method
 
 DEEPEST = 100
-"""How deep an expression may be nested."""
+"""Maximum nesting depth of an expression."""
 
 LONGEST = 10_000
-"""How many characters an expression may have."""
+"""Maximum length of an expression [characters]."""
 
 Fields = Callable[[Any, str], Any]
-"""The attribute of a value that an expression may read. Raises ``AttributeError`` if there is none."""
+"""Return an attribute that an expression may read. Raises ``AttributeError`` if there is none."""
 
 
 def no_fields(value: Any, name: str) -> Any:
-    """No value has attributes (see `Fields`)."""
+    """Refuse every attribute (see `Fields`)."""
     raise AttributeError(f"a {type(value).__name__} has no {name!r}")
 
 
 class Run(NamedTuple):
-    """One evaluation: the names, the variables of loops, what is left to spend."""
+    """One evaluation: the names, the loop variables, the remaining budget."""
 
     names: Mapping[str, Any]
     bound: dict[str, Any]
@@ -39,7 +39,7 @@ class Run(NamedTuple):
 
 Step = Callable[[Run], Any]
 Find = Callable[[Run], tuple[Function, tuple[Any, ...]]]
-"""The function that is called, and the value before its dot if that is an argument."""
+"""Return the function to call, and the value before its dot if that is an argument."""
 
 
 class Expression:
@@ -47,14 +47,14 @@ class Expression:
 
     Args:
         text: the expression.
-        names: the names whose values are given to `evaluate`; None: any (an unknown name fails then, and not now).
-        functions: further names: `Function`, `Namespace` and values; by default `FUNCTIONS`, `MATH` and ``math``.
-        fields: the attributes of values.
-        methods: methods that may be called beside those of `METHODS`, by type. They must change nothing.
+        names: the names that `evaluate` will provide; None: any (an unknown name then fails in `evaluate`).
+        functions: additional `Function`, `Namespace` and values; by default `FUNCTIONS`, `MATH` and ``math``.
+        fields: reads the attributes of values.
+        methods: methods that may be called in addition to `METHODS`, by type. They must not modify anything.
 
     Raises:
-        NotAllowed: it uses what is not listed, or an unknown name.
-        ExpressionError: it is no expression.
+        NotAllowed: it uses something that is not listed, or an unknown name.
+        ExpressionError: it is not an expression.
 
     """
 
@@ -82,11 +82,11 @@ class Expression:
         return f"Expression({cut(self.text)!r})"
 
     def evaluate(self, names: Mapping[str, Any], budget: Budget | None = None) -> Any:
-        """The value of the expression for these names. Raises `ExpressionError`, which names the part that failed."""
+        """Return the value for these names. Raises `ExpressionError`, whose message contains the part that failed."""
         run = Run(names, {}, budget or Budget())
         return run.budget.made(self._step(run))
 
-    # ---- making functions of nodes; each method raises `NotAllowed` for what may not be there ----
+    # ---- compiling nodes to closures; each method raises `NotAllowed` for a node that is not supported ----
 
     def _make(self, node: ast.AST) -> Step:
         make = self.NODES.get(type(node))
@@ -100,7 +100,7 @@ class Expression:
         return made if isinstance(node, ast.Constant) else self._with_spot(node, made)
 
     def _with_spot(self, node: ast.AST, made: Step) -> Step:
-        """The same function, whose errors are ours and name the part of the expression that failed."""
+        """Return the same closure, with errors converted to ours, which contain the part of the expression."""
 
         def checked(run: Run) -> Any:
             try:
@@ -116,7 +116,7 @@ class Expression:
         return checked
 
     def _spot(self, node: ast.AST) -> str:
-        """The place of a node in the text, unless it is all of it."""
+        """Return the quoted text of a node, unless it is the whole expression."""
         written = cut(ast.get_source_segment(self.text, node) or "")
         return f" (in {written!r})" if written not in {"", cut(self.text)} else ""
 
@@ -316,7 +316,7 @@ class Expression:
         return collect
 
     def _loop(self, generators: list[ast.comprehension], each: ast.expr) -> Callable[[Run], Iterator[Any]]:
-        """A generator of the elements of a comprehension."""
+        """Return a generator function for the elements of a comprehension."""
         outer, levels = self._variables, []
         for part in generators:
             if part.is_async:
@@ -340,7 +340,7 @@ class Expression:
         return lambda run: turns(Run(run.names, dict(run.bound), run.budget))
 
     def _target(self, node: ast.expr) -> Callable[[Run, Any], None]:
-        """A function that assigns to the variables of a loop."""
+        """Return a function that assigns to the loop variables."""
         if isinstance(node, ast.Name):
             name = node.id
             self._variables |= {name}
@@ -371,12 +371,12 @@ class Expression:
         **dict.fromkeys((ast.List, ast.Set, ast.Tuple), _display),
         **dict.fromkeys((ast.DictComp, ast.GeneratorExp, ast.ListComp, ast.SetComp), _comprehension),
     }
-    """What may stand in an expression."""
+    """The node types that are supported."""
 
 
 def _tree(text: str) -> ast.expr:
     try:
-        with warnings.catch_warnings():  # of "\d"
+        with warnings.catch_warnings():  # invalid escapes such as "\d"
             warnings.simplefilter("ignore")
             return ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:

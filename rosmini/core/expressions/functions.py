@@ -15,10 +15,10 @@ from rosmini.core.errors import nearest, shown
 from .budget import BITS, STEPS, Budget, NotAllowed, check_bits, cut, weight
 
 WIDEST = 2000
-"""A longer number no format makes: its width and its precision have three digits, its value has `BITS`."""
+"""Maximum length of a formatted number: width and precision have at most three digits, the value `BITS`."""
 
 MOST_DIGITS = 400
-"""The largest number of digits that ``round`` takes: floating-point numbers have fewer."""
+"""Maximum number of digits for ``round``; floating-point numbers have fewer."""
 
 _OPERATORS = (
     "Add add, Sub sub, Mult mul, Div truediv, FloorDiv floordiv, Mod mod, Pow pow, LShift lshift, RShift rshift, "
@@ -30,18 +30,18 @@ OPERATORS: Mapping[type[ast.AST], Callable[..., Any]] = {
     ast.In: lambda left, right: left in right,
     ast.NotIn: lambda left, right: left not in right,
 }
-"""What an operator does, by its kind of node."""
+"""The function for each operator node."""
 
 _BITS_OF: dict[Callable[..., Any], Callable[[int, int], int]] = {
     operator.mul: lambda left, right: left.bit_length() + right.bit_length(),
     operator.pow: lambda left, right: left.bit_length() * max(right, 0) if abs(left) > 1 else 1,
     operator.lshift: lambda left, right: left.bit_length() + max(right, 0),
 }
-"""How many bits a whole number will have."""
+"""Return the size of an integer result [bits]."""
 
 
 def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: Budget) -> Any:
-    """The result of an operator of `OPERATORS`, once it is known that it will not be too large."""
+    """Return the result of an operator of `OPERATORS`, after checking that it will not be too large."""
     if operate is operator.mod and isinstance(left, str | bytes):
         _pay_for_format(left, right, budget)
     elif isinstance(left, float) or isinstance(right, float):
@@ -64,12 +64,12 @@ def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: B
 
 
 _CONVERSION = re.compile(r"%(?:\([^()]*\))?[-+ #0]*(\*|[0-9]*)(?:\.(\*|[0-9]*))?[hlL]?(.?)", re.DOTALL)
-"""A conversion of a format string, with its width, its precision and its type, as Python reads it. Of a key with
-brackets inside the type is ``(``."""
+"""A conversion in a format string, with width, precision and type, as Python parses it. If a key contains
+brackets, the type is ``(``."""
 
 
 def _pay_for_format(text: str | bytes, values: Any, budget: Budget) -> None:
-    """``'%1000000000d' % 1`` is a billion characters, and so is ``'%(a)s' * 10**5 % {'a': 'a' * 10**4}``."""
+    """Charge for a format: ``'%1000000000d' % 1`` and ``'%(a)s' * 10**5 % {'a': 'a' * 10**4}`` are huge."""
     found = text if isinstance(text, str) else text.decode("latin-1")
     budget.room(len(found) + found.count("%") * (WIDEST + weight(budget.made(values))))
     for conversion in _CONVERSION.finditer(found):
@@ -81,10 +81,10 @@ def _pay_for_format(text: str | bytes, values: Any, budget: Budget) -> None:
 
 
 class Function:
-    """A function that expressions may call; nothing else can be called.
+    """A function that expressions may call; they cannot call anything else.
 
-    ``call`` must be harmless whatever it is given: no access to files or attributes, and a result whose size is bounded
-    by that of the arguments. If it `counts`, its first argument is the `Budget`, and it pays for more itself.
+    ``call`` must be safe for all arguments: no access to files or attributes, and a result whose size is bounded
+    by that of the arguments. If `counts` is set, its first argument is the `Budget`, which it charges itself.
     """
 
     __slots__ = ("call", "counts", "name")
@@ -96,7 +96,7 @@ class Function:
         return f"<function {self.name}>"
 
     def apply(self, budget: Budget, arguments: Iterable[Any], named: Mapping[str, Any]) -> Any:
-        """Call it, and pay for it."""
+        """Call the function, and charge the budget."""
         for value in arguments:
             budget.read(value)
         first = (budget,) if self.counts else ()
@@ -104,7 +104,7 @@ class Function:
 
 
 class Namespace:
-    """Names with a dot before them: ``math.pi``."""
+    """Names after a dot: ``math.pi``."""
 
     __slots__ = ("members", "name")
 
@@ -115,7 +115,7 @@ class Namespace:
         return f"<names of {self.name}>"
 
     def member(self, name: str) -> Any:
-        """The value of a name. Raises ``NameError``."""
+        """Return the value of a name. Raises ``NameError``."""
         if name not in self.members:
             hint = nearest(name, self.members)
             raise NameError(f"name '{self.name}.{name}' is not defined{f'; {hint}' if hint else ''}")
@@ -124,7 +124,7 @@ class Namespace:
 
 def _sum(values: Iterable[Any], start: Any = 0) -> Any:
     if isinstance(start, str | bytes | list | tuple):
-        raise TypeError("sum() adds numbers")  # adding up lists takes the square of their length
+        raise TypeError("sum() adds numbers")  # adding lists would take quadratic time
     return sum(values, start)
 
 
@@ -225,7 +225,7 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
         ),
     }
 )
-"""Python's functions that an expression may call."""
+"""The Python functions that an expression may call."""
 
 _OF_MATH = (
     "acos acosh asin asinh atan atan2 atanh ceil copysign cos cosh degrees dist erf erfc exp expm1 fabs floor fmod "
@@ -239,7 +239,7 @@ MATH: Mapping[str, Any] = MappingProxyType(
         **{name: getattr(math, name) for name in ("e", "inf", "nan", "pi", "tau")},
     }
 )
-"""What an expression may use of Python's ``math``."""
+"""The names of Python's ``math`` that an expression may use."""
 
 _OF_TEXTS = (
     "capitalize count endswith find index isalnum isalpha isdecimal isdigit islower isnumeric isspace isupper lower "
@@ -247,7 +247,7 @@ _OF_TEXTS = (
     "strip swapcase title upper"
 )
 _SEARCHING = "lstrip rfind rindex rpartition rsplit rstrip strip"
-"""Methods that may compare each character of a text with each of their argument."""
+"""Methods that may compare each character of a text with each character of their argument."""
 _COUNTING = _named(
     {
         "join": _join,
@@ -265,11 +265,11 @@ METHODS: Mapping[type, Collection[str]] = MappingProxyType(
         dict: frozenset({"get", "items", "keys", "values"}),
     }
 )
-"""The methods that may be called, by the type of the value. They change nothing."""
+"""The methods that may be called, by type. They do not modify anything."""
 
 
 def method(kind: type, name: str, methods: Mapping[type, Collection[str]]) -> Function | None:
-    """The method of a type of values, if it may be called."""
+    """Return a method of a type if it may be called, or None."""
     for base in kind.__mro__:
         if name in methods.get(base, ()):
             return (

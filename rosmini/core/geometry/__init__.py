@@ -1,1 +1,1 @@
-"""Plane geometry: arrays in, arrays out, no node and no clock. Metres, radians, angles counter-clockwise (REP 103)."""
+"""Plane geometry on arrays, without nodes or clocks. Metres, radians, angles counter-clockwise (REP 103)."""

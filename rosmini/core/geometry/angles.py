@@ -1,7 +1,7 @@
-"""Angles, and the quaternions that messages hold them in.
+"""Angles, and conversion to and from quaternions.
 
-The first two functions have the names and the meaning of the ROS package `angles` (http://wiki.ros.org/angles). An
-angle that is infinite becomes nan.
+The first two functions are named after those of the ROS package `angles` (http://wiki.ros.org/angles) and do the
+same. An infinite angle becomes nan.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ TURN = 2 * math.pi
 
 
 def cos_sin(angles: Floats) -> tuple[Floats, Floats]:
-    """Cosines and sines (n,) of angles (n,), by the C library.
+    """Return cosines and sines (n,) of angles (n,), computed by the C library.
 
-    Machine code computes the same bits; numpy's own functions differ in the last bit.
+    numba computes the same bits; numpy's own functions differ in the last bit.
     """
     given = angles.tolist()
     return np.array([math.cos(angle) for angle in given]), np.array([math.sin(angle) for angle in given])
@@ -33,9 +33,9 @@ def normalize_angle(angle: float) -> float: ...
 @overload
 def normalize_angle(angle: Floats) -> Floats: ...
 def normalize_angle(angle: float | Floats) -> float | Floats:
-    """The same direction in (-pi, pi]: a number for a number, an array for an array.
+    """Return the equivalent angle in (-pi, pi]: a number for a number, an array for an array.
 
-    No digit is lost: the remainder of a division by 2 pi is exact, and so is the turn that is then taken off or added.
+    The result is exact for the given `TURN`: `fmod` is exact, and so is adding or subtracting one turn afterwards.
 
     >>> normalize_angle(1.5 * math.pi) == -math.pi / 2
     True
@@ -61,7 +61,7 @@ def shortest_angular_distance(start: Floats, end: float | Floats) -> Floats: ...
 @overload
 def shortest_angular_distance(start: float, end: Floats) -> Floats: ...
 def shortest_angular_distance(start: float | Floats, end: float | Floats) -> float | Floats:
-    """By how much to turn from `start` to `end`, in (-pi, pi]; numbers, or arrays that numpy can broadcast.
+    """Return the rotation from `start` to `end`, in (-pi, pi]; numbers, or arrays that numpy can broadcast.
 
     >>> round(shortest_angular_distance(3.0, -3.0), 3)
     0.283
@@ -70,14 +70,14 @@ def shortest_angular_distance(start: float | Floats, end: float | Floats) -> flo
 
 
 def quaternion_from_yaw(yaw: float) -> tuple[float, float, float, float]:
-    """The rotation by `yaw` about z as x, y, z, w, the order of `geometry_msgs/Quaternion`."""
+    """Return the rotation by `yaw` about z as x, y, z, w, the order of `geometry_msgs/Quaternion`."""
     return (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
 
 
 def yaw_from_quaternion(x: float, y: float, z: float, w: float) -> float:
-    """The yaw of a rotation, in [-pi, pi]: the angle about z when it is taken apart into yaw, then pitch, then roll.
+    """Return the yaw of a rotation, in [-pi, pi], as in its decomposition into yaw, then pitch, then roll.
 
-    The quaternion need not have length 1. One of length 0, which an empty message holds, is no rotation:
+    The quaternion need not be normalised. One of length 0, as in an empty message, is not a rotation and raises
     `GeometryError`.
     """
     square = x * x + y * y + z * z + w * w

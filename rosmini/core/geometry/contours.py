@@ -1,9 +1,9 @@
-"""Outlines of the occupied cells of a grid, with few sides, faithful to half a cell.
+"""Outlines of the occupied cells of a grid, with few sides, accurate to half a cell.
 
-First the cells' own edges: a walk with occupied cells on its left closes around each blob, counter-clockwise, and
-around each hole in one, clockwise. Cells that touch at a corner belong together (8-connected), as in a wall that a
-mapper drew one cell thick: no ray slips through between them. Then `staircases.straightened` puts long sides in the
-place of steps.
+First the edges of the cells are traced, with the occupied cells on the left: counter-clockwise around each blob,
+clockwise around each hole. Cells that touch at a corner belong together (8-connected), as in a wall that a
+mapper drew one cell thick, so no ray slips through between them. Then `staircases.straightened` replaces
+staircases by long sides.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ Floats = NDArray[np.float64]
 Loop = NDArray[np.int64]
 
 TOLERANCE = 0.49
-"""How far towards the centres of the cells an outline goes, unless told otherwise [cells]."""
+"""Default distance by which an outline may deviate towards the centres of cells [cells]."""
 
-_STEP = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])  # directions 0 to 3: a quarter turn to the left each
+_STEP = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])  # directions 0 to 3: each a quarter turn to the left
 
 
 def trace(
@@ -32,13 +32,13 @@ def trace(
     origin: Pose = (0.0, 0.0, 0.0),
     tolerance: float | None = None,
 ) -> Floats:
-    """Closed outlines of the occupied cells as segments (n, 4), each x1, y1, x2, y2 [m], the cells on their left.
+    """Return closed outlines of the occupied cells as segments (n, 4), each x1, y1, x2, y2 [m], cells on their left.
 
     `occupied` (h, w) is a mask; row 0 is the lowest. `resolution` is the side of a cell [m] and `origin` the pose of
-    the lower left corner of cell (0, 0), as in nav_msgs/MapMetaData. Segments that follow one another share their
-    corner to the bit. See `outlines` for what holds.
+    the lower left corner of cell (0, 0), as in nav_msgs/MapMetaData. Consecutive segments share exactly the same
+    corner. See `outlines` for the guarantees.
 
-    Raises `GeometryError` for an `occupied` that is not a table, a resolution that is not positive, an origin that is
+    Raises `GeometryError` for an `occupied` that is not 2D, a resolution that is not positive, an origin that is
     not finite, or a `tolerance` [m] that is not at least 0 and below half a cell; by default it is 0.49 cells.
     """
     if not (math.isfinite(resolution) and resolution > 0):
@@ -54,15 +54,15 @@ def trace(
 
 
 def outlines(occupied: ArrayLike, tolerance: float = TOLERANCE) -> list[Floats]:
-    """Closed outlines of the occupied cells, each the corners (k, 2) of one loop in cells, x along the rows.
+    """Return closed outlines of the occupied cells, each the corners (k, 2) of one loop in cells, x along the rows.
 
-    A loop passes between the same cells as the edges it stands for, and passes no centre nearer than half a cell less
-    `tolerance` [cells]; with a tolerance of 0 it is the edges themselves. So the centres of occupied cells are inside
-    (by the even-odd rule, and by the winding number), those of free cells outside, and what the cells keep apart stays
-    apart. No point of it is half a cell from the edges, and no edge half a cell's diagonal from it: corners of the
-    stairs of a slanted wall stick out. Blobs of one cell are kept, as squares.
+    A loop passes between the same cells as the edges that it replaces, and no centre is closer to it than half a cell
+    minus `tolerance` [cells]; with a tolerance of 0 it consists of the edges. So the centres of occupied cells are in
+    it (by the even-odd rule and by the winding number), those of free cells are not, and separate cells remain
+    separate. No point of a loop is half a cell away from the edges, and no edge half a cell's diagonal away from the
+    loop: the corners of the staircase of a slanted wall stick out. Blobs of one cell remain, as squares.
 
-    Raises `GeometryError` for an `occupied` that is not a table or a `tolerance` that is not at least 0 and below half
+    Raises `GeometryError` for an `occupied` that is not 2D or a `tolerance` that is not at least 0 and below half
     a cell.
     """
     if not 0 <= tolerance < 0.5:
@@ -72,10 +72,10 @@ def outlines(occupied: ArrayLike, tolerance: float = TOLERANCE) -> list[Floats]:
 
 
 def edge_loops(occupied: ArrayLike) -> list[Loop]:
-    """The closed outlines of the occupied cells along the cells' edges, each the corners (k, 2) where it turns.
+    """Return the closed outlines along the edges of the occupied cells, each the corners (k, 2) where it turns.
 
-    Corners are whole numbers of cells, x along the rows. The order is fixed: loops by their lowest, then leftmost
-    corner. Raises `GeometryError` for an `occupied` that is not a table.
+    Corners are integers [cells], x along the rows. The order is fixed: loops by their lowest, then leftmost
+    corner. Raises `GeometryError` for an `occupied` that is not 2D.
     """
     starts, directions, following = _edges(_mask(occupied))
     turns = (directions[following] != directions).tolist()
@@ -105,7 +105,7 @@ def _mask(occupied: ArrayLike) -> NDArray[np.bool_]:
 
 
 def _edges(cells: NDArray[np.bool_]) -> tuple[Loop, Loop, Loop]:
-    """Edges between an occupied cell, on the left, and a free one: start (n, 2), direction, and the next edge."""
+    """Return edges between an occupied cell, on the left, and a free one: start (n, 2), direction, next edge."""
     padded = np.pad(cells, 1)
     inner = padded[1:-1, 1:-1]
     neighbours = (
@@ -126,7 +126,7 @@ def _edges(cells: NDArray[np.bool_]) -> tuple[Loop, Loop, Loop]:
     starts = np.stack([corners % width, corners // width], axis=1)
     ahead = ((starts + _STEP[directions]) * (1, width)).sum(axis=1)
     following = np.full(len(edges), -1, dtype=np.int64)
-    # Where two occupied cells touch at a corner there are two ways on: the one to the right keeps them together.
+    # Where two occupied cells touch at a corner, two edges could be next: the right-hand one keeps the cells together.
     for turn in (1, 0, -1):
         wanted = ahead * 4 + (directions + turn) % 4
         place = np.minimum(np.searchsorted(edges, wanted), max(len(edges) - 1, 0))

@@ -1,4 +1,4 @@
-"""What this package raises."""
+"""Errors of this package."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from rosmini.core.errors import RosminiError
 
 
 class GeometryError(RosminiError, ValueError):
-    """Numbers that describe nothing in the plane: not a number, infinite, of the wrong shape, a negative length."""
+    """Numbers that are not valid geometry: nan, infinite, of the wrong shape, a negative length."""

@@ -1,4 +1,4 @@
-"""Machine code of functions that are plain Python: the only use of numba, which is optional."""
+"""Machine code for functions in plain Python: the only use of numba, which is optional."""
 
 from __future__ import annotations
 
@@ -9,29 +9,29 @@ from contextlib import contextmanager
 from typing import Any
 
 LOADING = 1_000_000
-"""Work [us] of all loops of a process in plain Python, or numpy, before numba is loaded for them."""
+"""Work in plain Python or numpy, over all loops of a process, before numba is loaded [us]."""
 
 COMPILING = 200_000
-"""Work [us] of one loop before it is compiled."""
+"""Work of one loop before it is compiled [us]."""
 
 
 class Deferral:
-    """Decides when a loop is compiled: after an amount of work, which is counted and never measured with a clock.
+    """Decides when a loop is compiled: after an amount of work, which is estimated and never timed.
 
-    Both forms of a loop return the same bits, so a program may change from one to the other at any call.
+    Both versions of a loop return the same bits, so a program can switch at any call.
     """
 
     total = 0
-    """Work of all loops of this process [us]."""
+    """Work of all loops of this process so far [us]."""
 
     def __init__(self) -> None:
         self._done = 0
         self._due = False
         self.held = False
-        """Whether to go on without machine code that is not in use yet."""
+        """If True, do not switch to machine code."""
 
     def due(self, work: int) -> bool:
-        """Count a call that takes this time [us] without machine code; return whether to use machine code for it."""
+        """Record a call that takes `work` [us] without machine code; return whether to use machine code."""
         if not self._due and not self.held:
             self._done += work
             Deferral.total += work
@@ -47,7 +47,7 @@ class Deferral:
 def machine_code(
     function: Callable[..., Any], signature: Any, helpers: Iterable[Callable[..., Any]] = ()
 ) -> Callable[..., Any]:
-    """Compile `function`, which calls `helpers`, for one signature of numba's types, or load it from numba's cache.
+    """Compile `function`, which calls `helpers`, for one numba signature, or load it from numba's cache.
 
     Raises `ImportError` without numba.
     """
@@ -60,7 +60,7 @@ def machine_code(
         try:
             return numba.njit([signature], cache=True)(function)
         except Exception as error:
-            # Without a usable cache (an installation for all users, a full disk, a broken file) each start takes a
+            # Without a usable cache (read-only installation, full disk, broken file) each start takes a
             # few seconds longer. An error in the function itself is raised again below.
             logging.getLogger(__name__).info("numba cannot cache %s: %s", function.__name__, error)
         return numba.njit([signature])(function)
@@ -68,7 +68,7 @@ def machine_code(
 
 @contextmanager
 def progress(text: str) -> Iterator[None]:
-    """Show a line in the terminal, if standard error is one, and remove it at the end."""
+    """Show a line in the terminal during the block, if standard error is a terminal, and remove it at the end."""
     stream = sys.__stderr__
     if stream is None or not stream.isatty():
         yield

@@ -1,8 +1,8 @@
-"""What overlaps in the plane, found by pymunk's spatial index and its collision tests. Nothing moves here.
+"""Overlaps of shapes in the plane, found by pymunk's spatial index and collision tests. Nothing moves here.
 
-An outline is its vertices (n, 2) in map coordinates [m], and a radius around them: a polygon is simple, goes
-counter-clockwise and has none; a segment has two vertices, a disc one. What reaches into something by less than `TOUCH`
-only touches it.
+An outline is an array of vertices (n, 2) in map coordinates [m] and a radius around them. A polygon is simple,
+counter-clockwise and has radius 0; a segment has two vertices, a disc one. Overlaps of less than `TOUCH`
+count as contact only.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Outline(NamedTuple):
 
 @cache
 def _pymunk() -> Any:
-    """Return the package, which takes a moment to import. Raises `RosminiError` where it is not installed."""
+    """Import pymunk on first use, as it takes a moment. Raises `RosminiError` if it is not installed."""
     try:
         import pymunk
     except ImportError as error:
@@ -43,7 +43,7 @@ def _pymunk() -> Any:
 
 
 def _shapes(body: Any, outline: Outline, less: float = 0.0) -> list[Any]:
-    """Return an outline as convex shapes, whose sides are at least `less` [m] nearer to their centres."""
+    """Return an outline as convex shapes, shrunk so that their sides are at least `less` [m] nearer to the centres."""
     pymunk, radius = _pymunk(), outline.radius
     found = []
     for part in convex_parts(outline.vertices) if len(outline.vertices) > 2 else [outline.vertices]:
@@ -60,7 +60,7 @@ def _shapes(body: Any, outline: Outline, less: float = 0.0) -> list[Any]:
 
 
 class Overlaps:
-    """Outlines under labels, and which of them another one overlaps. Raises `RosminiError` without pymunk."""
+    """Labelled outlines, which can be tested for overlaps. Raises `RosminiError` without pymunk."""
 
     def __init__(self) -> None:
         self._space = _pymunk().Space()
@@ -75,17 +75,17 @@ class Overlaps:
         self._labels.update(dict.fromkeys(shapes, label))
 
     def remove(self, label: Hashable) -> None:
-        """Remove the outlines of a label, if there are any."""
+        """Remove the outlines of a label, if any."""
         shapes = self._shapes.pop(label, [])
         self._space.remove(*shapes)
         for shape in shapes:
             del self._labels[shape]
             shape.body = None
-        self._space.step(0.0)  # until then it keeps what was removed
+        self._space.step(0.0)  # the space refers to removed shapes until its next step
 
     def find(self, outline: Outline) -> set[Hashable]:
-        """Return the labels of what an outline overlaps."""
-        # that shapes touch is certain; how deep is not, where their centres or sides coincide
-        body = _pymunk().Body(body_type=_pymunk().Body.STATIC)  # shapes hold no reference to theirs
+        """Return the labels of the outlines that overlap with `outline`."""
+        # pymunk reliably reports contact, but not its depth if centres or sides coincide
+        body = _pymunk().Body(body_type=_pymunk().Body.STATIC)  # shapes hold no reference to their body
         probes = _shapes(body, outline, TOUCH)
         return {self._labels[hit.shape] for probe in probes for hit in self._space.shape_query(probe)}

@@ -1,8 +1,8 @@
-"""Polygons in the plane: what is inside, whether sides cross, what overlaps.
+"""Polygons in the plane: points inside them, crossing sides, distances, convex parts.
 
-An outline is its corners (n, 2), and is closed by itself.
+An outline is an array of corners (n, 2); its last corner is connected to the first.
 
-Things that only touch do not overlap: what goes in by less than `TOUCH` counts as touching.
+Overlaps of less than `TOUCH` count as contact only.
 """
 
 from __future__ import annotations
@@ -19,39 +19,39 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 TOUCH = 1e-6
-"""[m]"""
+"""Overlap that counts as mere contact [m]."""
 
 
 def sides_of(outline: Floats) -> Floats:
-    """The sides (n, 4) of a closed outline (n, 2), each x1, y1, x2, y2."""
+    """Return the sides (n, 4) of a closed outline (n, 2), each x1, y1, x2, y2."""
     return np.hstack([outline, np.roll(outline, -1, axis=0)])
 
 
 def area(outline: Floats) -> float:
-    """The area [m2] inside an outline; negative if its corners go clockwise."""
+    """Return the area inside an outline [m2]; negative if it is clockwise."""
     x, y = outline.T
     return float((x * np.roll(y, -1)).sum() - (y * np.roll(x, -1)).sum()) / 2
 
 
 def inside(points: Floats, sides: Floats) -> Bools:
-    """Which of the points (n, 2) the closed outlines made of `sides` (m, 4) go around, by the even-odd rule."""
+    """Return which of the points (n, 2) are inside the closed outlines made of `sides` (m, 4), by the even-odd rule."""
     x, y = points[:, :1], points[:, 1:]
     x1, y1, x2, y2 = sides.T
     crossing = (y1 > y) != (y2 > y)
-    with np.errstate(over="ignore"):  # a side that rises by next to nothing
+    with np.errstate(over="ignore"):  # nearly horizontal sides
         at = x1 + (y - y1) * (x2 - x1) / np.where(y1 == y2, 1.0, y2 - y1)
     odd: Bools = np.count_nonzero(crossing & (x < at), axis=1) % 2 == 1
     return odd
 
 
 def distances(points: Floats, sides: Floats) -> Floats:
-    """How far [m] each of the points (n, 2) is from the nearest of `sides` (m, 4); inf if there are none."""
+    """Return the distance [m] from each of the points (n, 2) to the nearest of `sides` (m, 4); inf without sides."""
     nearest: Floats = each_distance(points, sides).min(axis=1, initial=np.inf)
     return nearest
 
 
 def each_distance(points: Floats, sides: Floats) -> Floats:
-    """How far [m] each of the points (n, 2) is from each of `sides` (m, 4), as (n, m)."""
+    """Return the distance [m] from each of the points (n, 2) to each of `sides` (m, 4), as (n, m)."""
     begin, way = sides[:, :2], sides[:, 2:] - sides[:, :2]
     squares = (way * way).sum(axis=1)
     offset = points[:, None, :] - begin
@@ -62,14 +62,14 @@ def each_distance(points: Floats, sides: Floats) -> Floats:
 
 
 def needed(fixed: Sequence[int], gaps: Callable[[int, int], Floats], tolerance: float) -> list[int]:
-    """The indices of points that are enough to draw a line, within `tolerance` of the others; those in `fixed` stay.
+    """Return the indices of the points needed to draw a line within `tolerance` of the others, including `fixed`.
 
-    `gaps(first, last)` returns how far the points between two are from what would be drawn without them (Douglas and
-    Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line or its
-    caricature", 1973).
+    `gaps(first, last)` returns the distances between the points between two indices and the line drawn without them
+    (Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line
+    or its caricature", 1973).
 
-    Of points that are equally far off, such as two on an arc, it keeps the first: distances count in billionths, since
-    their last bits differ between processors.
+    Distances are rounded to billionths, since their last bits differ between processors: of points at equal distances,
+    such as two on an arc, the first is chosen.
     """
     found = set(fixed)
     waiting = [(first, last) for first, last in pairwise(fixed) if last - first > 1]
@@ -84,14 +84,14 @@ def needed(fixed: Sequence[int], gaps: Callable[[int, int], Floats], tolerance: 
 
 
 def crossing_sides(outline: Floats) -> tuple[int, int] | None:
-    """The first two sides of an outline that cross, side i beginning at corner i; None if none do."""
+    """Return the indices of the first two sides of an outline that cross, or None; side i begins at corner i."""
     count = len(outline)
     ends = np.roll(outline, -1, axis=0)
     for first in range(count):
         way, following = ends[first] - outline[first], ends[(first + 1) % count] - ends[first]
         if (
             _cross(way, following) == 0 and scalar_product(way, following) <= 0
-        ):  # back along the same line, or a side of no length
+        ):  # back along the same line, or a side of length 0
             return first, (first + 1) % count
         others = slice(first + 2, count - (first == 0))
         meeting = np.flatnonzero(_meet(outline[first], ends[first], outline[others], ends[others]))
@@ -101,9 +101,9 @@ def crossing_sides(outline: Floats) -> tuple[int, int] | None:
 
 
 def convex_parts(outline: Floats) -> list[Floats]:
-    """Split a counter-clockwise polygon into convex polygons: few, though not always the fewest.
+    """Split a counter-clockwise polygon into a small, not always minimal, number of convex polygons.
 
-    Triangles are cut off at corners that stick out (Meisters, Polygons have ears, 1975), and then joined again
+    Triangles are cut off at convex corners (Meisters, Polygons have ears, 1975), and then joined again
     across every side that is not needed (Hertel and Mehlhorn, Fast triangulation of simple polygons, 1983).
     """
     corners = [(float(x), float(y)) for x, y in outline]
@@ -113,7 +113,7 @@ def convex_parts(outline: Floats) -> list[Floats]:
     parts: list[list[int]] = []
     while len(ring) > 3:
         ear = next((k for k in range(len(ring)) if _is_ear(k, ring, corners)), None)
-        if ear is None:  # for want of digits: what is left has no area
+        if ear is None:  # rounding: the rest has no area
             break
         parts.append([ring[ear - 1], ring[ear], ring[(ear + 1) % len(ring)]])
         del ring[ear]
@@ -137,7 +137,7 @@ def _is_convex(ring: list[int], corners: Sequence[Sequence[float]]) -> bool:
 
 
 def _is_ear(k: int, ring: list[int], corners: Sequence[Sequence[float]]) -> bool:
-    """Whether the triangle at a corner lies inside, with no other corner in it."""
+    """Return whether the triangle at a corner lies inside the polygon and contains no other corner."""
     i, j, m = ring[k - 1], ring[k], ring[(k + 1) % len(ring)]
     a, b, c = corners[i], corners[j], corners[m]
     if _turn(a, b, c) < 0:
@@ -149,7 +149,7 @@ def _is_ear(k: int, ring: list[int], corners: Sequence[Sequence[float]]) -> bool
 
 
 def _join(parts: list[list[int]], corners: Sequence[Sequence[float]]) -> bool:
-    """Join the first two parts that are convex together; return whether there were any."""
+    """Join the first two parts whose union is convex; return False if there are none."""
     for one in parts:
         for other in parts:
             for k, i in enumerate(one):
@@ -172,7 +172,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> NDArray[np.bool_]:
-    """Tell which of the segments c d (n, 2) have a point in common with the segment a b."""
+    """Return which of the segments c d (n, 2) have a point in common with the segment a b."""
     c_side, d_side, a_side, b_side = (
         _cross(b - a, c - a),
         _cross(b - a, d - a),

@@ -1,7 +1,7 @@
 """Poses in the plane: x [m], y [m] and heading [rad, counter-clockwise from the x axis].
 
-A pose is a tuple of three floats, for which the answer is such a tuple, or an array (..., 3), for which it is an array;
-arrays are broadcast against each other and against single poses. Headings are never wrapped, so turns can be counted;
+A pose is a tuple of three floats or an array (..., 3); functions return the same kind. Arrays are
+broadcast against each other and against single poses. Headings are never wrapped, so turns can be counted;
 `normalize_angle` wraps them.
 """
 
@@ -26,7 +26,7 @@ def compose(a: Floats, b: Pose | Floats) -> Floats: ...
 @overload
 def compose(a: Pose, b: Floats) -> Floats: ...
 def compose(a: Pose | Floats, b: Pose | Floats) -> Pose | Floats:
-    """The pose `b`, given in the frame of `a`, in the frame that `a` is given in: a is world -> a, b is a -> b.
+    """Return the pose `b`, given in the frame of `a`, in the parent frame of `a`: a is world -> a, b is a -> b.
 
     >>> compose((1.0, 0.0, math.pi), (2.0, 0.0, 0.0))[0]
     -1.0
@@ -47,7 +47,7 @@ def inverse(pose: Pose) -> Pose: ...
 @overload
 def inverse(pose: Floats) -> Floats: ...
 def inverse(pose: Pose | Floats) -> Pose | Floats:
-    """The world seen from `pose`: composed with `pose`, on either side, it is (0, 0, 0)."""
+    """Return the inverse: the world's pose in the frame of `pose`. Composed with `pose` it is (0, 0, 0)."""
     if isinstance(pose, tuple):
         x, y, theta = pose
         c, s = math.cos(theta), math.sin(theta)
@@ -58,7 +58,7 @@ def inverse(pose: Pose | Floats) -> Pose | Floats:
 
 
 def transform_points(pose: Pose | Floats, points: ArrayLike) -> Floats:
-    """Points (..., 2) given in the frame of `pose`, or of the poses (..., 3) one by one, in the frame of the pose."""
+    """Transform points (..., 2) from the frame of `pose`, or of each pose (..., 3), to its parent frame."""
     array = np.asarray(points, dtype=np.float64)
     if array.ndim == 0 or array.shape[-1] != 2:
         msg = f"points are an array (..., 2) of x and y, not {array.shape}"
@@ -80,11 +80,11 @@ def arc(pose: Pose, v: float, w: Floats, dt: float | Floats) -> Floats: ...
 @overload
 def arc(pose: Pose, v: float, w: float, dt: Floats) -> Floats: ...
 def arc(pose: Pose | Floats, v: float | Floats, w: float | Floats, dt: float | Floats) -> Pose | Floats:
-    """The pose of a unicycle after `dt` seconds at the constant speeds `v` [m/s] ahead and `w` [rad/s] to the left.
+    """Return the pose of a unicycle after `dt` seconds at constant speeds `v` [m/s] and `w` [rad/s, to the left].
 
-    Exact for any `dt`: the way is an arc, its chord is `v dt sin(h) / h` long and points to `theta + h`, where h is `w
-    dt / 2` (Thrun, Burgard and Fox, Probabilistic Robotics, 2005, section 5.3, has the same arc by its centre, which a
-    straight way has not).
+    Exact for any `dt`: the path is an arc, whose chord is `v dt sin(h) / h` long and points to `theta + h`, where h is
+    `w dt / 2` (Thrun, Burgard and Fox, Probabilistic Robotics, 2005, section 5.3, describes the same arc by its centre,
+    which does not exist for a straight line).
     """
     if not (
         isinstance(v, np.ndarray) or isinstance(w, np.ndarray) or isinstance(dt, np.ndarray)

@@ -1,11 +1,11 @@
 """Products of matrices and vectors, with the same last bit on every processor.
 
-`@`, `numpy.dot` and `numpy.linalg` call BLAS and LAPACK, whose kernels differ between processors: each adds in its own
-order, and some round once where others round twice. A robot that chooses between commands of equal cost then drives
-elsewhere. The functions here multiply, add, divide and take square roots one element at a time, in a fixed order, which
-IEEE 754 defines to the last bit, and numpy's sums add in a fixed order.
+`@`, `numpy.dot` and `numpy.linalg` call BLAS and LAPACK, whose kernels differ between processors in the order of
+additions and in rounding. A robot that chooses between commands of equal cost would then drive
+differently. The functions here multiply, add, divide and take square roots element by element, in a fixed order, for
+which IEEE 754 defines every bit, and numpy's sums use a fixed order.
 
-They are meant for small matrices and for many points.
+Use them for small matrices and for many points.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 MOST_SWEEPS = 50
-"""Jacobi's method converges in fewer than ten sweeps."""
+"""Maximum number of sweeps; Jacobi's method converges in fewer than ten."""
 
 
 def scalar_product(first: ArrayLike, second: ArrayLike) -> float:
-    """The scalar product of two vectors (n,)."""
+    """Return the scalar product of two vectors (n,)."""
     one, other = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
     return float((one * other).sum())
 
 
 def matrix_product(first: ArrayLike, second: ArrayLike) -> Floats:
-    """The product of a matrix, or of row vectors, (..., k) and a matrix (k, m), or a vector (k,)."""
+    """Return the product of a matrix, or of row vectors, (..., k) and a matrix (k, m), or a vector (k,)."""
     left, right = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
     if left.shape[-1] != len(right):
         raise ValueError(f"matrices of shapes {left.shape} and {right.shape} have no product")
@@ -41,27 +41,27 @@ def matrix_product(first: ArrayLike, second: ArrayLike) -> Floats:
 
 
 def norm(vector: ArrayLike) -> float:
-    """The Euclidean length of a vector (n,)."""
+    """Return the Euclidean length of a vector (n,)."""
     return math.sqrt(scalar_product(vector, vector))
 
 
 def norms(vectors: ArrayLike) -> Floats:
-    """The Euclidean lengths (...) of vectors (..., n)."""
+    """Return the Euclidean lengths (...) of vectors (..., n)."""
     array = np.asarray(vectors, dtype=np.float64)
     lengths: Floats = np.sqrt((array * array).sum(axis=-1))
     return lengths
 
 
 def determinant(matrix: ArrayLike) -> float:
-    """The determinant of a matrix (3, 3)."""
+    """Return the determinant of a matrix (3, 3)."""
     (a, b, c), (d, e, f), (g, h, i) = np.asarray(matrix, dtype=np.float64).tolist()
     return float(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))
 
 
 def inverse_matrix(matrix: ArrayLike) -> Floats:
-    """The inverse of a matrix (n, n), by Gauss-Jordan elimination with pivoting.
+    """Return the inverse of a matrix (n, n), by Gauss-Jordan elimination with pivoting.
 
-    Raises `numpy.linalg.LinAlgError` if it has none.
+    Raises `numpy.linalg.LinAlgError` if the matrix is singular.
     """
     given = np.asarray(matrix, dtype=np.float64)
     if given.ndim != 2 or given.shape[0] != given.shape[1]:
@@ -81,9 +81,9 @@ def inverse_matrix(matrix: ArrayLike) -> Floats:
 
 
 def eigen(matrix: ArrayLike) -> tuple[Floats, Floats]:
-    """Eigenvalues (n,) of a symmetric matrix (n, n) in ascending order, and its eigenvectors, the columns (n, n).
+    """Return eigenvalues (n,) of a symmetric matrix (n, n), ascending, and its eigenvectors as columns (n, n).
 
-    By Jacobi's method (Golub and Van Loan, Matrix Computations, section 8.5): each rotation makes one element 0.
+    Uses Jacobi's method (Golub and Van Loan, Matrix Computations, section 8.5): each rotation makes one element 0.
     """
     table = np.array(matrix, dtype=np.float64)
     size = len(table)
@@ -95,14 +95,14 @@ def eigen(matrix: ArrayLike) -> tuple[Floats, Floats]:
             for q in range(p + 1, size):
                 _rotate(table, vectors, p, q)
     values, order = np.diag(table).tolist(), list(range(size))
-    for i in range(size):  # equal ones in the order in which LAPACK's selection sort leaves them
+    for i in range(size):  # equal eigenvalues are ordered as LAPACK's selection sort leaves them
         least = min(range(i, size), key=lambda k: values[order[k]])
         order[i], order[least] = order[least], order[i]
     return np.diag(table)[order], vectors[:, order]
 
 
 def _rotate(table: Floats, vectors: Floats, p: int, q: int) -> None:
-    """Make the elements (p, q) and (q, p) of a symmetric matrix 0, if they matter beside the diagonal."""
+    """Rotate so that the elements (p, q) and (q, p) become 0, if they are not negligible already."""
     off, first, second = float(table[p, q]), float(table[p, p]), float(table[q, q])
     if off == 0.0:
         return

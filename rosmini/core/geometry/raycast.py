@@ -1,7 +1,7 @@
-"""What a flat laser sees: rays against line segments and discs.
+"""Ranges of a 2D laser: rays against line segments and discs.
 
-`raycast` uses numpy first, and machine code once that pays and numba is installed. Both return the same ranges, to the
-last bit: they get the same directions and do the same arithmetic in the same order. `backend` returns the name of one.
+`raycast` uses numpy first, and numba, if installed, once the work justifies compiling. Both return the same ranges to
+the last bit: they use the same directions and the same arithmetic in the same order. `backend` returns the choice.
 """
 
 from __future__ import annotations
@@ -27,19 +27,19 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 VARIABLE = "ROSMINI_RAYCAST"
-"""The environment variable that chooses a backend where the caller does not."""
+"""Environment variable that chooses a backend if the caller does not."""
 
 BACKENDS = ("numba", "numpy")
 
 MANY_RAYS = 50_000
-"""From this number of rays a second numba casts them in wall time; numpy takes about 1 us for one."""
+"""Rays per second of wall-clock time from which numba casts them; numpy takes about 1 us for one."""
 
 EVERY: Ints = np.empty((0, 2), dtype=np.int64)
-"""No rows: each thing concerns every ray."""
+"""No rows: every ray sees all segments and discs."""
 
 
 class BackendMissing(RosminiError):
-    """A backend was asked for by name that is not installed."""
+    """The requested backend is not installed."""
 
 
 def raycast(
@@ -54,18 +54,18 @@ def raycast(
     *,
     backend: str | None = None,
 ) -> Floats:
-    """How far it is from (x, y) to the nearest thing in each of `count` directions (count,).
+    """Return the distance from (x, y) to the nearest object in each of `count` directions (count,).
 
-    Inf if nothing is within `max_range`. `segments` (n, 4) are walls without thickness, each x1, y1, x2, y2; `discs`
-    (m, 3) are solid, each x, y, radius. Both may be empty. Ray i looks to `angle_min + i * angle_increment`; the
-    increment may be negative, and the rays may cover less or more than one turn. All of it is in one frame, in metres
+    Inf if there is none within `max_range`. `segments` (n, 4) are walls without thickness, each x1, y1, x2, y2; `discs`
+    (m, 3) are solid, each x, y, radius. Both may be empty. Ray i points to `angle_min + i * angle_increment`; the
+    increment may be negative, and the rays may cover more or less than one turn. All values are in one frame, in metres
     and radians.
 
-    Ends belong to their segment, and 1 nm beyond them still counts, so no ray slips between two walls whose common
-    corner was rounded. Of a wall that a ray runs along it meets the near end. A sensor in or on a disc, or on a wall,
-    sees 0 all around. A segment of no length is a point.
+    Segments include their ends and 1 nm beyond them, so no ray slips between two walls whose common
+    corner was rounded. A ray along a wall meets the wall's near end. A sensor in or on a disc, or on a wall,
+    measures 0 in all directions. A segment of length 0 is a point.
 
-    `backend` is "numba" or "numpy"; without it the environment variable `ROSMINI_RAYCAST` decides, and without that
+    `backend` is "numba" or "numpy". By default the environment variable `ROSMINI_RAYCAST` decides; if it is not set,
     the number of rays cast so far, if numba is installed.
 
     Raises `GeometryError` for a number that is nan or infinite (`max_range` may be infinite),
@@ -120,11 +120,11 @@ def raycast_each(
     disc_rays: ArrayLike | None = None,
     backend: str | None = None,
 ) -> Floats:
-    """As `raycast`, with an origin for each ray, `origins` (n, 2), and a direction, `angles` (n,).
+    """Cast rays as `raycast` does, but with an origin for each ray, `origins` (n, 2), and a direction, `angles` (n,).
 
-    It is as fast if the places are near to one another, and the angles nearly evenly spaced and not wrapped: those of a
-    laser that turns while it is carried. `segment_rays` (k, 2) says for each segment from which ray on, and before
-    which, it is there; `disc_rays` for each disc; without them they are there for all. Raises what `raycast` raises.
+    As fast as `raycast` if the origins are close together and the angles nearly evenly spaced and not wrapped, as for a
+    laser that moves while it turns. `segment_rays` (k, 2) contains for each segment the first ray that sees it and the
+    first that no longer does; `disc_rays` for each disc; by default all rays see all. Raises the errors of `raycast`.
     """
     walls, pillars = _tables(segments, discs)
     places, looks = _table(origins, 2, "origins"), np.array(angles, dtype=np.float64)
@@ -167,22 +167,22 @@ def raycast_each(
 
 
 def backend(rays: int) -> str:
-    """The backend that `raycast` uses by default, "numba" or "numpy"; counts these rays as work to do."""
+    """Return the default backend of `raycast`, "numba" or "numpy"; counts these rays as work to do."""
     return _chosen(None, rays)
 
 
 class _Lasers(Deferral):
-    """Decides when the rays of lasers are cast in machine code."""
+    """Decides when to cast rays with numba."""
 
     rays_per_second = 0.0
-    """Of the lasers in wall time."""
+    """Total of the lasers that run on wall-clock time."""
 
 
 _LASERS = _Lasers()
 
 
 def expect(rays_per_second: float) -> None:
-    """Prepare for one more laser in wall time, where nothing is compiled while robots drive."""
+    """Register one more laser on wall-clock time, for which nothing is compiled while robots drive."""
     _LASERS.rays_per_second += rays_per_second
     _LASERS.held = _LASERS.rays_per_second < MANY_RAYS
     if not _LASERS.held:
@@ -199,7 +199,7 @@ def _tables(segments: ArrayLike, discs: ArrayLike) -> tuple[Floats, Floats]:
 
 
 def _spans(rays: ArrayLike | None, size: int, count: int) -> Ints:
-    """For each of `size` things from which of `count` rays on, and before which, it is there."""
+    """Return for each of `size` objects the first of `count` rays that sees it, and the first that no longer does."""
     if rays is None:
         return EVERY
     spans = np.array(rays, dtype=np.int64).reshape(-1, 2)
@@ -211,14 +211,14 @@ def _spans(rays: ArrayLike | None, size: int, count: int) -> Ints:
 
 
 def _table(rows: ArrayLike, width: int, what: str) -> Floats:
-    """The rows as a finite, contiguous array (n, width)."""
+    """Return the rows as a finite, contiguous array (n, width)."""
     table = np.ascontiguousarray(rows, dtype=np.float64)
     if not table.size:
         return table.reshape(0, width)
     if table.ndim != 2 or table.shape[1] != width:
         msg = f"{what} are an array (n, {width}), not {table.shape}"
         raise GeometryError(msg)
-    # One number tells it nearly always, and faster than n.
+    # Checking the sum first is faster, and nearly always sufficient.
     if not math.isfinite(table.sum()) and not np.isfinite(table).all():
         row = int(np.flatnonzero(~np.isfinite(table).all(axis=1))[0])
         msg = f"row {row} of {what} is not finite: {table[row].tolist()}"
@@ -242,12 +242,12 @@ def _chosen(name: str | None, rays: int) -> str:
 
 @cache
 def _numba() -> Any:
-    """The module with the compiled kernel, or None without numba."""
+    """Return the module with the compiled kernel, or None without numba."""
     try:
         import numba  # noqa: F401
     except ModuleNotFoundError:
         return None
-    except ImportError as error:  # numba refuses to work with a numpy that is newer than it knows
+    except ImportError as error:  # numba refuses a numpy version newer than it supports
         logging.getLogger(__name__).warning("numba cannot be used, numpy casts the rays instead: %s", error)
         return None
     from . import raycast_numba

@@ -1,7 +1,7 @@
-"""The raycast in machine code: the loops of `rosmini.core.geometry.raycast_numpy`, where its geometry is explained.
+"""Raycasting with numba: the loops of `rosmini.core.geometry.raycast_numpy`, which explains the geometry.
 
-The functions here are plain Python. `compiled` makes machine code of them, at the first call in about a second, later
-from numba's cache. Scalars, explicit types and no slices keep that second from becoming ten.
+The functions here are plain Python. `compiled` compiles them, the first time in about a second, later
+from numba's cache. Only scalars, explicit types and no slices keep that second from becoming ten.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ from .machine_code import machine_code
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-# These are compiled in, and numba's cache looks at the age of this file only.
+# These constants are compiled in, and numba's cache checks only whether this file has changed.
 TURN = 2 * math.pi
 
 SLACK = 1e-9
-"""By how much a ray may miss the end of a segment and still meet it, and a sensor a wall and still be on it [m]."""
+"""Tolerance at the ends of segments, and for a sensor on a wall [m]."""
 
 NEAR = 1e-3
-"""A segment nearer than this is tried with every ray [m]: its sector says little once `SLACK` is a part of it."""
+"""A closer segment is tested with every ray [m]: with `SLACK` added, its sector is too wide to be useful."""
 
 MARGIN = 1e-5
-"""What is added to a sector at either side [rad]: more than `SLACK` at distance `NEAR`, and than rounding."""
+"""Added to both sides of a sector [rad]: more than `SLACK` at distance `NEAR`, and more than rounding errors."""
 
 FLAT = 1e-9
-"""Rays closer together than this are all tried [rad]."""
+"""If rays are closer together than this, each object is tested with all rays [rad]."""
 
 
 def cast(
@@ -53,7 +53,7 @@ def cast(
     segment_rays: Ints,
     disc_rays: Ints,
 ) -> None:
-    """As `rosmini.core.geometry.raycast_numpy.cast`."""
+    """Do the same as `rosmini.core.geometry.raycast_numpy.cast`."""
     low, high = 0, len(ranges)
     for n in range(segments.shape[0]):
         if segment_rays.shape[0]:
@@ -89,7 +89,7 @@ def cast_segment(
     low: int,
     high: int,
 ) -> None:
-    """`cast` for one segment that is seen from the sensor, by the rays from `low` to before `high`."""
+    """Do `cast` for one segment relative to the sensor, and for the rays from `low` to `high`, exclusive."""
     far = max_range + SLACK + away
     if max(x1, x2) < -far or min(x1, x2) > far or max(y1, y2) < -far or min(y1, y2) > far:
         return
@@ -128,7 +128,7 @@ def cast_disc(
     low: int,
     high: int,
 ) -> None:
-    """`cast` for one disc that is seen from the sensor, by the rays from `low` to before `high`."""
+    """Do `cast` for one disc relative to the sensor, and for the rays from `low` to `high`, exclusive."""
     distance = math.sqrt(x * x + y * y)
     gap = distance - radius
     if gap <= 2 * SLACK + away:
@@ -154,13 +154,13 @@ def cast_disc(
 
 
 def before(start: float, first: float) -> float:
-    """Where a sector begins, counted from the first ray, at the last time before that ray."""
+    """Return the start of a sector relative to the first ray, as an angle in the turn before that ray."""
     begin = start - MARGIN - first
     return begin - TURN * (math.floor(begin / TURN) + 1)
 
 
 def segment_distance(x1: float, y1: float, x2: float, y2: float) -> float:
-    """From the sensor to the nearest point of a segment."""
+    """Return the distance from the sensor to the nearest point of a segment."""
     ex, ey = x2 - x1, y2 - y1
     square = ex * ex + ey * ey
     part = min(max(-(x1 * ex + y1 * ey) / square, 0.0), 1.0) if square > 0 else 0.0
@@ -169,7 +169,7 @@ def segment_distance(x1: float, y1: float, x2: float, y2: float) -> float:
 
 
 def meet_segment(x1: float, y1: float, x2: float, y2: float, c: float, s: float) -> float:
-    """How far a ray to (c, s) goes until it meets a segment, or inf."""
+    """Return the distance along a ray in direction (c, s) to a segment, or inf."""
     k1, k2 = c * y1 - s * x1, c * y2 - s * x2
     if min(k1, k2) > SLACK or max(k1, k2) < -SLACK:
         return math.inf
@@ -181,7 +181,7 @@ def meet_segment(x1: float, y1: float, x2: float, y2: float, c: float, s: float)
 
 
 def meet_disc(x: float, y: float, radius: float, c: float, s: float) -> float:
-    """How far a ray to (c, s) goes until it meets a disc that the sensor is not in, or inf."""
+    """Return the distance along a ray in direction (c, s) to a disc that does not contain the sensor, or inf."""
     aside, ahead = abs(c * y - s * x), c * x + s * y
     if aside > radius or ahead <= 0:
         return math.inf
@@ -189,7 +189,7 @@ def meet_disc(x: float, y: float, radius: float, c: float, s: float) -> float:
 
 
 def positive(number: float) -> float:
-    """Return a number, or 0.0 for one that is negative or -0.0."""
+    """Return a number, or 0.0 if it is negative or -0.0."""
     return max(0.0, number)
 
 
@@ -199,7 +199,7 @@ HELPERS = (cast_segment, cast_disc, before, segment_distance, meet_segment, meet
 
 @cache
 def compiled() -> Callable[..., None]:
-    """`cast` as machine code. Raises `ImportError` without numba."""
+    """Return `cast` compiled by numba. Raises `ImportError` without numba."""
     import numba
 
     number = numba.float64

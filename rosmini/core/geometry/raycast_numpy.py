@@ -1,8 +1,8 @@
-"""The raycast with numpy: first who can meet whom, then all those pairs at once.
+"""Raycasting with numpy: find candidate pairs of ray and object, then test all pairs at once.
 
-A segment or disc is seen under a sector of directions. Only the pairs of it and the rays in its sector are looked at,
-some thousand instead of segments times rays. `rosmini.core.geometry.raycast_numba` does the same with loops; what is
-written here about the geometry holds there.
+Seen from the sensor, a segment or disc covers a sector of directions. Only the rays in its sector are tested,
+some thousand pairs instead of segments times rays. `rosmini.core.geometry.raycast_numba` does the same with loops;
+the comments on geometry here apply to both.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from .raycast_numba import FLAT, MARGIN, NEAR, SLACK, TURN
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Origins = tuple[Floats, Floats, float, float]
-"""The origins of rays seen from the sensor, their greatest distance, and how uneven their angles are."""
+"""Origins of the rays relative to the sensor, their greatest distance, and the unevenness of the angles."""
 
 BLOCK = 1 << 19
-"""How many pairs are looked at at once, lest a large world fill the memory."""
+"""Number of pairs tested at once, which limits the memory needed for a large world."""
 
 
 def cast(
@@ -42,12 +42,12 @@ def cast(
     segment_rays: Ints,
     disc_rays: Ints,
 ) -> None:
-    """Lower `ranges` (count,) to what each ray meets within `max_range`.
+    """Lower `ranges` (count,) to the distance of the nearest object on each ray within `max_range`.
 
-    Ray i starts at (x + dx[i], y + dy[i]), `away` from (x, y) at the most, and looks to (cos[i], sin[i]), which is the
-    angle `first + i * step` but for `spread`; `step` is not negative. Segment k concerns the rays from segment_rays[k,
-    0] to before segment_rays[k, 1] only, and disc k likewise; where these arrays have no rows, each of them concerns
-    all.
+    Ray i starts at (x + dx[i], y + dy[i]), at most `away` from (x, y), in direction (cos[i], sin[i]), which is the
+    angle `first + i * step` up to an error of `spread`; `step` is not negative. Segment k is seen by the rays from
+    segment_rays[k, 0] to segment_rays[k, 1], exclusive, and likewise for disc k; if these arrays have no rows, all
+    rays see all objects.
     """
     origins = (dx, dy, away, spread)
     cast_segments(segments - (x, y, x, y), cos, sin, first, step, max_range, ranges, origins, segment_rays)
@@ -65,7 +65,7 @@ def cast_segments(
     origins: Origins,
     rays: Ints,
 ) -> None:
-    """`cast` for segments that are seen from the sensor."""
+    """Do `cast` for segments relative to the sensor."""
     dx, dy, away, spread = origins
     distances = _distances(segments)
     within = distances <= max_range + SLACK + away
@@ -79,8 +79,8 @@ def cast_segments(
     for which, ray in _pairs(starts, np.abs(sweeps) + 2 * more, near, first, step, len(ranges), own):
         c, s = cos[ray], sin[ray]
         px, py, qx, qy = segments[which].T - np.stack([dx[ray], dy[ray], dx[ray], dy[ray]])
-        # How far the ends lie to the left of the ray and ahead of the sensor. A common end of two segments gets the
-        # same numbers in both, so no ray passes between them.
+        # Offsets of the ends to the left of the ray, and ahead of the sensor. A common end of two segments gets the
+        # same numbers in both, so no ray slips between them.
         k1, k2 = c * py - s * px, c * qy - s * qx
         a1, a2 = c * px + s * py, c * qx + s * qy
         touched = (np.minimum(k1, k2) <= SLACK) & (np.maximum(k1, k2) >= -SLACK)
@@ -105,7 +105,7 @@ def cast_discs(
     origins: Origins,
     rays: Ints,
 ) -> None:
-    """`cast` for discs that are seen from the sensor."""
+    """Do `cast` for discs relative to the sensor."""
     dx, dy, away, spread = origins
     distances = np.sqrt(discs[:, 0] * discs[:, 0] + discs[:, 1] * discs[:, 1])
     gaps = distances - discs[:, 2]
@@ -129,7 +129,7 @@ def cast_discs(
 
 
 def _distances(segments: Floats) -> Floats:
-    """From the origin to the nearest point of each segment (n,)."""
+    """Return the distances from the origin to the nearest point of each segment (n,)."""
     x1, y1, x2, y2 = segments.T
     ex, ey = x2 - x1, y2 - y1
     squares = ex * ex + ey * ey
@@ -150,11 +150,11 @@ def _pairs(
     count: int,
     rays: Ints,
 ) -> Iterator[tuple[Ints, Ints]]:
-    """Pairs of a sector and a ray in it, as two arrays of indices.
+    """Yield pairs of a sector and a ray in it, as two arrays of indices.
 
-    The sectors go from `starts` counter-clockwise by `widths`; rays that go round more than once pass each of them more
-    than once. What is `near` is paired with every ray; each sector with those between its two of `rays` (n, 2) only, if
-    there are any.
+    The sectors extend from `starts` counter-clockwise by `widths`; rays that cover more than one turn pass each sector
+    more than once. Sectors that are `near` are paired with every ray; if `rays` (n, 2) has rows, each sector only with
+    the rays in its range.
     """
     turns = int(step * (count - 1) // TURN) + 2
     pitch = max(step, FLAT)

@@ -1,4 +1,4 @@
-"""Solids seen from above: hulls of points, cuts through meshes, and plane regions taken apart into simple polygons."""
+"""Solids seen from above: hulls of points, sections of meshes, and decomposition into simple polygons."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from .overlaps import Outline, Overlaps
 Floats = NDArray[np.float64]
 
 AT_ONCE = 1_000_000
-"""How many pairs of sides are compared at a time."""
+"""Number of pairs of sides compared at once."""
 
 MOST = 2_000_000
-"""The largest product of the number of sides and the number of heights at which outlines are divided."""
+"""Maximum product of the number of sides and the number of heights at which outlines are split."""
 
 
 def convex_hull(points: Floats) -> Floats:
-    """The corners (k, 2), counter-clockwise, of the smallest convex polygon around points (n, 2).
+    """Return the corners (k, 2), counter-clockwise, of the convex hull of points (n, 2).
 
-    None lies on a line between others. Andrew's monotone chain (Information Processing Letters 9, 1979). Points on one
-    line give its two ends.
+    No corner is collinear with its neighbours. Andrew's monotone chain (Information Processing Letters 9, 1979). For
+    collinear points the hull is their two ends.
     """
     ordered = np.unique(np.asarray(points, dtype=np.float64), axis=0)
     if len(ordered) < 3:
@@ -47,15 +47,15 @@ def convex_hull(points: Floats) -> Floats:
 
 
 def cut(triangles: Floats, height: float) -> Floats:
-    """Where triangles (n, 3, 3) meet a level plane: segments (m, 4), each x1, y1, x2, y2.
+    """Return the section of triangles (n, 3, 3) at a height: segments (m, 4), each x1, y1, x2, y2.
 
-    Corners in the plane count as above it.
+    Corners at that height count as above it.
     """
     above = triangles[..., 2] >= height
     sides = above.sum(axis=1)
     crossing = (sides > 0) & (sides < 3)
     hit, up = triangles[crossing], above[crossing]
-    # The corner that is alone on its side comes first; the two sides from it cross the plane.
+    # The corner that is alone on its side of the plane comes first; its two sides cross the plane.
     alone = np.where(up.sum(axis=1) == 1, up.argmax(axis=1), (~up).argmax(axis=1))
     order = (alone[:, None] + np.arange(3)) % 3
     tip, *others = (hit[np.arange(len(hit)), order[:, i]] for i in range(3))
@@ -72,10 +72,10 @@ def cut(triangles: Floats, height: float) -> Floats:
 
 
 def loops(segments: Floats, grain: float = 1e-6) -> list[Floats] | None:
-    """Closed outlines, each its corners (k, 2), that segments (n, 4) make up; None if some end where no other begins.
+    """Return the closed outlines (k, 2) that segments (n, 4) form, or None if a segment does not continue.
 
-    Ends nearer than about `grain` [m] are one. Each outline goes counter-clockwise; corners in the middle of a straight
-    line are left out.
+    Ends closer than about `grain` [m] are merged. Each outline is counter-clockwise; collinear corners
+    are left out.
     """
     keys = np.round(segments.reshape(-1, 2) / grain).astype(np.int64)
     _, first, names = np.unique(keys, axis=0, return_index=True, return_inverse=True)
@@ -104,7 +104,7 @@ def loops(segments: Floats, grain: float = 1e-6) -> list[Floats] | None:
 
 
 def _plain(outline: Floats) -> Floats:
-    """An outline without the corners at which it goes straight on."""
+    """Return an outline without its collinear corners."""
     before, after = outline - np.roll(outline, 1, axis=0), np.roll(outline, -1, axis=0) - outline
     bend = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
     lengths = np.hypot(*before.T) * np.hypot(*after.T)
@@ -113,7 +113,7 @@ def _plain(outline: Floats) -> Floats:
 
 
 def thinned(outline: Floats, tolerance: float) -> Floats:
-    """An outline (k, 2) with fewer corners, within `tolerance` [m] of the others; see `polygons.needed`."""
+    """Return an outline (k, 2) with fewer corners, within `tolerance` [m] of the original; see `polygons.needed`."""
     if len(outline) <= 4:
         return outline
     far = int(np.hypot(*(outline - outline[0]).T).argmax())
@@ -127,7 +127,7 @@ def thinned(outline: Floats, tolerance: float) -> Floats:
 
 
 def _overlapping(outlines: list[Floats]) -> bool:
-    """Return whether any of some simple polygons overlap."""
+    """Return whether any two of some simple polygons overlap."""
     if len(outlines) < 2:
         return False
     seen = Overlaps()
@@ -139,11 +139,11 @@ def _overlapping(outlines: list[Floats]) -> bool:
 
 
 def pieces(outlines: list[Floats]) -> list[Floats]:
-    """Simple polygons, corners counter-clockwise, that together cover what outlines go around by the even-odd rule.
+    """Return simple counter-clockwise polygons that together cover the inside of outlines, by the even-odd rule.
 
-    Outlines that neither cross themselves nor lie in or across others stay whole; the others become trapezoids between
-    the heights of their corners. They cover the same points to the last bit of the arithmetic, and only touch one
-    another. Raises `GeometryError` for outlines that cross too often.
+    Outlines that neither cross themselves nor overlap others are returned whole; the others are split into trapezoids
+    between the heights of their corners. The pieces cover the same points up to rounding, and touch without
+    overlapping. Raises `GeometryError` for outlines with too many crossings.
     """
     crossed = any(polygons.crossing_sides(outline) for outline in outlines)
     turned = [outline if polygons.area(outline) > 0 else outline[::-1] for outline in outlines]
@@ -177,7 +177,7 @@ def pieces(outlines: list[Floats]) -> list[Floats]:
 
 
 def _crossing_heights(sides: Floats) -> Floats:
-    """The heights at which sides cross one another."""
+    """Return the heights at which sides cross one another."""
     rows = max(1, AT_ONCE // len(sides))
     found = [_crossed(sides[first : first + rows], sides) for first in range(0, len(sides), rows)]
     heights: Floats = np.concatenate(found)
@@ -185,7 +185,7 @@ def _crossing_heights(sides: Floats) -> Floats:
 
 
 def _crossed(some: Floats, sides: Floats) -> Floats:
-    """The heights at which some of the sides cross others."""
+    """Return the heights at which some of the sides cross others."""
     begins, ways = some[:, :2], some[:, 2:] - some[:, :2]
     begin, way = sides[:, :2], sides[:, 2:] - sides[:, :2]
     slope = ways[:, None, 0] * way[None, :, 1] - ways[:, None, 1] * way[None, :, 0]
@@ -200,7 +200,7 @@ def _crossed(some: Floats, sides: Floats) -> Floats:
 
 
 def within(centres: Floats, half: float, sides: Floats) -> NDArray[np.bool_]:
-    """Which squares, by their centres (n, 2), with sides of `2 half` [m], one of `sides` (m, 4) crosses."""
+    """Return which squares, with centres (n, 2) and sides of `2 half` [m], are crossed by one of `sides` (m, 4)."""
     hit = np.zeros(len(centres), dtype=bool)
     for x1, y1, x2, y2 in sides:
         enter, leave = np.zeros(len(centres)), np.ones(len(centres))
@@ -209,7 +209,7 @@ def within(centres: Floats, half: float, sides: Floats) -> NDArray[np.bool_]:
             if way == 0:
                 miss |= np.abs(begin - middle) >= half
                 continue
-            with np.errstate(over="ignore"):  # a side that goes this way by next to nothing
+            with np.errstate(over="ignore"):  # nearly parallel to the other axis
                 a, b = (middle - half - begin) / way, (middle + half - begin) / way
             enter, leave = np.maximum(enter, np.minimum(a, b)), np.minimum(leave, np.maximum(a, b))
         hit |= ~miss & (enter < leave)

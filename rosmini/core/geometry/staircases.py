@@ -1,14 +1,14 @@
-"""Long straight sides in the place of stairs: closed outlines along the edges of cells, with few corners.
+"""Replacing staircases by long straight sides: closed outlines of cells, with few corners.
 
-Douglas and Peucker's method (1973) does badly on stairs: it keeps each corner within some distance of a side, and the
-stairs of a straight slanted wall have corners up to 0.7 cells away from it. So a side may take the place of a part of
-the outline if it passes between the same cells: all centres on its left stay on its left, those on its right on its
-right, none nearer than a margin. Sides go from one corner of the cells, or middle of a step, to another; which ones is
-found by going through all of them, as Imai and Iri (1988) do, and Selinger's potrace (2003) for pictures.
+Douglas and Peucker's method (1973) works badly on staircases: it keeps each corner within some distance of a side,
+and the staircase of a straight slanted wall has corners up to 0.7 cells away from it. Here a side may replace a part
+of the outline if it passes between the same cells: all centres on its left stay on its left, those on its right on
+its right, none closer than a margin. Sides connect corners of cells or middles of steps; the best choice is
+found by trying all of them, as Imai and Iri (1988) do, and Selinger's potrace (2003) for pictures.
 
-Only parts that climb, so that of the four directions they take two, can be straightened. For them the centres beside
-their own edges are enough: each other centre lies behind one of them. From one place the directions of the lines
-between all centres so far are an interval, so each further place costs a few comparisons.
+Only monotone parts, which use two of the four directions, can be straightened. For them the centres next to
+their edges are sufficient: every other centre lies behind one of these. The directions of the lines from one place
+between all centres so far form an interval, so each further place costs a few comparisons.
 """
 
 from __future__ import annotations
@@ -22,34 +22,34 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 REACH = 500
-"""How many places a side may skip.
+"""Maximum number of places that a side may skip.
 
-What would be longer is cut, so that the work grows with the size of the outline and not with its square.
+Longer sides are split, so that the work is proportional to the size of the outline and not to its square.
 """
 
-_SLACK = 1e-9  # of an angle [rad]
-# A side costs 1, and each place that it skips this times its squared distance [cells]: little, but of as many sides the
-# nearest are taken.
+_SLACK = 1e-9  # tolerance of an angle [rad]
+# A side costs 1, plus this factor times the squared distance of each place that it skips [cells]: little, but it
+# chooses the closest of the solutions with equally many sides.
 _SQUARES = 0.05
 
 
 @dataclass(frozen=True)
 class _Places:
-    """Where corners may be, loop after loop: corners of the cells, and the middles of steps of one cell."""
+    """Candidates for corners, loop after loop: corners of the cells, and middles of steps of one cell."""
 
     points: Floats
     is_corner: NDArray[np.bool_]
     loop: Ints
-    """The number of the loop of each place."""
+    """The loop of each place."""
     first: Ints
     """The first place of each loop."""
     size: Ints
-    """How many places each loop has."""
+    """Number of places in each loop."""
 
 
 @dataclass(frozen=True)
 class _Sides:
-    """Possible sides: from index `start` over `skip` indices, and the sum of their squared distances [cells2]."""
+    """Possible sides: from index `start` over `skip` indices, with the sum of squared distances [cells2]."""
 
     start: Ints
     skip: Ints
@@ -57,12 +57,12 @@ class _Sides:
 
 
 def straightened(loops: list[Ints], tolerance: float) -> list[Floats]:
-    """The loops, each the corners (k, 2) of a closed outline with the inside on its left, with few corners.
+    """Return the loops, each the corners (k, 2) of a closed outline with the inside on its left, with few corners.
 
-    A side passes no centre of a cell nearer than a half less `tolerance` [cells], which is at least 0 and below a half.
-    Corners of the result are corners of the outline or middles of its single steps. Of all choices the one is taken
-    that costs least: 1 for each side, and a little for what it departs from the edges. A loop is opened at the place
-    that the fewest possible sides skip; where none does, that loses nothing.
+    No centre of a cell is closer to a side than half a cell minus `tolerance` [cells], which is in [0, 0.5).
+    Corners of the result are corners of the outline or middles of its single steps. The result has the lowest cost
+    of all choices: 1 for each side, plus a little for its deviation from the edges. A loop is opened at the place
+    that the fewest possible sides skip; if no side skips it, the result is still optimal.
     """
     if not loops:
         return []
@@ -93,7 +93,7 @@ def _places(loops: list[Ints]) -> _Places:
 
 
 def _possible_sides(places: _Places, margin: float) -> _Sides:
-    """All sides that keep the margin, found for all starts at once, place by place along the loops."""
+    """Find all sides that keep the margin, for all starts at once, place by place along the loops."""
     points = places.points
     alive = np.arange(len(points))
     last = alive.copy()
@@ -112,7 +112,7 @@ def _possible_sides(places: _Places, margin: float) -> _Sides:
         v = points[here] - points[alive]
         climbs = (
             np.abs(v).sum(axis=1) > way[alive] - 0.25
-        )  # it has never turned back: ways are multiples of a half
+        )  # it never turned back; lengths are multiples of a half
         keep = climbs & (skip < size)
         alive, here, v, e = alive[keep], here[keep], v[keep], (part / length[:, None])[keep]
         if skip == 1:
@@ -148,27 +148,27 @@ def _possible_sides(places: _Places, margin: float) -> _Sides:
 
 
 def _angle(u: Floats, v: Floats) -> Floats:
-    """From each of `u` to each of `v` [rad]."""
+    """Return the angles from each of `u` to each of `v` [rad]."""
     angles: Floats = np.arctan2(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0], (u * v).sum(axis=1))
     return angles
 
 
 def _room(centres: Floats, margin: float) -> Floats:
-    """Under which angle a disc of radius `margin` around each of the centres is seen, half of it [rad].
+    """Return half the angle that a disc of radius `margin` around each of the centres covers [rad].
 
-    None is nearer than half a cell.
+    All centres are at least half a cell away.
     """
     halves: Floats = np.arcsin(np.minimum(margin / np.hypot(centres[:, 0], centres[:, 1]), 1.0))
     return halves
 
 
 def _anchors(places: _Places, sides: _Sides) -> Ints:
-    """The place of each loop that the fewest sides skip, a corner if there is one.
+    """Return the place of each loop that the fewest sides skip, preferably a corner.
 
-    Seen from the first place of the loop.
+    Places are counted from the first one of the loop.
     """
     loop = places.loop[sides.start]
-    base = places.first[loop] + loop  # one more slot for each loop, for what ends behind its last place
+    base = places.first[loop] + loop  # one more slot per loop, for sides that end behind its last place
     size = places.size[loop]
     begin = sides.start - places.first[loop] + 1
     end = begin + sides.skip - 1
@@ -189,13 +189,13 @@ def _anchors(places: _Places, sides: _Sides) -> Ints:
 
 
 def _shortest(places: _Places, sides: _Sides, anchors: Ints) -> list[Floats]:
-    """The way around each loop, from its anchor to its anchor, that costs least."""
+    """Return the cheapest sequence of sides around each loop, from its anchor back to its anchor."""
     loop = places.loop[sides.start]
     begin = (sides.start - places.first[loop] - anchors[loop]) % places.size[loop]
     inside = begin + sides.skip <= places.size[loop]
     base = places.first + np.arange(
         len(places.first)
-    )  # each loop has one node more than places: its anchor twice
+    )  # each loop has one node more than places: its anchor appears twice
     starts = (base[loop] + begin)[inside]
     ends = starts + sides.skip[inside]
     order = np.argsort(ends, kind="stable")

@@ -1,4 +1,4 @@
-"""A map of square cells: what is where, and where that lies; to and from `nav_msgs/OccupancyGrid`."""
+"""Grid maps: their cells and their pose, and conversion to and from `nav_msgs/OccupancyGrid`."""
 
 from __future__ import annotations
 
@@ -26,23 +26,23 @@ class MapError(RosminiError, ValueError):
     """A map cannot be read or written; the message names the file, its line, and the field at fault."""
 
     result = 255
-    """What `nav_msgs/LoadMap` calls it: RESULT_UNDEFINED_FAILURE."""
+    """The result code in `nav_msgs/LoadMap`: RESULT_UNDEFINED_FAILURE."""
 
 
 class MapMissing(MapError):
-    """There is no such YAML file: RESULT_MAP_DOES_NOT_EXIST."""
+    """The YAML file does not exist: RESULT_MAP_DOES_NOT_EXIST."""
 
     result = 1
 
 
 class MapDataError(MapError):
-    """The cells are at fault, that is the image: RESULT_INVALID_MAP_DATA."""
+    """The cells, that is the image, are wrong: RESULT_INVALID_MAP_DATA."""
 
     result = 2
 
 
 class MapMetadataError(MapError):
-    """What the YAML file says is at fault, in `field` if that is one: RESULT_INVALID_MAP_METADATA."""
+    """The YAML file, or its `field`, is wrong: RESULT_INVALID_MAP_METADATA."""
 
     result = 3
 
@@ -53,19 +53,19 @@ class MapMetadataError(MapError):
 
 @dataclass(frozen=True, eq=False)
 class GridMap:
-    """A map of square cells, as nav_msgs/OccupancyGrid has it."""
+    """A map of square cells, as in nav_msgs/OccupancyGrid."""
 
     occupancy: NDArray[np.int8]
     """(h, w), row 0 at the bottom: 0 free, 100 occupied, between them the probability [%], -1 unknown.
 
-    In the mode raw it is any byte.
+    In the mode raw, cells contain any byte.
     """
     resolution: float
     """The side of a cell [m]."""
     origin: tuple[float, float, float]
     """x [m], y [m] and heading [rad] of the lower left corner of cell (0, 0), in the frame of the map."""
     path: Path | None = None
-    """The file it was read from: the YAML file, or the image where there is none. A map of a topic has no file."""
+    """The file that the map was read from: the YAML file, or else the image. None for a map from a topic."""
 
     def __repr__(self) -> str:
         height, width = self.occupancy.shape
@@ -74,43 +74,43 @@ class GridMap:
 
     @property
     def occupied(self) -> NDArray[np.bool_]:
-        """A mask (h, w) of the cells that are surely occupied, as costmap_2d's static layer takes them: 100 or more."""
+        """A mask (h, w) of the occupied cells, by costmap_2d's rule for static maps: 100 or more."""
         mask: NDArray[np.bool_] = self.occupancy >= OCCUPIED
         return mask
 
     @property
     def free(self) -> NDArray[np.bool_]:
-        """A mask (h, w) of the cells that are surely free."""
+        """A mask (h, w) of the free cells."""
         mask: NDArray[np.bool_] = self.occupancy == FREE
         return mask
 
     @property
     def unknown(self) -> NDArray[np.bool_]:
-        """A mask (h, w) of the cells of which nothing is known."""
+        """A mask (h, w) of the unknown cells."""
         mask: NDArray[np.bool_] = self.occupancy == UNKNOWN
         return mask
 
     def world_to_map(self, x: float, y: float) -> tuple[int, int] | None:
-        """The cell (mx, my) of a point [m] in the frame of the map, or None if it is outside."""
+        """Return the cell (mx, my) of a point [m] in the frame of the map, or None if it is outside."""
         along, across, _ = compose(inverse(self.origin), (x, y, 0.0))
         mx, my = math.floor(along / self.resolution), math.floor(across / self.resolution)
         height, width = self.occupancy.shape
         return (mx, my) if 0 <= mx < width and 0 <= my < height else None
 
     def map_to_world(self, mx: float, my: float) -> tuple[float, float]:
-        """The middle of a cell [m], in the frame of the map."""
+        """Return the centre of a cell [m], in the frame of the map."""
         x, y, _ = compose(self.origin, ((mx + 0.5) * self.resolution, (my + 0.5) * self.resolution, 0.0))
         return x, y
 
     def show(self, **options: Any) -> Any:
-        """A picture of it; `options`: see `rosmini.viz.map_pictures.map_picture`."""
+        """Show a picture of the map; for `options` see `rosmini.viz.map_pictures.map_picture`."""
         return show("map", self, **options)
 
     @classmethod
     def from_message(cls, message: Any) -> GridMap:
-        """The map of a `nav_msgs/OccupancyGrid`. Raises `MapError` if its cells do not fit its size.
+        """Return the map in a `nav_msgs/OccupancyGrid`. Raises `MapError` if the number of cells does not fit its size.
 
-        An origin whose orientation was never set, so that it is no rotation, counts as not turned.
+        An all-zero orientation, as in a new message, counts as yaw 0.
         """
         info = message.info
         cells = np.array(message.data, dtype=np.int8)
@@ -131,7 +131,7 @@ class GridMap:
         return cls(cells.reshape(info.height, info.width), resolution, (position.x, position.y, yaw))
 
     def to_message(self, frame_id: str = "map", stamp: Time | None = None) -> Any:
-        """It as a `nav_msgs/OccupancyGrid`, read at the time `stamp` (zero if None) by who publishes it."""
+        """Return a `nav_msgs/OccupancyGrid`, loaded at the time `stamp` (zero if None)."""
         message = message_class("nav_msgs/OccupancyGrid")()
         message.header.frame_id = frame_id
         info = message.info

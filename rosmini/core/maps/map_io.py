@@ -1,10 +1,10 @@
-"""A map as ROS keeps it in files: a YAML file with its numbers, and an image with a pixel for each cell.
+"""ROS's map files: a YAML file with the metadata, and an image with one pixel per cell.
 
-What the fields and the colours mean stands on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is
-silent, this does what map_server's image loader does: alpha is averaged with the colours in the mode `trinary` and
-means "unknown" where it is 0 in the mode `scale`; values are cut, not rounded. It is stricter in one thing: a
-cell without size and numbers that are not finite are errors here. Where map_server silently makes a map that is of no
-use, such as one that is unknown everywhere, there is a warning.
+The fields and colours are described on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is
+silent, this does the same as map_server's image loader: alpha is averaged with the colours in the mode `trinary`, and
+means "unknown" if it is 0 in the mode `scale`; values are truncated, not rounded. Unlike there, a
+resolution of 0 and numbers that are not finite are errors here, and a useless map, such as one that is unknown
+everywhere, causes a warning.
 """
 
 from __future__ import annotations
@@ -36,18 +36,18 @@ REQUIRED = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "
 OPTIONAL = ("mode",)
 
 AT_ONCE = 1_000_000
-"""So many pixels are computed with at a time: for each it takes many bytes."""
+"""Number of pixels processed at once, as each takes many bytes."""
 
 LARGEST_TEXT = 1_000_000
-"""Bytes of a YAML file."""
+"""Maximum size of a YAML file [bytes]."""
 
 SMALLEST, LARGEST = 1e-6, 1e9
-"""Of a cell and of a whole map [m]: what is beyond is a mistake, and cannot be calculated with."""
+"""Minimum size of a cell and maximum size of a map [m]; other values are mistakes and cause overflows."""
 
 
 @dataclass(frozen=True)
 class Fields:
-    """What a YAML file says."""
+    """The fields of a YAML file."""
 
     image: str
     resolution: float
@@ -60,40 +60,40 @@ class Fields:
 
 @dataclass(frozen=True)
 class _Document:
-    """A YAML file with a mapping in it."""
+    """A YAML file that contains a mapping."""
 
     path: Path
     fields: Mapping[Any, Any]
     lines: Mapping[Any, int]
-    """Where each field stands."""
+    """The line of each field."""
 
     def place(self, name: str) -> str:
-        """The file, and the line of a field."""
+        """Return the file and the line of a field."""
         return f"{self.path}:{self.lines[name]}" if name in self.lines else str(self.path)
 
 
 @dataclass(frozen=True)
 class MapFile:
-    """The description of a map, checked; its image is not yet read."""
+    """The checked description of a map, whose image is not read yet."""
 
     document: _Document
     fields: Fields
 
     @property
     def image(self) -> Path:
-        """The image: beside the YAML file, unless its path is absolute."""
+        """The path of the image, relative to the folder of the YAML file unless absolute."""
         return self.document.path.parent / self.fields.image
 
     def pixels(self) -> NDArray[np.uint8]:
-        """The image's pixels (h, w, channels), row 0 at the bottom. Raises `MapDataError` if it cannot be read."""
+        """Return the pixels (h, w, channels) of the image, row 0 at the bottom. Raises `MapDataError` if unreadable."""
         return _channels(self.image, self.document.place("image"))
 
     def show(self, **options: Any) -> Any:
-        """The image and the map made from it, for several thresholds: see `rosmini.viz.stepped_pictures.map_steps`."""
+        """Show the image and the resulting map for several thresholds: see `rosmini.viz.stepped_pictures.map_steps`."""
         return show("map_file", self, **options)
 
     def load(self, warn: Callable[[str], object] = warnings.warn) -> GridMap:
-        """The map. Raises `MapError` as `load_map` does; `warn` is called if it is probably not the one wanted."""
+        """Load the map. Raises `MapError` as `load_map` does; `warn` is called for a map that is probably a mistake."""
         document, fields = self.document, self.fields
         occupancy = occupancy_of(self.pixels(), fields)
         most = max(occupancy.shape)
@@ -114,7 +114,7 @@ class MapFile:
 
 
 def map_file(yaml_path: str | os.PathLike[str]) -> MapFile:
-    """What a YAML file says of a map. Raises `MapError` as `load_map` does."""
+    """Return the description of a map in a YAML file. Raises `MapError` as `load_map` does."""
     document = _document(Path(yaml_path))
     return MapFile(document, _fields(document))
 
@@ -127,9 +127,9 @@ def image_file(
     occupied_thresh: float = 0.65,
     free_thresh: float = 0.196,
 ) -> MapFile:
-    """An image alone as a map, in the mode trinary and with its origin at (0, 0): what map_server once took.
+    """Return a map for an image without YAML file, in the mode trinary, with origin (0, 0), as in old map_servers.
 
-    Raises `MapMetadataError` for numbers that make no map.
+    Raises `MapMetadataError` for invalid numbers.
     """
     image = Path(path)
     given = {
@@ -145,11 +145,11 @@ def image_file(
 
 
 def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
-    """The map that a YAML file describes. Its image is looked for beside the YAML file, unless its path is absolute.
+    """Load the map that a YAML file describes. The image's path is relative to its folder, unless absolute.
 
-    Raises `MapError`, as `MapMissing` if there is no such file; as `MapMetadataError` if it is no YAML, a field is
-    missing or has a value of another type, the resolution is not positive or a number not finite; as `MapDataError`
-    if the image is not there, is none or has no pixels. Warns of a map that is probably not the one wanted.
+    Raises `MapError`: `MapMissing` if the file does not exist; `MapMetadataError` if it is not YAML, a field is
+    missing or of another type, the resolution is not positive or a number not finite; `MapDataError`
+    if the image is missing, unreadable or empty. Warns of a map that is probably a mistake.
     """
     return map_file(yaml_path).load()
 
@@ -184,7 +184,7 @@ def _fields(document: _Document) -> Fields:
 
 
 def _odd_thresholds(fields: Fields) -> str:
-    """What is wrong with the thresholds, which map_server does not check; or nothing."""
+    """Return the error in the thresholds, which map_server does not check, or an empty text."""
     occupied, free = fields.occupied_thresh, fields.free_thresh
     if occupied < free:
         return f"occupied_thresh ({occupied:g}) is below free_thresh ({free:g}), so the greys between are occupied"
@@ -226,7 +226,7 @@ def _origin(document: _Document, value: object) -> tuple[float, float, float]:
 
 
 def _whole(document: _Document, name: str, value: object, wanted: str) -> int:
-    """A whole number, in quotation marks or not."""
+    """Return an integer, which may be in quotation marks."""
     try:
         if isinstance(value, str) or type(value) is int:
             return int(value)
@@ -237,7 +237,7 @@ def _whole(document: _Document, name: str, value: object, wanted: str) -> int:
 
 def _number(document: _Document, name: str, value: object) -> float:
     try:
-        # PyYAML takes 5e-2 for a string, map_server does not.
+        # PyYAML reads 5e-2 as a string, map_server does not.
         number = math.nan if isinstance(value, bool) else float(cast("float", value))
     except (TypeError, ValueError, OverflowError) as error:
         raise _wrong(document, name, value, "a number") from error
@@ -262,7 +262,7 @@ def _nearest_file(path: Path) -> str:
 
 
 def _channels(image: Path, place: str) -> NDArray[np.uint8]:
-    """The pixels (h, w, channels), row 0 at the bottom."""
+    """Return the pixels (h, w, channels), row 0 at the bottom."""
     try:
         with images.opened(image) as opened:
             pixels = _eight_bits(opened)
@@ -278,8 +278,8 @@ def _channels(image: Path, place: str) -> NDArray[np.uint8]:
 
 
 def _eight_bits(image: Image) -> NDArray[np.uint8]:
-    """The pixels (h, w, channels) with 8 bits a channel: grey alone, or colours, with alpha if there is any."""
-    if image.mode.startswith("I"):  # 16 bits: the lower ones are dropped
+    """Return the pixels (h, w, channels) with 8 bits per channel: grey, or colours, with alpha if there is any."""
+    if image.mode.startswith("I"):  # 16 bits: drop the lower ones
         grey: NDArray[np.uint8] = np.clip(np.asarray(image) >> 8, 0, 255).astype(np.uint8)[..., None]
         return grey
     if image.mode == "1":
@@ -293,8 +293,8 @@ def _eight_bits(image: Image) -> NDArray[np.uint8]:
 
 
 def occupancy_of(pixels: NDArray[np.uint8], fields: Fields) -> NDArray[np.int8]:
-    """What pixels (h, w, channels) mean by the numbers of a YAML file: (h, w), as in `GridMap.occupancy`."""
-    if pixels.shape[2] == 1:  # a grey has one meaning, so it is worked out once
+    """Return the cells (h, w) for pixels (h, w, channels) and the fields of a YAML file, as `GridMap.occupancy`."""
+    if pixels.shape[2] == 1:  # each grey value gives one cell value, so look it up
         table = _cells(np.arange(256, dtype=np.uint8).reshape(1, 256, 1), fields)[0]
         found: NDArray[np.int8] = table[pixels[..., 0]]
         return found
@@ -320,9 +320,9 @@ def _cells(pixels: NDArray[np.uint8], fields: Fields) -> NDArray[np.int8]:
     cells: NDArray[np.int8] = np.full(grey.shape, UNKNOWN, dtype=np.int8)
     if fields.mode == "scale":
         span = fields.occupied_thresh - fields.free_thresh
-        # Where the thresholds are equal, only what equals them is between: it is 1.
+        # If the thresholds are equal, only probabilities equal to them are in between; these become 1.
         share = np.clip((probability - fields.free_thresh) / span, 0, 1) if span else np.zeros_like(grey)
-        # The last channel is taken for alpha even where it is blue, as map_server does.
+        # Like map_server, treat the last channel as alpha even if it is blue.
         seen = pixels[..., -1] > 0 if channels > 1 else np.ones(grey.shape, dtype=bool)
         cells[seen] = (1 + 98 * share[seen]).astype(np.int8)
     cells[is_free] = FREE

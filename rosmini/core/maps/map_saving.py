@@ -1,4 +1,4 @@
-"""Maps into files, as `map_saver` writes them: a PGM image, and a YAML file with its numbers."""
+"""Writing map files as `map_saver` does: a PGM image, and a YAML file with the metadata."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from .grid_map import GridMap, MapError
 
 BLACK, GREY, WHITE = 0, 205, 254
-"""Pixels for occupied, unknown and free. With the thresholds below 205 is unknown, if by a hair: p is 0.196078."""
+"""Pixels for occupied, unknown and free. With the thresholds below, 205 is barely unknown: p is 0.196078."""
 
 OCCUPIED_FROM, FREE_TO = 65, 25
-"""Cells are written as occupied from the first on, and as free from 0 to the second [%]; what is between is lost."""
+"""Cells are written as occupied from the first value on, as free up to the second [%], and else as unknown."""
 
 
 def pixels_of(
     occupancy: NDArray[np.int8], occupied: int = OCCUPIED_FROM, free: int = FREE_TO
 ) -> NDArray[np.uint8]:
-    """The pixels (h, w) for cells (h, w) with their first row at the bottom; the pixels' is at the top."""
+    """Return the pixels (h, w) for cells (h, w); row 0 of the cells is at the bottom, of the pixels at the top."""
     values = np.arange(-128, 128)
     table = np.select([(values >= 0) & (values <= free), values >= occupied], [WHITE, BLACK], GREY).astype(
         np.uint8
@@ -34,11 +34,11 @@ def save_map(
 ) -> tuple[Path, Path]:
     """Write a map to NAME.pgm and NAME.yaml; returns their paths, the YAML file's first.
 
-    The files are those of map_saver, byte for byte, but for one thing: in `maps/house.yaml` it calls the image
-    `maps/house.pgm`, which map_server then looks for in `maps/maps`; here it is `house.pgm`. An absolute path stays as
-    it is.
+    The files are the same as map_saver's, byte for byte, with one exception: in `maps/house.yaml` it calls the image
+    `maps/house.pgm`, which map_server then looks for in `maps/maps`; here it is `house.pgm`. An absolute path is
+    kept.
 
-    Numbers are written with six decimals, as there. Raises `MapError` if a file cannot be written.
+    Numbers have six decimals, as in map_saver. Raises `MapError` if a file cannot be written.
     """
     yaml, image = Path(f"{os.fspath(name)}.yaml"), Path(f"{os.fspath(name)}.pgm")
     height, width = grid.occupancy.shape

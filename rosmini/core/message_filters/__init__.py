@@ -1,7 +1,7 @@
-"""Filters of messages: bring together what several topics say of one moment (http://wiki.ros.org/message_filters).
+"""Message filters: combine messages of several topics by their time (http://wiki.ros.org/message_filters).
 
-The object API, on a :class:`rosmini.core.graph.Node`. What scripts import as ``message_filters`` is the same in rospy's
-style, :mod:`rosmini.ros.rospy.aliases.message_filters`. ``policies`` decides, apart from
+This is the object API, on a :class:`rosmini.core.graph.Node`. Scripts import the same in rospy's style as
+``message_filters``: :mod:`rosmini.ros.rospy.aliases.message_filters`. ``policies`` decides, without
 nodes, which messages belong together.
 """
 

@@ -1,4 +1,4 @@
-"""The last messages of a filter, to look things up by time."""
+"""Cache of the latest messages of a filter, for look-up by time."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
 
 class Cache(StampingFilter):
-    """Keeps the last ``cache_size`` messages of the filter ``f``, in the order of their arrival, and passes each on.
+    """Keeps the last ``cache_size`` messages of the filter ``f``, in the order of their arrival, and passes all on.
 
-    With ``allow_headerless`` messages without a header count as stamped at their arrival, else they are dropped with
+    With ``allow_headerless`` messages without a header get the time of their arrival, otherwise they are dropped with
     a warning. Raises ``MessageFilterError`` for a cache size below 1.
     """
 
@@ -31,17 +31,17 @@ class Cache(StampingFilter):
         super().__init__([f], allow_headerless=allow_headerless, node=node)
         self.cache_size = check_size("cache_size", cache_size)
         self.cache_msgs: list[Any] = []
-        """The messages that are kept, the oldest first."""
+        """The cached messages, oldest first."""
         self.cache_times: list[Time] = []
         """Their stamps."""
         self.connectInput(f)
 
     def connectInput(self, f: SimpleFilter) -> None:
-        """Take messages from ``f``, too."""
+        """Receive messages from ``f`` too."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Take a message and pass it on."""
+        """Store a message and pass it on."""
         stamp = self._stamp(msg)
         if stamp is not None:
             self.cache_times.append(type(stamp)(stamp.secs, stamp.nsecs))
@@ -70,17 +70,17 @@ class Cache(StampingFilter):
         return next((message for when, message in reversed(self._pairs()) if when <= stamp), None)
 
     def getLatestTime(self) -> Time | None:
-        """Return the stamp of the message that came last, or None."""
+        """Return the stamp of the message that arrived last, or None."""
         return self.cache_times[-1] if self.cache_times else None
 
     def getLastestTime(self) -> Time | None:
-        """Return the same as :meth:`getLatestTime`: ROS's old name."""
+        """Return the same as :meth:`getLatestTime`, under ROS's old, misspelt name."""
         return self.getLatestTime()
 
     def getOldestTime(self) -> Time | None:
-        """Return the stamp of the message that came first of those that are kept, or None."""
+        """Return the stamp of the cached message that arrived first, or None."""
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:
-        """Return the first of the messages whose stamps are not older than that of the one that came last, or None."""
+        """Return the first message whose stamp is not older than that of the message that arrived last, or None."""
         return self.getElemAfterTime(self.cache_times[-1]) if self.cache_times else None

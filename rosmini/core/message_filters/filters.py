@@ -1,4 +1,4 @@
-"""What all filters have in common, and the filter at the beginning of each chain: a subscriber."""
+"""The base classes of all filters, and the filter at the start of each chain: a subscriber."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
 
 class SimpleFilter:
-    """Something with output, for which callbacks are registered. Derived ones call ``signalMessage``."""
+    """A source of messages, for which callbacks are registered. Subclasses call ``signalMessage``."""
 
     node: Node | None = None
-    """Whose clock and log the filters further on use, unless they are given one."""
+    """Node whose clock and log are used by the filters that follow, unless they are given one."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., object], tuple[Any, ...]]] = {}
@@ -29,7 +29,7 @@ class SimpleFilter:
         return number
 
     def signalMessage(self, *msg: Any) -> None:
-        """Give out ``msg``: call all callbacks, in the order of their registration."""
+        """Output ``msg``: call all callbacks, in the order of their registration."""
         for callback, arguments in list(self.callbacks.values()):
             callback(*msg, *arguments)
 
@@ -44,16 +44,16 @@ class Subscriber(SimpleFilter):
         self.sub = node.subscriber(topic, message_class, self.signalMessage, **options)
 
     def getTopic(self) -> str:
-        """Return the name of the topic, as it was given."""
+        """Return the topic's name, as given."""
         return self.topic
 
     def unregister(self) -> None:
-        """Stop receiving. Harmless when repeated."""
+        """Stop receiving. Safe to call again."""
         self.sub.unregister()
 
 
 class StampingFilter(SimpleFilter):
-    """A filter that needs to know the time of its messages."""
+    """A filter that uses the time of its messages."""
 
     def __init__(self, inputs: Iterable[SimpleFilter], *, allow_headerless: bool, node: Node | None) -> None:
         super().__init__()
@@ -64,7 +64,7 @@ class StampingFilter(SimpleFilter):
         self._complained: set[type] = set()
 
     def _stamp(self, message: Any) -> Time | None:
-        """Return the stamp of a message's header; without one, the time if allowed, else warn and return None."""
+        """Return a message's stamp; without a header, return the current time if allowed, else warn and return None."""
         stamp: Time | None = getattr(getattr(message, "header", None), "stamp", None)
         if stamp is not None:
             return stamp

@@ -1,9 +1,9 @@
-"""Which messages of several inputs belong together, by their time stamps; apart from nodes and clocks.
+"""Policies that decide by time stamps which messages of several inputs belong together, without nodes and clocks.
 
-A policy takes one message after another, ``add(index, stamp, message, now)``, and returns the sets that are complete
-with it: tuples with one message of each input, in the order of the inputs. Times are whole nanoseconds. No message is
-given out twice. The rules are those of the Python client, http://wiki.ros.org/message_filters; the C++ client's
-approximate policy is another one.
+A policy receives one message after another, ``add(index, stamp, message, now)``, and returns the sets that this message
+completes: tuples with one message of each input, in the order of the inputs. Times are integers [ns]. No message is
+output twice. The rules are those of the Python client, http://wiki.ros.org/message_filters; the C++ client's
+approximate policy is different.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 Queue = dict[int, Any]
-"""Messages that wait for their partners, by stamp, in the order in which their stamps arrived."""
+"""Messages that wait for partners, by stamp, in order of arrival."""
 
 
 class Policy(ABC):
     """Keeps up to ``queue_size`` messages of each of ``count`` inputs, and drops those with the oldest stamps.
 
-    A message replaces one of the same input and stamp. With ``reset`` a clock that goes back empties the queues: that
-    of each input when its next message comes, and until all inputs whose messages were later have had one there is no
-    output. Raises ``MessageFilterError`` for no inputs and for a ``queue_size`` below 1.
+    A message replaces one of the same input and stamp. With ``reset``, the queue of an input is emptied if its next
+    message arrives at an earlier clock time; there is no output until this has happened for all inputs whose messages
+    were later. Raises ``MessageFilterError`` for no inputs and for a ``queue_size`` below 1.
     """
 
     _forgets_all: ClassVar = False
-    """Whether a clock that goes back empties all queues without ``reset`` too; with it, of the last message too."""
+    """If True, a clock that goes back empties all queues without ``reset`` too, including the last message."""
 
     def __init__(self, count: int, queue_size: int, *, reset: bool = False) -> None:
         if count < 1:
@@ -43,7 +43,7 @@ class Policy(ABC):
         self._last = 0
 
     def add(self, index: int, stamp: int, message: Any, now: int = 0) -> list[tuple[Any, ...]]:
-        """Take a message of input ``index`` that came at ``now``; return the sets that it completes, oldest first."""
+        """Add a message of input ``index``, received at ``now``; return the sets that it completes, oldest first."""
         queue = self.queues[index]
         if self.reset and now < self._heard[index]:
             queue.clear()
@@ -64,13 +64,13 @@ class Policy(ABC):
 
     @abstractmethod
     def _matches(self, index: int, stamp: int) -> list[Sequence[int]]:
-        """Return the stamps of the sets that are complete, now that ``stamp`` has come from input ``index``."""
+        """Return the stamps of the sets that are complete after ``stamp`` has arrived from input ``index``."""
 
 
 class ExactTime(Policy):
-    """Messages with the same stamp belong together.
+    """Combines messages with the same stamp.
 
-    Where the stamps of each input increase, those of the sets do, too.
+    If the stamps of each input increase, those of the sets do too.
     """
 
     def _matches(self, index: int, stamp: int) -> list[Sequence[int]]:  # noqa: ARG002 - a reset may have delayed others
@@ -79,15 +79,15 @@ class ExactTime(Policy):
 
 
 class ApproximateTime(Policy):
-    """Messages whose stamps are all less than ``slop`` nanoseconds apart belong together.
+    """Combines messages whose stamps are all less than ``slop`` nanoseconds apart.
 
-    Each message that comes looks for partners among those that wait, the nearest to its own stamp first, and takes
-    the first set that is close enough: so a message is not kept for a better partner that may come later. A clock
-    that goes back empties all queues; the message that reveals it is lost with them.
+    Each new message looks for partners among the waiting ones, starting with the closest stamps, and takes
+    the first set that is close enough: a message does not wait for a better partner that may come later. A clock
+    that goes back empties all queues, and the message that reveals it is lost too.
 
-    Where the stamps of each input increase by more than ``slop`` from message to message, those of the sets increase
-    in each input; with a larger slop a late message may be paired with an old one that was passed over. Raises
-    ``MessageFilterError`` for a slop that is not positive, with which there would never be output.
+    If the stamps of each input increase by more than ``slop`` from message to message, those of the sets increase
+    in each input; with a larger slop, a late message may be paired with an old one that was skipped. Raises
+    ``MessageFilterError`` for a slop that is not positive, which would never match anything.
     """
 
     _forgets_all = True
@@ -102,7 +102,7 @@ class ApproximateTime(Policy):
         self.slop = slop
 
     def _matches(self, index: int, stamp: int) -> list[Sequence[int]]:
-        if stamp not in self.queues[index]:  # older than all that fit into the queue
+        if stamp not in self.queues[index]:  # older than all messages in the full queue
             return []
         choices = [
             [stamp]
@@ -119,7 +119,7 @@ class ApproximateTime(Policy):
     def _first_close_set(
         self, choices: list[list[int]], chosen: tuple[int, ...], low: int, high: int
     ) -> tuple[int, ...] | None:
-        """Return the first combination, in the order of `itertools.product`, within the slop; skips hopeless ones."""
+        """Return the first combination, in the order of `itertools.product`, within the slop; prune the search."""
         if high - low >= self.slop:
             return None
         if len(chosen) == len(choices):

@@ -1,4 +1,4 @@
-"""Messages in the order of their stamps, though they arrive in another one."""
+"""A filter that sorts messages by their stamps."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 class TimeSequencer(StampingFilter):
     """Passes on the messages of ``f`` in the order of their stamps, each at least ``delay`` seconds after its stamp.
 
-    It looks every ``update_rate`` seconds, as the C++ client's does
-    (http://wiki.ros.org/message_filters#Time_Sequencer; there is none in rospy). A message that is older than one
-    which was given out already is dropped; so is the oldest of more than ``queue_size`` that wait. Raises
-    ``MessageFilterError`` for a queue size below 1 and for a delay or a rate that is not positive.
+    It checks every ``update_rate`` seconds, as the C++ client's does
+    (http://wiki.ros.org/message_filters#Time_Sequencer; rospy has none). A message older than one
+    that was passed on already is dropped; so is the oldest if more than ``queue_size`` wait. Raises
+    ``MessageFilterError`` for a queue size below 1, and for a delay or rate that is not positive.
     """
 
     def __init__(
@@ -44,11 +44,11 @@ class TimeSequencer(StampingFilter):
         self.connectInput(f)
 
     def connectInput(self, f: SimpleFilter) -> None:
-        """Take messages from ``f``, too."""
+        """Receive messages from ``f`` too."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Take a message, and keep it until its time has come."""
+        """Store a message until it is due."""
         stamp = self._stamp(msg)
         if stamp is None or stamp.to_nsec() < self._given:
             return

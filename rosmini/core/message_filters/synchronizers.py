@@ -1,4 +1,4 @@
-"""Synchronisers: filters with several inputs that give out what belongs together."""
+"""Synchronisers: filters that combine messages of several inputs."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 
 UNSTAMPED = 10
-"""How many messages of an input may have the stamp 0, if none has another, before that is reported."""
+"""Number of messages of an input with the stamp 0, without any other, after which a warning is logged."""
 
 
 class StampedQueue(MutableMapping[Time, Any]):
-    """The messages of one input that wait for partners, by stamp: the policy's queue under the keys of ROS's client."""
+    """The waiting messages of one input, by stamp: the policy's queue with the keys of ROS's client."""
 
     def __init__(self, kept: Queue) -> None:
         self.kept = kept
@@ -48,11 +48,11 @@ class StampedQueue(MutableMapping[Time, Any]):
 
 
 class TimeSynchronizer(StampingFilter):
-    """Calls its callbacks with one message of each of the filters ``fs`` that all have the same stamp.
+    """Calls its callbacks with one message of each of the filters ``fs``, all with the same stamp.
 
-    ``queue_size`` messages of each filter wait for their partners. ``reset`` empties the queues when the clock goes
-    back. The node, whose clock that is, is that of the first input that has one, unless ``node`` is given. Callbacks
-    are called one after another, also when one of them blocks and messages go on to come. Messages without a header
+    Up to ``queue_size`` messages of each filter wait for partners. ``reset`` empties the queues when the clock goes
+    back. The clock is that of ``node``, by default the node of the first input that has one. Callbacks
+    run one after another, even if one blocks while more messages arrive. Messages without a header
     are dropped with a warning. Raises ``MessageFilterError`` for no filters and for a queue size below 1.
     """
 
@@ -74,15 +74,15 @@ class TimeSynchronizer(StampingFilter):
         self.policy = policy
         self.queue_size = policy.queue_size
         self.queues = [StampedQueue(queue) for queue in policy.queues]
-        """What waits, an item for each input: messages by stamp."""
+        """The waiting messages of each input, by stamp."""
         self._ready: deque[tuple[Any, ...]] = deque()
         self._giving = False
         self._unstamped: list[int | None] = [0] * len(filters)
-        """How many messages of each input had the stamp 0; None once one had another, or this was reported."""
+        """Number of messages of each input, all with the stamp 0; None after another stamp, or after the warning."""
         self.connectInput(filters)
 
     def connectInput(self, fs: Iterable[SimpleFilter]) -> None:
-        """Connect to these filters, as many as before. Raises ``MessageFilterError`` for another number."""
+        """Connect to these filters. Raises ``MessageFilterError`` if their number differs from before."""
         filters = list(fs)
         if len(filters) != len(self.policy.queues):
             raise MessageFilterError(
@@ -94,7 +94,7 @@ class TimeSynchronizer(StampingFilter):
         ]
 
     def add(self, msg: Any, my_queue: StampedQueue, my_queue_index: int | None = None) -> None:
-        """Take a message for one of the queues, which may be named by its index, too; give out what it completes."""
+        """Add a message to one of the queues, given directly or by its index; output the sets that it completes."""
         index = my_queue_index
         if index is None:
             index = next(number for number, queue in enumerate(self.queues) if queue is my_queue)
@@ -107,7 +107,7 @@ class TimeSynchronizer(StampingFilter):
         self._give_out()
 
     def _look_at_stamp(self, index: int, stamp: Time) -> None:
-        """Warn once if no message of an input has a stamp: they find no partners."""
+        """Warn once if all messages of an input have the stamp 0, as they do not match others."""
         count = self._unstamped[index]
         if count is None or not self._knows_time():
             return
@@ -120,7 +120,7 @@ class TimeSynchronizer(StampingFilter):
             )
 
     def _give_out(self) -> None:
-        """Call the callbacks, unless that is being done: a callback that blocks lets others come in here."""
+        """Call the callbacks for all complete sets; does nothing if called again while a callback blocks."""
         if self._giving:
             return
         self._giving = True
@@ -131,7 +131,7 @@ class TimeSynchronizer(StampingFilter):
             self._giving = False
 
     def _signal(self, messages: tuple[Any, ...]) -> None:
-        """Call the callbacks; an error of one does not keep the sets back that wait behind it."""
+        """Call the callbacks for one set; if one raises, still output the sets after it."""
         try:
             self.signalMessage(*messages)
         except Exception:
@@ -143,8 +143,8 @@ class TimeSynchronizer(StampingFilter):
 class ApproximateTimeSynchronizer(TimeSynchronizer):
     """Calls its callbacks with one message of each of the filters ``fs``, all less than ``slop`` seconds apart.
 
-    As `TimeSynchronizer`; which messages are chosen is said at `ApproximateTime`. With ``allow_headerless`` messages
-    without a header are taken as stamped at their arrival, else they are dropped with a warning. Raises
+    Works as `TimeSynchronizer`; `ApproximateTime` describes the choice of messages. With ``allow_headerless``, messages
+    without a header get the time of their arrival, otherwise they are dropped with a warning. Raises
     ``MessageFilterError`` also for a slop that is not positive.
     """
 

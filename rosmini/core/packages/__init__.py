@@ -1,13 +1,13 @@
-"""ROS packages: where they are, what their manifests say, which files and executables they hold.
+"""ROS packages: where they are, their manifests, files and executables.
 
-A package is a folder with a ``package.xml`` (REP 127, REP 140, REP 149) or, of the time before catkin, with a
-``manifest.xml``; a stack is a folder with a ``stack.xml``. Packages are looked for as rospack does
-(http://wiki.ros.org/rospack): below each folder of ``ROS_PACKAGE_PATH`` in turn, the first package of a name wins, a
-folder with ``CATKIN_IGNORE`` or ``rospack_nosubdirs`` is not entered, and neither is a package. After them come the
-packages that rosmini brings, so that a workspace can overlay them.
+A package is a folder with a ``package.xml`` (REP 127, REP 140, REP 149) or, before catkin, with a
+``manifest.xml``; a stack is a folder with a ``stack.xml``. The search follows rospack
+(http://wiki.ros.org/rospack): it crawls the folders of ``ROS_PACKAGE_PATH`` in order and takes the first package of a
+name; it does not enter packages and folders with ``CATKIN_IGNORE`` or ``rospack_nosubdirs``. The packages of
+rosmini come last, so that a workspace can overlay them.
 
-The crawl is ours and not rospkg's, whose order depends on the file system, and which gives up altogether over one
-manifest that is not XML. Manifests are read by catkin_pkg, after defusedxml has found no harm in them.
+We do not use rospkg's crawler, as its order depends on the file system, and a single manifest that is
+not XML makes it fail. Manifests are read by catkin_pkg, after defusedxml has checked them.
 """
 
 from .executables import (

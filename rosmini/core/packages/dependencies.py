@@ -1,6 +1,6 @@
-"""What packages need, and what needs them, as rospack and rosstack count it (http://wiki.ros.org/rospack).
+"""Dependencies between packages, as rospack and rosstack report them (http://wiki.ros.org/rospack).
 
-Only what is needed to run a package counts, and only what is a package: the rest are libraries of the system.
+Only run-time dependencies count, and only those that are packages: the others are system libraries.
 """
 
 from __future__ import annotations
@@ -15,15 +15,15 @@ from .index import BUILT_IN, PackageIndex
 from .manifest import Package, Stack
 
 LONGEST_ANSWER = 10_000
-"""The largest number of lines of an answer that can grow exponentially with the number of packages."""
+"""Maximum number of lines of an answer that can grow exponentially with the number of packages."""
 
 
 @dataclass(frozen=True)
 class Dependencies:
-    """The packages or, if ``stacks`` is true, the stacks of an index, as nodes of a graph.
+    """The dependency graph of the packages, or, if ``stacks`` is true, of the stacks of an index.
 
-    To rospack a metapackage is no package. To rosstack every package of catkin is a stack, and so is a folder with a
-    ``stack.xml``; packages of rosbuild are none.
+    rospack does not count metapackages as packages. rosstack counts every catkin package, and every folder with a
+    ``stack.xml``, as a stack, but not rosbuild packages.
     """
 
     index: PackageIndex
@@ -31,18 +31,18 @@ class Dependencies:
 
     @property
     def noun(self) -> str:
-        """What they are."""
+        """The word for one of them."""
         return "stack" if self.stacks else "package"
 
     def names(self) -> list[str]:
-        """The names, sorted."""
+        """Return the names, sorted."""
         if not self.stacks:
             return sorted({*self.index.names()} - {*self.index.metapackages()})
         wet = (name for name in self.index.names() if (self.index.path(name) / "package.xml").is_file())
         return sorted({*wet, *self.index.stacks()})
 
     def find(self, name: str) -> Package | Stack:
-        """One of them. Raises `UnknownPackage` with the nearest names, `DefinitionError` if its manifest is broken."""
+        """Return one of them. Raises `UnknownPackage`, with similar names, and `DefinitionError` for a bad manifest."""
         if name not in self.names():
             raise UnknownPackage(BUILT_IN.get(name) or nearest(name, self.names()))
         if self.stacks and name in self.index.stacks():
@@ -50,7 +50,7 @@ class Dependencies:
         return self.index.find(name)
 
     def path(self, name: str) -> Path:
-        """The folder of one. Raises as `find` does, but does not read the manifest."""
+        """Return the folder of one. Raises as `find` does, but does not read the manifest."""
         if name not in self.names():
             raise UnknownPackage(BUILT_IN.get(name) or nearest(name, self.names()))
         if self.stacks and name in self.index.stacks():
@@ -58,14 +58,14 @@ class Dependencies:
         return self.index.path(name)
 
     def manifest(self, name: str) -> Path:
-        """The manifest of one. Raises as `find` does."""
+        """Return the path of a manifest. Raises as `find` does."""
         found = self.find(name)
         return found.path / "stack.xml" if isinstance(found, Stack) else found.manifest
 
     def direct(self, name: str) -> list[str]:
-        """What ``name`` needs, in the order of rospack.
+        """Return the direct dependencies of ``name``, in rospack's order.
 
-        Raises as `find` does, and `RosminiError` if a package of rosbuild or a stack needs what is not there.
+        Raises as `find` does, and `RosminiError` if a rosbuild package or a stack depends on a missing one.
         """
         found, known = self.find(name), {*self.names()}
         if isinstance(found, Stack) or found.is_rosbuild:
@@ -81,7 +81,7 @@ class Dependencies:
         return [each for each in found.exec_depends if each in known]
 
     def all_of(self, name: str) -> list[str]:
-        """All that ``name`` needs, each after what it needs itself. Raises as `direct` does, of any of them."""
+        """Return all dependencies of ``name``, each after its own dependencies. Raises as `direct` does."""
         order: dict[str, None] = {}
         entered = {name}
         waiting = [(name, iter(self.direct(name)))]
@@ -98,9 +98,9 @@ class Dependencies:
         return list(order)
 
     def dependents(self, name: str, *, direct: bool) -> tuple[list[str], list[DefinitionError]]:
-        """What needs ``name``, directly or at all, sorted, and the manifests that could not be read.
+        """Return the direct or all dependents of ``name``, sorted, and the errors of unreadable manifests.
 
-        ``name`` need not be there.
+        ``name`` need not exist.
         """
         needed_by: dict[str, list[str]] = {}
         broken = []
@@ -123,7 +123,7 @@ class Dependencies:
         return sorted(found), broken
 
     def tree(self, name: str) -> list[str]:
-        """What ``name`` needs, indented below what needs it; at most `LONGEST_ANSWER` lines."""
+        """Return the dependencies of ``name`` as an indented tree of at most `LONGEST_ANSWER` lines."""
         lines: list[str] = []
         for way in self._ways(name):
             lines.append("  " * (len(way) - 2) + way[-1])
@@ -132,7 +132,7 @@ class Dependencies:
         return lines
 
     def chains(self, name: str, target: str) -> list[list[str]]:
-        """Every chain of needs from ``name`` to ``target``; at most `LONGEST_ANSWER`."""
+        """Return all chains of dependencies from ``name`` to ``target``, at most `LONGEST_ANSWER`."""
         able = {target, *self.dependents(target, direct=False)[0]}
         found: list[list[str]] = []
         for way in self._ways(name, able):
@@ -143,7 +143,7 @@ class Dependencies:
         return found
 
     def _ways(self, name: str, within: set[str] | None = None) -> Iterator[list[str]]:
-        """Every way from ``name`` to what it needs, and so on, a package before what it needs itself."""
+        """Yield every path from ``name`` along its dependencies, depth first."""
         way = [name]
         waiting = [iter(self.direct(name))]
         while waiting:

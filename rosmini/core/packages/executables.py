@@ -1,4 +1,4 @@
-"""What ``rosrun`` starts: scripts and programs in the folder of a package, and nodes that Python packages bring."""
+"""The executables of ``rosrun``: scripts and programs in a package's folder, and nodes in Python packages."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 NODES_GROUP = "rosmini.nodes"
-"""The entry-point group of built-in nodes; a name in it is ``package/executable``."""
+"""The entry-point group of built-in nodes; its names are ``package/executable``."""
 
-SCRIPT_FOLDERS = ("scripts", "nodes", "src", "bin")  # in the order of preference
+SCRIPT_FOLDERS = ("scripts", "nodes", "src", "bin")  # in order of preference
 
 DEVEL_MARKER = ".catkin"
-"""The file by which a devel space is known."""
+"""The file that marks a devel space."""
 
 
 @dataclass(frozen=True)
 class Executable:
-    """What ``rosrun package name`` starts: either the file ``path`` or the built-in node ``entry_point``."""
+    """The target of ``rosrun package name``: either the file ``path`` or the built-in node ``entry_point``."""
 
     package: str
     name: str
     path: Path | None = None
     entry_point: EntryPoint | None = field(default=None, repr=False)
     has_run_bit: bool = True
-    """False for a Python script that real ROS would not start before a ``chmod +x``."""
+    """False for a Python script that needs a ``chmod +x`` before real ROS starts it."""
 
     def load(self) -> Any:
-        """The object that the entry point names. Raises `ScriptError` for a file, and if the import fails."""
+        """Return the object of the entry point. Raises `ScriptError` for a file, and if the import fails."""
         if self.entry_point is None:
             raise ScriptError(
                 f"{self.package}/{self.name} is a file ({self.path}), not a built-in node; run it"
@@ -48,7 +48,7 @@ class Executable:
 
 
 def built_in_nodes(package: str) -> dict[str, EntryPoint]:
-    """The built-in nodes of a package by name, from every installed distribution."""
+    """Return the built-in nodes of a package by name, from all installed distributions."""
     from importlib.metadata import entry_points
 
     prefix = f"{package}/"
@@ -59,7 +59,7 @@ def built_in_nodes(package: str) -> dict[str, EntryPoint]:
 
 
 def files_of(folder: Path) -> list[Path]:
-    """The files of a package, those in the script folders first; hidden ones and caches are passed over."""
+    """Return the files of a package, script folders first, without hidden files and caches."""
 
     def rank(path: Path) -> tuple[int, tuple[str, ...]]:
         parts = path.relative_to(folder).parts
@@ -73,19 +73,19 @@ def files_of(folder: Path) -> list[Path]:
 
 
 def scripts(folder: Path) -> list[Path]:
-    """The files of a package that can be run, in the order of preference."""
+    """Return the files of a package that can be run, in order of preference."""
     return [path for path in files_of(folder) if _can_run(path, folder)]
 
 
 def devel_spaces(folder: Path) -> list[Path]:
-    """Where a build of a package may be: those of ``CMAKE_PREFIX_PATH``, and that of the workspace that it is in."""
+    """Return the devel spaces in ``CMAKE_PREFIX_PATH``, and that of the workspace that contains the package."""
     spaces = [Path(part) for part in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if part]
     spaces += [above.parent / "devel" for above in folder.parents if above.name == "src"]
     return [space for space in spaces if (space / DEVEL_MARKER).is_file()]
 
 
 def built(package: str, folder: Path) -> list[Path]:
-    """The executables that a build of a catkin workspace made for a package: ``devel/lib/PACKAGE``."""
+    """Return the executables of a package in ``devel/lib/PACKAGE`` of a built catkin workspace."""
     found: dict[str, Path] = {}
     for space in devel_spaces(folder):
         for path in sorted((space / "lib" / package).glob("*")):
@@ -95,7 +95,7 @@ def built(package: str, folder: Path) -> list[Path]:
 
 
 def reconfigure_modules(package: str, folder: Path) -> Path | None:
-    """The folder of the Python package ``PACKAGE.cfg`` that a build made of a package's ``.cfg`` files, if any."""
+    """Return the folder of the module ``PACKAGE.cfg`` built from a package's ``.cfg`` files, if any."""
     for space in devel_spaces(folder):
         found = space / "lib/python3/dist-packages" / package / "cfg"
         if (found / "__init__.py").is_file():
@@ -109,12 +109,12 @@ def _can_run(path: Path, package: Path) -> bool:
     is_module = is_script and (path.parent / "__init__.py").exists()
     if is_script and not is_module:
         return True
-    if os.name == "nt":  # no run bit there: a script says so itself, in its first two bytes
+    if os.name == "nt":  # Windows has no run bit: look for the first two bytes of a script
         with path.open("rb") as file:
             return file.read(2) == b"#!"
     return has_run_bit(path)
 
 
 def has_run_bit(path: Path) -> bool:
-    """Whether the file may be run."""
+    """Return whether the file is executable."""
     return os.access(path, os.X_OK)

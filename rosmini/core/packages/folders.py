@@ -1,4 +1,4 @@
-"""Where packages are: the search path, and the crawl below each folder of it."""
+"""Locations of packages: the search path, and the crawl below each folder of it."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ STACK_MANIFEST = "stack.xml"
 
 
 def assets_dir() -> Path:
-    """The folder of the packages, maps and worlds that rosmini brings: ``rosmini/_assets`` or ``<checkout>/assets``.
+    """Return the folder of rosmini's packages, maps and worlds: ``rosmini/_assets`` or ``<checkout>/assets``.
 
-    Raises `RosminiError` if there is neither.
+    Raises `RosminiError` if neither exists.
     """
     here = Path(__file__).resolve().parents[2]
     for folder in (here / "_assets", here.parent / "assets"):
@@ -30,47 +30,47 @@ def assets_dir() -> Path:
 
 
 def address_of(path: Path) -> str:
-    """Return a path as it is shown: of a file that rosmini brings ``package://NAME/PATH``, the same on any machine."""
+    """Return a path for display; a file of rosmini as ``package://NAME/PATH``, which is the same on any machine."""
     ours = assets_dir() / "ros"
     return f"package://{path.relative_to(ours).as_posix()}" if path.is_relative_to(ours) else str(path)
 
 
 def search_paths(environ: Mapping[str, str] | None = None) -> tuple[Path, ...]:
-    """Where packages are looked for: the folders of ``ROS_PACKAGE_PATH``, then rosmini's own assets."""
+    """Return the folders to search for packages: those of ``ROS_PACKAGE_PATH``, then rosmini's own."""
     value = (os.environ if environ is None else environ).get("ROS_PACKAGE_PATH", "")
     return (*(Path(part) for part in value.split(os.pathsep) if part), *own_dirs())
 
 
 def own_dirs() -> tuple[Path, Path]:
-    """Return the folders of the packages that rosmini brings.
+    """Return the folders of rosmini's packages.
 
-    ``ros`` has what a real ROS can use, too; ``core`` the manifests of what rosmini brings as Python modules and as
-    commands, so that packages which need rospy find it.
+    ``ros`` contains what a real ROS can use too; ``core`` contains manifests for rosmini's Python modules and
+    commands, so that packages which depend on rospy find it.
     """
     own = assets_dir()
     return own / "ros", own / "core"
 
 
 def package_around(path: str | os.PathLike[str]) -> Path | None:
-    """Return the folder of the package that holds a file: the nearest one above it with a ``package.xml``."""
+    """Return the folder of the package that contains a file: the nearest one above it with a ``package.xml``."""
     return next((folder for folder in Path(path).absolute().parents if (folder / MANIFEST).is_file()), None)
 
 
 class Crawled(NamedTuple):
-    """A folder that the crawl found, and the name of the manifest in it."""
+    """A folder found by the crawl, and the name of the manifest in it."""
 
     folder: Path
     manifest: str
 
     @property
     def file(self) -> Path:
-        """The manifest."""
+        """The path of the manifest."""
         return self.folder / self.manifest
 
 
 def crawl(root: Path) -> Iterator[Crawled]:
-    """The folders of all packages and stacks at or below ``root``; those nearer to it first, then by name."""
-    seen: set[str] = set()  # real paths, so that links in a circle come to an end
+    """Yield the folders of all packages and stacks at or below ``root``, breadth first, then by name."""
+    seen: set[str] = set()  # real paths, to stop at cyclic links
     waiting = deque([root])
     while waiting:
         folder = waiting.popleft()
@@ -82,7 +82,7 @@ def crawl(root: Path) -> Iterator[Crawled]:
             with os.scandir(folder) as entries:
                 content = {entry.name: entry.is_dir() for entry in entries}
         except (OSError, ValueError):
-            continue  # not there, or not ours to read: rospack passes over it too
+            continue  # missing or unreadable: rospack skips it too
         if "CATKIN_IGNORE" in content:
             continue
         manifest = next((name for name in (MANIFEST, ROSBUILD_MANIFEST) if content.get(name) is False), None)

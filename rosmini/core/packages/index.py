@@ -1,4 +1,4 @@
-"""The index of packages: finds packages, stacks, files and executables by name."""
+"""The package index: finds packages, stacks, files and executables by name."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .manifest import Package, Stack, read_heading, read_package, read_stack
 
 SCHEME = "package://"
 LONGEST = 300
-"""The largest number of characters of an address that an error shows."""
+"""Maximum length of an address in an error message [characters]."""
 
 _CPP = "that is a library for nodes in C++, which rosmini does not compile; nodes in Python need rospy"
 _OTHER = "that makes messages for another language; rosmini makes those for Python"
@@ -41,14 +41,14 @@ BUILT_IN = {
     "rosclean": "that removes old log files; rosmini keeps none unless ROS_LOG_DIR says where",
     "rospack": "that is the tool: `rosmini rospack`",
 }
-"""Packages that have no folder here, and what serves instead."""
+"""Packages without a folder here, and their replacements."""
 
 
 class PackageIndex:
-    """The packages below some folders (`search_paths` by default), found when they are first needed.
+    """The packages below some folders (`search_paths` by default), searched on first use.
 
     An unknown name makes the index search again, so a package that was just created is found; `refresh`
-    makes it forget what it has seen.
+    discards the results.
     """
 
     def __init__(self, paths: Iterable[str | os.PathLike[str]] | None = None) -> None:
@@ -68,7 +68,7 @@ class PackageIndex:
         return f"PackageIndex([{', '.join(repr(str(path)) for path in self.paths)}])"
 
     def refresh(self) -> None:
-        """Forget all that was found; the next question searches again."""
+        """Discard the results of the search; the next query searches again."""
         self._found = None
         self._metapackages = set()
         self._stacks = {}
@@ -76,21 +76,21 @@ class PackageIndex:
         self._packages = {}
 
     def names(self) -> list[str]:
-        """The names of all packages, sorted. Broken manifests are left out, see `problems`."""
+        """Return the names of all packages, sorted, without broken manifests; see `problems`."""
         return sorted(self._folders())
 
     def metapackages(self) -> list[str]:
-        """The names of the packages that only gather others (REP 127), sorted."""
+        """Return the names of the metapackages (REP 127), sorted."""
         self._folders()
         return sorted(self._metapackages)
 
     def problems(self) -> list[DefinitionError]:
-        """What is wrong with manifests that could not even be asked for a name, in the order of the search."""
+        """Return the errors of manifests whose name could not be read, in the order of the search."""
         self._folders()
         return list(self._broken)
 
     def path(self, name: str) -> Path:
-        """The folder of a package; its manifest is not read further than its name. Raises as `find` does."""
+        """Return the folder of a package, of whose manifest only the name is read. Raises as `find` does."""
         found = self._folders().get(name)
         if found is None:
             self.refresh()
@@ -103,10 +103,10 @@ class PackageIndex:
         return found[0]
 
     def find(self, name: str) -> Package:
-        """The package of this name.
+        """Return the package of this name.
 
-        Raises `UnknownPackage` with the searched folders and the nearest names, and `DefinitionError` with file
-        and line if its ``package.xml`` is broken.
+        Raises `UnknownPackage` with the searched folders and similar names, and `DefinitionError` with file
+        and line if its ``package.xml`` is wrong.
         """
         folder = self.path(name)
         if name not in self._packages:
@@ -114,16 +114,16 @@ class PackageIndex:
         return self._packages[name]
 
     def duplicates(self) -> dict[str, list[Path]]:
-        """The folders of each package that is found more than once, by name; the first of them is taken."""
+        """Return the folders of each package that was found more than once, by name; the first folder is used."""
         return {name: paths for name, paths in sorted(self._folders().items()) if len(paths) > 1}
 
     def stacks(self) -> list[str]:
-        """The names of all stacks of the time before catkin (folders with a ``stack.xml``), sorted."""
+        """Return the names of all stacks from before catkin (folders with a ``stack.xml``), sorted."""
         self._folders()
         return sorted(self._stacks)
 
     def find_stack(self, name: str) -> Stack:
-        """The stack of this name. Raises `UnknownPackage`, and `DefinitionError` if its ``stack.xml`` is broken."""
+        """Return the stack of this name. Raises `UnknownPackage`, and `DefinitionError` for a wrong ``stack.xml``."""
         self._folders()
         if name not in self._stacks:
             guess = nearest(name, self.stacks())
@@ -131,9 +131,9 @@ class PackageIndex:
         return read_stack(self._stacks[name])
 
     def resolve(self, url: str) -> Path:
-        """The file or folder that ``package://name/path`` means (http://wiki.ros.org/resource_retriever).
+        """Return the file or folder of ``package://name/path`` (http://wiki.ros.org/resource_retriever).
 
-        Raises `UnknownPackage`, or `RosminiError` if it is another kind of address or there is no such file.
+        Raises `UnknownPackage`, or `RosminiError` for another kind of address or a missing file.
         """
         from urllib.parse import unquote
 
@@ -148,7 +148,7 @@ class PackageIndex:
         return target
 
     def executables(self, package: str) -> list[str]:
-        """The names of what `find_executable` finds in a package, sorted.
+        """Return the names of the executables that `find_executable` finds in a package, sorted.
 
         Raises `UnknownPackage` if there is neither such a package nor a built-in node of it.
         """
@@ -159,12 +159,12 @@ class PackageIndex:
         return sorted({*built_in, *(path.name for path in (*scripts(folder), *built(package, folder)))})
 
     def find_executable(self, package: str, name: str) -> Executable:
-        """What ``rosrun package name`` starts: a script or program in the package, else a built-in node.
+        """Return the target of ``rosrun package name``: a script or program in the package, else a built-in node.
 
         A program has the run bit; a Python script in ``scripts/``, ``nodes/``, ``src/`` or ``bin/`` needs none.
-        Of several files of that name, the one in the first of these folders is taken; then come what a build has made,
+        The first of these folders with a file of that name wins; then come the results of a build,
         in ``devel/lib/PACKAGE`` of the workspace. Raises `UnknownPackage`,
-        and `ScriptError` if there is no such executable (with the nearest names) or it may not be run.
+        and `ScriptError` if there is no such executable (with similar names) or it lacks the run bit.
         """
         built_in = built_in_nodes(package)
         if package in self or not built_in:
@@ -184,7 +184,7 @@ class PackageIndex:
     # ---- inside ----
 
     def _folders(self) -> dict[str, list[Path]]:
-        """From the name of each package to its folders, the first of which is taken."""
+        """Return the folders of each package, by name; the first one is used."""
         if self._found is None:
             found: dict[str, list[Path]] = {}
             stacks: dict[str, Path] = {}
@@ -235,7 +235,7 @@ class PackageIndex:
 
 
 def _nearest_file(target: Path) -> str:
-    """A "did you mean" for a path that is not there: from the deepest folder of it that is."""
+    """Return a "did you mean" clause for a missing path, from the names in its deepest existing folder."""
     missing = target
     while not files.exists(missing.parent) and missing.parent != missing:
         missing = missing.parent

@@ -1,4 +1,4 @@
-"""What manifests say: ``package.xml`` in its formats 1 to 3, ``manifest.xml`` and ``stack.xml`` of rosbuild."""
+"""Manifests: ``package.xml`` in its formats 1 to 3, and rosbuild's ``manifest.xml`` and ``stack.xml``."""
 
 from __future__ import annotations
 
@@ -15,53 +15,53 @@ from rosmini.core.names import ROS_RELEASE
 from .folders import MANIFEST, ROSBUILD_MANIFEST, STACK_MANIFEST
 
 MOST_TAGS = 2000
-"""How many tags a ``package.xml`` may have: catkin_pkg compares each dependency with all the others."""
+"""Maximum number of tags in a ``package.xml``: catkin_pkg compares all pairs of dependencies."""
 
 
 @dataclass(frozen=True)
 class Export:
-    """A tag inside ``<export>``: what a package tells other tools, such as where its plugins are declared."""
+    """A tag inside ``<export>``: information for other tools, such as the file that declares plugins."""
 
     tag: str
     attributes: tuple[tuple[str, str], ...] = ()
 
     def get(self, name: str) -> str | None:
-        """An attribute, or None."""
+        """Return an attribute, or None."""
         return dict(self.attributes).get(name)
 
 
 @dataclass(frozen=True)
 class Package:
-    """One ROS package, as its manifest describes it."""
+    """A ROS package, as described by its manifest."""
 
     name: str
     path: Path
     version: str
     description: str
     depends: tuple[str, ...]
-    """Packages needed to build or to run it, sorted; tools of the build are not among them."""
+    """Packages needed to build or to run it, sorted, without build tools."""
     exec_depends: tuple[str, ...]
     """Packages needed to run it, in the order in which ``rospack depends1`` prints them."""
     is_metapackage: bool
     exports: tuple[Export, ...] = ()
     is_rosbuild: bool = False
-    """True for a package of the time before catkin, which has a ``manifest.xml``."""
+    """True for a package from before catkin, with a ``manifest.xml``."""
 
     @property
     def manifest(self) -> Path:
-        """The file that describes it."""
+        """The path of its manifest."""
         return self.path / (ROSBUILD_MANIFEST if self.is_rosbuild else MANIFEST)
 
 
 @dataclass(frozen=True)
 class Stack:
-    """A stack of the time before catkin: a folder of packages with a ``stack.xml``."""
+    """A stack from before catkin: a folder of packages with a ``stack.xml``."""
 
     name: str
     path: Path
     version: str
     depends: tuple[str, ...]
-    """The stacks that it needs, in the order of the file."""
+    """Stacks needed by it, in the order of the file."""
 
 
 def _read(manifest: Path) -> bytes:
@@ -72,14 +72,14 @@ def _read(manifest: Path) -> bytes:
 
 
 class Heading(NamedTuple):
-    """What the index has to know of each package."""
+    """The part of a manifest that the index needs."""
 
     name: str
     is_metapackage: bool
 
 
 def read_heading(manifest: Path) -> Heading:
-    """What a ``package.xml`` gives as its name. Raises `DefinitionError` if it is not XML or has no name."""
+    """Return the heading of a ``package.xml``. Raises `DefinitionError` if it is not XML or has no name."""
     from xml.etree.ElementTree import ParseError
 
     from defusedxml.common import DefusedXmlException
@@ -108,19 +108,19 @@ def read_heading(manifest: Path) -> Heading:
 
 
 def read_package(folder: Path) -> Package:
-    """The package in ``folder``, by its ``package.xml`` or else its ``manifest.xml``. Raises `DefinitionError`."""
+    """Return the package in ``folder``, from ``package.xml`` or ``manifest.xml``. Raises `DefinitionError`."""
     manifest = folder / MANIFEST
     if not manifest.is_file() and (folder / ROSBUILD_MANIFEST).is_file():
         return _read_rosbuild(folder)
     from catkin_pkg.package import InvalidPackage, parse_package_string
 
-    read_heading(manifest)  # that it is XML, and harmless
+    read_heading(manifest)  # check that it is harmless XML
     data = _read(manifest)
     if data.count(b"<") > MOST_TAGS:
         raise DefinitionError(f"this has more than {MOST_TAGS} tags: no manifest has", manifest)
     try:
         parsed = parse_package_string(data, str(manifest), warnings=[])
-        with warnings.catch_warnings():  # catkin_pkg calls pyparsing by names that pyparsing means to drop
+        with warnings.catch_warnings():  # catkin_pkg uses deprecated names of pyparsing
             warnings.simplefilter("ignore", DeprecationWarning)
             parsed.evaluate_conditions(ROS_RELEASE)
     except (InvalidPackage, AssertionError, ValueError, RecursionError) as error:
@@ -145,7 +145,7 @@ def read_package(folder: Path) -> Package:
 
 
 def _read_rosbuild(folder: Path) -> Package:
-    """The package whose ``manifest.xml`` is in ``folder`` (http://wiki.ros.org/Manifest); it is named as its folder."""
+    """Return the package in ``folder`` by its ``manifest.xml`` (http://wiki.ros.org/Manifest), named as its folder."""
     from rosmini.core.markup import parse_file
 
     root = parse_file(folder / ROSBUILD_MANIFEST)
@@ -167,7 +167,7 @@ def _read_rosbuild(folder: Path) -> Package:
 
 
 def read_stack(folder: Path) -> Stack:
-    """The stack whose ``stack.xml`` is in ``folder``; it is named as its folder. Raises `DefinitionError`."""
+    """Return the stack in ``folder`` by its ``stack.xml``, named after the folder. Raises `DefinitionError`."""
     from rosmini.core.markup import parse_file
 
     root = parse_file(folder / STACK_MANIFEST)
@@ -178,13 +178,13 @@ def read_stack(folder: Path) -> Stack:
 
 
 def _reason(error: Exception) -> str:
-    """What catkin_pkg says, in one line and without its headings (our own error begins with the path)."""
+    """Return catkin_pkg's error in one line and without its headings (our own error begins with the path)."""
     lines = [line.strip() for line in str(error).splitlines()]
     return "; ".join(line.removeprefix("- ") for line in lines if line and not line.startswith("Error(s)"))
 
 
 def _line_at_fault(data: bytes, reason: str) -> int:
-    """The line of a manifest that ``reason`` speaks of: that of the first tag or text it quotes, else of the root."""
+    """Return the line to which ``reason`` refers: that of the first tag or text it quotes, or else the root's."""
     text = data.decode(errors="replace")
     quoted = re.findall(r"""(?<!\w)(["'])(.+?)\1(?!\w)""", reason)
     for words in ([f"<{word}" for _, word in quoted], [word for _, word in quoted], ["<package"]):

@@ -1,4 +1,4 @@
-"""Parameters as YAML: what the ROS package ``rosparam`` does, with files and with the Parameter Server.
+"""Parameters as YAML: the ROS package ``rosparam``, for files and for the Parameter Server.
 
 >>> from rosmini import Graph
 >>> from rosmini.core.rosparam import ParamClient
@@ -12,7 +12,7 @@ gains:
   p: 1.0
 heading: 3.141592653589793
 
-Scripts that rosmini runs have it as ``import rosparam``, with the functions of ROS's own module.
+Scripts run by rosmini use it as ``import rosparam``, with the functions of ROS's module.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Import what reads and writes YAML when it is first asked for."""
+    """Import the YAML functions on first use."""
     if name in __all__:
         return getattr(import_module(f"{__name__}.documents"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,6 +1,6 @@
 """Angles in parameter files: ``deg(90)``, ``rad(2*pi)``, ``!degrees 90``, ``!radians pi/2`` (wiki.ros.org/rosparam).
 
-The real rosparam hands the expression to Python's ``eval``. Here it is confined, see `rosmini.core.expressions`.
+The real rosparam passes the expression to Python's ``eval``. Here it is confined: see `rosmini.core.expressions`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _NAMES = {"pi": math.pi, "math": Namespace("math", MATH)}
 
 
 def degrees(text: str) -> float:
-    """Return ``deg(<number>)``, or a number of degrees, in radians. Raises ``RosParamException``."""
+    """Return ``deg(<number>)``, or a number in degrees, in radians. Raises ``RosParamException``."""
     inner = text.strip()
     if inner.startswith("deg(") and inner.endswith(")"):
         inner = inner[4:-1]
@@ -31,8 +31,8 @@ def degrees(text: str) -> float:
 def radians(text: str, budget: Budget | None = None) -> float:
     """Return ``rad(<expression>)``, or the expression alone, in radians.
 
-    An expression has numbers, ``pi``, ``+ - * / // % **``, brackets, and functions of ``math``, such as
-    ``math.sqrt(2)``. Evaluating it is paid from ``budget``. Raises ``RosParamException``.
+    Expressions may contain numbers, ``pi``, ``+ - * / // % **``, brackets, and functions of ``math``, such as
+    ``math.sqrt(2)``. The evaluation is charged to ``budget``. Raises ``RosParamException``.
     """
     inner = text.strip()
     if inner.startswith("rad(") and inner.endswith(")"):

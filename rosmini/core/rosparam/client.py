@@ -1,4 +1,4 @@
-"""What the tool ``rosparam`` does with a Parameter Server, as an object (http://wiki.ros.org/rosparam)."""
+"""The operations of the tool ``rosparam`` on a Parameter Server, as an object (http://wiki.ros.org/rosparam)."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from .errors import RosParamException
 if TYPE_CHECKING:
     from .documents import Document
 
-# YAML is imported where it is read or written: `rosparam list` needs none, and is to be quick.
+# YAML is imported where it is used: `rosparam list` does not need it, and should be fast.
 
 
 class Peers(Protocol):
-    """The way to a Master; a :class:`~rosmini.Graph` is one."""
+    """Access to a Master; a :class:`~rosmini.Graph` is one."""
 
     def ask_as(self, caller_id: str) -> Any:
-        """Return the Master as a caller of this name sees it."""
+        """Return the Master as seen by a caller of this name."""
 
 
 class ParamClient:
     """Reads and writes the parameters of a graph, as YAML and as values.
 
     Args:
-        graph: the graph whose Parameter Server it is.
-        namespace: where relative names start, as ``ROS_NAMESPACE`` says on a command line.
+        graph: the graph with the Parameter Server.
+        namespace: the namespace of relative names, as ``ROS_NAMESPACE`` on a command line.
 
     """
 
@@ -55,13 +55,13 @@ class ParamClient:
         self.upload(name, parse(text) if text else "")
 
     def upload(self, name: str, value: Any) -> None:
-        """Set a parameter to a value; a dictionary is merged into what is there. Raises ``RosParamException``."""
+        """Set a parameter to a value; a dictionary is merged. Raises ``RosParamException``."""
         from .documents import assignments
 
         self._send(list(assignments(self._resolve(name), value)))
 
     def delete(self, name: str) -> None:
-        """Delete a parameter or a namespace; of the root ``/``, everything in it. Raises ``ParameterNotSet``."""
+        """Delete a parameter or a namespace; for ``/``, all parameters. Raises ``ParameterNotSet``."""
         resolved = self._resolve(name)
         if resolved == "/":
             self._master.ask("setParam", "/", {})
@@ -76,16 +76,16 @@ class ParamClient:
         return sorted(name for name in self._names() if name.startswith(within))
 
     def load(self, path: str | Path, namespace: str = "") -> list[str]:
-        """Set what a YAML file says, in a namespace; return the names of what was set.
+        """Set the parameters of a YAML file in a namespace; return their names.
 
-        Nothing is set if anything in the file is wrong. Raises ``RosParamException``, which names file and line.
+        Nothing is set if the file contains an error. Raises ``RosParamException``, with file and line.
         """
         from .documents import load_file
 
         return self._load(load_file(path, self._resolve(namespace)))
 
     def loads(self, text: str, namespace: str = "", *, source: str = "") -> list[str]:
-        """Set what a YAML text says, as :meth:`load` does; ``source`` is what errors call the text."""
+        """Set the parameters of a YAML text, as :meth:`load` does; ``source`` is its name in errors."""
         from .documents import load_str
 
         return self._load(load_str(text, source, self._resolve(namespace)))

@@ -1,6 +1,6 @@
-"""Parameter files: YAML in and out as ``rosparam`` reads and writes it (http://wiki.ros.org/rosparam).
+"""Parameter files: reading and writing YAML as ``rosparam`` does (http://wiki.ros.org/rosparam).
 
-YAML is version 1.1, as PyYAML has it: ``yes`` is a truth value, ``010`` is eight, ``1e5`` without a point is text.
+YAML is version 1.1, as in PyYAML: ``yes`` is a boolean, ``010`` is eight, ``1e5`` without a point is text.
 """
 
 from __future__ import annotations
@@ -26,26 +26,26 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
 NS = "_ns"
-"""A document with this key says itself into which namespace it goes."""
+"""The key with which a document names its namespace."""
 
 LARGEST = 4_000_000
-"""Bytes of a parameter file."""
+"""Maximum size of a parameter file [bytes]."""
 
 
 @dataclass(frozen=True)
 class Document:
-    """One YAML document: ``values`` (a dictionary, as a rule) for the namespace ``namespace``."""
+    """One YAML document: ``values`` (usually a dictionary) for the namespace ``namespace``."""
 
     values: Any
     namespace: str
     source: str = ""
     lines: Mapping[str, int] = field(default_factory=dict, repr=False)
-    """The line of each value by its place in the document: ``/a/b``, ``/a/sizes[2]``."""
+    """The line of each value, by its path in the document: ``/a/b``, ``/a/sizes[2]``."""
     own_namespace: bool = False
-    """Whether the document names its namespace itself."""
+    """True if the document names its namespace itself."""
 
     def assignments(self) -> list[tuple[str, Any]]:
-        """Return the parameters to set, one by one, all checked. Raises ``RosParamException`` with file and line."""
+        """Return the parameters to set, all checked. Raises ``RosParamException`` with file and line."""
         try:
             return list(assignments(self.namespace, self.values))
         except _Refused as error:
@@ -54,7 +54,7 @@ class Document:
 
 
 class _Refused(RosParamException):
-    """What the Parameter Server cannot hold, and at which place of the document."""
+    """A value that the Parameter Server does not support, and its path in the document."""
 
     def __init__(self, message: str, place: str) -> None:
         super().__init__(message)
@@ -62,11 +62,11 @@ class _Refused(RosParamException):
 
 
 def assignments(name: str, value: Any) -> Iterator[tuple[str, Any]]:
-    """Yield the settings that rosparam makes of a value for the parameter ``name``.
+    """Yield the settings of rosparam for the parameter ``name`` and a value.
 
-    A dictionary is merged into what is there: one setting for each of its values. Anything else, a list too, replaces
-    what was there. An empty dictionary sets nothing. Raises ``RosParamException`` for what the Parameter Server
-    cannot hold.
+    A dictionary is merged: one setting for each of its values. Anything else, including a list, replaces
+    the old value. An empty dictionary sets nothing. Raises ``RosParamException`` for values that the Parameter Server
+    does not support.
     """
     if name == "/" and not isinstance(value, dict):
         raise _Refused(
@@ -108,7 +108,7 @@ def _checked(name: str, value: Any, place: str) -> Any:
         )
     from rosmini.core.graph.parameter_api import (
         check_value,
-    )  # here: those who only read parameters do without a graph
+    )  # here, so that reading parameters does not import the graph
 
     try:
         return check_value(name, value)
@@ -120,7 +120,7 @@ def _checked(name: str, value: Any, place: str) -> Any:
 
 
 class _Loader(Loader):
-    """YAML with angles; a class of its own, so that nobody else's YAML gets them."""
+    """YAML with angles; a separate class, so that other YAML is read without them."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
@@ -136,7 +136,7 @@ class _Loader(Loader):
 
 
 class _Dumper(yaml.SafeDumper):
-    """Writes a text that looks like an angle in quotes."""
+    """Quotes texts that look like an angle."""
 
 
 for _tag, _word, _read in (("!degrees", "deg", lambda text, _: degrees(text)), ("!radians", "rad", radians)):
@@ -146,7 +146,7 @@ for _tag, _word, _read in (("!degrees", "deg", lambda text, _: degrees(text)), (
 
 
 def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
-    """Read a parameter file, for a namespace. Raises ``RosParamException``, which names file and line."""
+    """Read a parameter file, for a namespace. Raises ``RosParamException``, with file and line."""
     path = Path(path)
     try:
         text = read(path, LARGEST).decode("utf-8")
@@ -160,7 +160,7 @@ def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
 
 
 def load_str(text: str, source: str = "", namespace: str = "/") -> list[Document]:
-    """Read the documents of a YAML text; ``source`` is what errors call it. Raises ``RosParamException``."""
+    """Read the documents of a YAML text, called ``source`` in errors. Raises ``RosParamException``."""
     found: list[Document] = []
     for values, node in documents(text, source, RosParamException, _Loader):
         if values is None:
@@ -192,20 +192,20 @@ def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
 
 
 def dumps(value: Any) -> str:
-    """Return a value as the YAML text that rosparam prints and writes: keys sorted, one value in a line."""
+    """Return a value as YAML in rosparam's format: keys sorted, one value per line."""
     text: str = yaml.dump(value, Dumper=_Dumper, default_flow_style=False, sort_keys=True)
     return text.removesuffix("...\n")
 
 
 def printed(value: Any) -> str:
-    """Return what ``rosparam get`` prints of a value: YAML, and an empty line after what is no plain value."""
+    """Return the output of ``rosparam get``: YAML, followed by an empty line unless the value is plain."""
     text = dumps(value)
     is_plain = not isinstance(value, (dict, list)) and text[0] not in "'\"|"
     return text if is_plain else f"{text}\n"
 
 
 def pretty(value: Any) -> str:
-    """Return what ``rosparam get -p`` prints of a value: for reading, not as YAML."""
+    """Return the output of ``rosparam get -p``: readable text, not YAML."""
     if isinstance(value, str):
         return f"{value}\n"
     return "".join(f"{line}\n" for line in _pretty(value, "")) if isinstance(value, dict) else printed(value)

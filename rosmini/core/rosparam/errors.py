@@ -1,4 +1,4 @@
-"""What can be wrong with a parameter file."""
+"""Errors in parameter files."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""tf: where frames are in one another, over time (http://wiki.ros.org/tf2).
+"""tf: poses of frames relative to each other, over time (http://wiki.ros.org/tf2).
 
-The tree of frames and its arithmetic are plain (`tree`, `history`, `rigid`, `transformations`); `buffer` speaks of them
-in messages, and `listener` and `broadcaster` join them to a graph.
+`tree`, `history`, `rigid` and `transformations` work on numbers; `buffer` converts from and to messages,
+and `listener` and `broadcaster` connect it to a graph.
 """
 
 from __future__ import annotations

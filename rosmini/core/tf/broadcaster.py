@@ -1,4 +1,4 @@
-"""Broadcasts transforms: on `/tf` as frames move, and latched on `/tf_static` (http://wiki.ros.org/tf2_ros)."""
+"""Broadcasters of transforms: repeatedly on `/tf`, and latched on `/tf_static` (http://wiki.ros.org/tf2_ros)."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 def resolve(prefix: str, frame: str) -> str:
-    """A frame's name under a `tf_prefix`: `robot1/base_link`.
+    """Return a frame's name with a `tf_prefix`: `robot1/base_link`.
 
-    A name that begins with `/` is not under it (http://wiki.ros.org/geometry/CoordinateFrameConventions).
+    A name that begins with `/` gets no prefix (http://wiki.ros.org/geometry/CoordinateFrameConventions).
 
     >>> resolve("robot1", "base_link"), resolve("robot1", "/map"), resolve("", "odom")
     ('robot1/base_link', 'map', 'odom')
@@ -30,15 +30,15 @@ def resolve(prefix: str, frame: str) -> str:
 
 
 def tf_prefix(node: Node) -> str:
-    """The parameter `tf_prefix` that is nearest upwards from a node; empty if there is none."""
+    """Return the value of `tf_prefix` found by searching upwards from a node; empty if not set."""
     name = node.search_param("tf_prefix")
     return "" if name is None else str(node.get_param(name)).strip("/")
 
 
 class TransformBroadcaster:
-    """Sends transforms that change, on `/tf`.
+    """Sends changing transforms on `/tf`.
 
-    With a `prefix` names that do not begin with `/` get it, see `resolve`.
+    With a `prefix`, names that do not begin with `/` get it; see `resolve`.
     """
 
     TOPIC = "/tf"
@@ -58,14 +58,14 @@ class TransformBroadcaster:
         rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
         stamp: Time | None = None,
     ) -> None:
-        """Say where `child` is in `parent`: translation [m], quaternion (x, y, z, w), and when (now).
+        """Send the pose of `child` in `parent`: translation [m], quaternion (x, y, z, w), and time (now by default).
 
         Raises `InvalidArgumentException`.
         """
         self.send_rigid(parent, child, rigid(translation, rotation), stamp)
 
     def send_rigid(self, parent: str, child: str, transform: Rigid, stamp: Time | None = None) -> None:
-        """Say where `child` is in `parent`, by seven numbers."""
+        """Send the pose of `child` in `parent`, as seven numbers."""
         when = self.node.clock.now_ns() if stamp is None else stamp.to_nsec()
         self.sendTransform(to_stamped(parent, child, transform, when))
 
@@ -83,7 +83,7 @@ class TransformBroadcaster:
 
 
 class StaticTransformBroadcaster(TransformBroadcaster):
-    """Sends transforms that never change, on `/tf_static`: latched, so who comes later gets all that were sent."""
+    """Sends constant transforms on `/tf_static`, latched: a late subscriber gets all that were sent."""
 
     TOPIC = "/tf_static"
     LATCH = True

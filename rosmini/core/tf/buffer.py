@@ -1,4 +1,4 @@
-"""A buffer of transforms in ROS's messages, under tf2's names (http://wiki.ros.org/tf2)."""
+"""Buffers of transforms in messages, with tf2's names (http://wiki.ros.org/tf2)."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node, Waiter
 
 LATEST = Time()
-"""The time that stands for the latest one that the whole chain has."""
+"""Asks for the latest time for which all transforms of the chain are available."""
 
 
 class BufferCore:
-    """Transforms as they come in messages, without a node; `tree` holds them as numbers.
+    """Transforms received in messages, without a node; `tree` stores them as numbers.
 
-    `cache_time` says how much of the past is kept, in seconds or as a `Duration` (10 s if None).
+    `cache_time` is the length of the history, in seconds or as a `Duration` (10 s if None).
     """
 
     def __init__(self, cache_time: float | Duration | None = None) -> None:
@@ -40,22 +40,22 @@ class BufferCore:
     def _clock(self) -> Callable[[], int] | None:
         return None
 
-    # -- what comes in -------------------------------------------------------------------------------------------
+    # -- incoming transforms -------------------------------------------------------------------------------------
 
     def set_transform(self, transform: Any, authority: str = "default_authority") -> bool:
-        """Take a `geometry_msgs/TransformStamped`; whether it was taken.
+        """Add a `geometry_msgs/TransformStamped`; return True if it was accepted.
 
-        A leading `/` of a name is dropped, as tf2 does.
+        A leading `/` of a name is removed, as in tf2.
         """
         return self._set(transform, authority, static=False)
 
     def set_transforms(self, transforms: Iterable[Any], authority: str = "default_authority") -> None:
-        """Take several, of one message."""
+        """Add several transforms of one message."""
         for transform in transforms:
             self._set(transform, authority, static=False)
 
     def set_transform_static(self, transform: Any, authority: str = "default_authority") -> bool:
-        """Take one that holds for all times."""
+        """Add a transform that is valid at all times."""
         return self._set(transform, authority, static=True)
 
     def _set(self, message: Any, authority: str, *, static: bool) -> bool:
@@ -69,13 +69,13 @@ class BufferCore:
         )
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Remove all transforms."""
         self.tree.clear()
 
-    # -- what is asked -------------------------------------------------------------------------------------------
+    # -- queries -------------------------------------------------------------------------------------------------
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> Any:
-        """Where `source_frame` is in `target_frame`, as a `geometry_msgs/TransformStamped`.
+        """Return the pose of `source_frame` in `target_frame`, as a `geometry_msgs/TransformStamped`.
 
         Raises as `FrameTree.lookup` does.
         """
@@ -85,20 +85,20 @@ class BufferCore:
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Any:
-        """The advanced form: source at one time, target at another; `fixed_frame` does not move in between."""
+        """Look up source and target at different times; `fixed_frame` does not move in between."""
         found = self.tree.lookup_full(
             target_frame, target_time.to_nsec(), source_frame, source_time.to_nsec(), fixed_frame
         )
         return to_stamped(target_frame, source_frame, *found)
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[bool, str]:
-        """Whether a lookup would answer, and why not."""
+        """Return whether a lookup would succeed, and the error if not."""
         return _verdict(lambda: self.lookup_transform_core(target_frame, source_frame, time))
 
     def can_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> tuple[bool, str]:
-        """Whether the advanced form would answer, and why not."""
+        """Return whether the lookup with two times would succeed, and the error if not."""
         return _verdict(
             lambda: self.lookup_transform_full_core(
                 target_frame, target_time, source_frame, source_time, fixed_frame
@@ -106,23 +106,23 @@ class BufferCore:
         )
 
     def get_latest_common_time(self, source_frame: str, dest_frame: str) -> Time:
-        """The oldest of the newest stamps on the way between two frames; 0 if nothing on it moves.
+        """Return the latest time for which all transforms between two frames are known; 0 if all are static.
 
         Raises as `FrameTree.lookup` does.
         """
         return Time.from_nsec(self.tree.latest_common_time(source_frame, dest_frame))
 
-    # -- what is there -------------------------------------------------------------------------------------------
+    # -- contents ------------------------------------------------------------------------------------------------
 
     def all_frames_as_string(self) -> str:
-        """A sentence for each edge, in tf's words."""
+        """Return a sentence for each edge, in tf's words."""
         return "".join(
             f"Frame {frame} exists with parent {edge.newest.parent}.\n"
             for frame, edge in self.tree.edges.items()
         )
 
     def all_frames_as_yaml(self) -> str:
-        """Each edge with its broadcaster, rate and buffered time, as the service `~tf2_frames` answers."""
+        """Return each edge with its broadcaster, rate and buffered time, as the service `~tf2_frames` does."""
         return (
             "".join(
                 f"{frame}: \n  parent: '{edge.newest.parent}'\n  broadcaster: '{edge.newest.authority}'\n"
@@ -134,7 +134,7 @@ class BufferCore:
         )
 
     def all_frames_as_dot(self) -> str:
-        """The tree for graphviz, as `view_frames` writes it."""
+        """Return the tree for graphviz, in the format of `view_frames`."""
         edges = "".join(
             f'"{edge.newest.parent}" -> "{frame}"[label="Broadcaster: {edge.newest.authority}\\nAverage rate: '
             f"{edge.rate:.3f} Hz\\nMost recent transform: {edge.newest_ns / 1e9:.3f} \\nBuffer length: "
@@ -148,7 +148,7 @@ class BufferCore:
 
 
 class Buffer(BufferCore):
-    """The buffer of a node, which can wait: a blocked lane is parked, and the graph goes on.
+    """The buffer of a node, which can wait: while its lane is blocked, the graph continues.
 
     >>> from rosmini import Graph
     >>> from rosmini.core.tf import Buffer, TransformBroadcaster, TransformListener
@@ -171,7 +171,7 @@ class Buffer(BufferCore):
 
     @property
     def node(self) -> Node:
-        """Whose time it is, and who waits."""
+        """The node that waits, and whose clock is used."""
         if self._node is None:
             raise TransformException("this buffer has no node: give it one to let it wait")
         return self._node
@@ -184,7 +184,7 @@ class Buffer(BufferCore):
             self._warn(text)
 
     def _clock(self) -> Callable[[], int]:
-        return lambda: self.node.clock.now_ns()  # noqa: PLW0108 - a script's node is there only later
+        return lambda: self.node.clock.now_ns()  # noqa: PLW0108 - a script's node is created later
 
     def _set(self, message: Any, authority: str, *, static: bool) -> bool:
         taken = super()._set(message, authority, static=static)
@@ -193,7 +193,7 @@ class Buffer(BufferCore):
         return taken
 
     def set_transforms(self, transforms: Iterable[Any], authority: str = "default_authority") -> None:
-        """Take several, of one message; who waits or watches learns of them together."""
+        """Add several transforms of one message; wake waiters and call watchers once, after the last one."""
         self._several = True
         try:
             super().set_transforms(transforms, authority)
@@ -210,7 +210,7 @@ class Buffer(BufferCore):
             watcher()
 
     def watch(self, callback: Callable[[], object]) -> Callable[[], None]:
-        """Call `callback()` whenever transforms were taken; return a function that ends this."""
+        """Call `callback()` after each addition of transforms; return a function that stops this."""
         self._watching.append(callback)
         return lambda: self._watching.remove(callback)
 
@@ -231,7 +231,7 @@ class Buffer(BufferCore):
     def wait_for_transform(
         self, target_frame: str, source_frame: str, time: Time = LATEST, timeout: float | Duration = 1.0
     ) -> bool:
-        """Block until a lookup would answer (True), or for `timeout` seconds (False)."""
+        """Block until a lookup would succeed (True), for at most `timeout` seconds (False)."""
         stamp = time.to_nsec()
         return self._wait(
             lambda: self.tree.knows(target_frame, source_frame, stamp),
@@ -247,7 +247,7 @@ class Buffer(BufferCore):
         timeout: float | Duration = 0.0,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Whether a lookup answers within `timeout`; with `return_debug_tuple` also why not."""
+        """Return whether a lookup succeeds within `timeout`; with `return_debug_tuple`, also the error."""
         self.wait_for_transform(target_frame, source_frame, time, timeout)
         verdict = self.can_transform_core(target_frame, source_frame, time)
         return verdict if return_debug_tuple else verdict[0]
@@ -262,7 +262,7 @@ class Buffer(BufferCore):
         timeout: float | Duration = 0.0,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Whether the advanced form answers within `timeout`; with `return_debug_tuple` also why not."""
+        """Return whether the lookup with two times succeeds within `timeout`; see `can_transform`."""
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(lambda: self.can_transform_full_core(*arguments)[0], timeout, _full(*arguments))
         verdict = self.can_transform_full_core(*arguments)
@@ -271,7 +271,7 @@ class Buffer(BufferCore):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time = LATEST, timeout: float | Duration = 0.0
     ) -> Any:
-        """The pose of `source_frame` in `target_frame`, a `TransformStamped`, after waiting for `timeout` [s] at most.
+        """Return the pose of `source_frame` in `target_frame`, a `TransformStamped`, after at most `timeout` [s].
 
         Raises as `FrameTree.lookup` does, and `ROSInterruptException` when the node shuts down meanwhile.
         """
@@ -287,13 +287,13 @@ class Buffer(BufferCore):
         fixed_frame: str,
         timeout: float | Duration = 0.0,
     ) -> Any:
-        """The advanced form, if need be after waiting."""
+        """Look up source and target at different times, after at most `timeout` [s]."""
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(lambda: self.can_transform_full_core(*arguments)[0], timeout, _full(*arguments))
         return self.lookup_transform_full_core(*arguments)
 
     def transform(self, object_stamped: Any, target_frame: str, timeout: float | Duration = 0.0) -> Any:
-        """A stamped point, vector, pose, quaternion or cloud in another frame, at the time that its header names."""
+        """Return a stamped point, vector, pose, quaternion or cloud in another frame, at the time of its header."""
         header = object_stamped.header
         found = self.lookup_transform(target_frame, header.frame_id.lstrip("/"), header.stamp, timeout)
         return moved(object_stamped, found, self._warn_once)
@@ -306,7 +306,7 @@ class Buffer(BufferCore):
         fixed_frame: str,
         timeout: float | Duration = 0.0,
     ) -> Any:
-        """The same at another time, if `fixed_frame` does not move in between."""
+        """Return the same at another time, if `fixed_frame` does not move in between."""
         header = object_stamped.header
         found = self.lookup_transform_full(
             target_frame, target_time, header.frame_id.lstrip("/"), header.stamp, fixed_frame, timeout
@@ -316,14 +316,14 @@ class Buffer(BufferCore):
     def transform_points(
         self, points: Any, target_frame: str, source_frame: str, time: Time = LATEST
     ) -> Floats:
-        """Points (..., 3) [m] of one frame in another; see `scan_points` for those of a laser scan."""
+        """Return points (..., 3) [m] of one frame in another; see `scan_points` for those of a laser scan."""
         found = self.tree.lookup(target_frame, source_frame, time.to_nsec())
         return transform_points(found.transform, points)
 
     def show(self, **options: Any) -> Any:
-        """A picture of the tree, as `rqt_tf_tree` draws it.
+        """Show a picture of the tree, as `rqt_tf_tree` draws it.
 
-        Options, with what they are unless given:
+        Options and their defaults:
             title=None: a caption under the picture, and the first words of its text form
         """
         from rosmini.core.graph.show import show
@@ -346,5 +346,5 @@ def _verdict(ask: Callable[[], object]) -> tuple[bool, str]:
 
 
 def span_ns(span: float | Duration) -> int:
-    """Seconds, or a duration, in nanoseconds."""
+    """Return seconds, or a duration, in nanoseconds."""
     return span.to_nsec() if isinstance(span, Duration) else int(span * 1e9)

@@ -1,4 +1,4 @@
-"""What can go wrong with transforms, under the names of tf2 (http://wiki.ros.org/tf2/Errors)."""
+"""Errors of transforms, with tf2's names (http://wiki.ros.org/tf2/Errors)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from rosmini.core.errors import RosminiError
 
 
 class TransformException(RosminiError):
-    """A transform cannot be had: the base of all errors of tf (`tf.Exception`)."""
+    """A transform is not available: base class of all errors of tf (`tf.Exception`)."""
 
 
 class LookupException(TransformException):
@@ -18,12 +18,12 @@ class ConnectivityException(TransformException):
 
 
 class ExtrapolationException(TransformException):
-    """The chain exists, but not at the time that was asked for."""
+    """The chain exists, but not at the requested time."""
 
 
 class InvalidArgumentException(TransformException):
-    """A frame's name, or a quaternion, is none."""
+    """A frame's name or a quaternion is invalid."""
 
 
 class TimeoutException(TransformException):
-    """Nothing came in time."""
+    """No transform arrived in time."""

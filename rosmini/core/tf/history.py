@@ -1,4 +1,4 @@
-"""The samples of all frames of a tree in flat arrays, which `kernel.walk` reads, and one frame's history."""
+"""The samples of all frames of a tree in flat arrays, read by `kernel.walk`, and the history of one frame."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ Outcome = Literal["kept", "repeated", "old"]
 _PACK = struct.Struct("=7d")
 _NEVER = -(1 << 63)
 _ROOM = 8
-"""How many samples a frame that moves has room for initially; it is doubled when it is full."""
+"""Initial capacity of a moving frame [samples]; doubled when it is full."""
 
 
 class Sample(NamedTuple):
-    """Who said where a frame stands."""
+    """The parent and the broadcaster of a sample."""
 
     parent: str
     authority: str
 
 
 class Samples:
-    """The samples of the frames of one tree, those of one frame side by side.
+    """The samples of the frames of one tree; those of one frame are contiguous.
 
     Attributes:
-        stamps: when each sample holds [ns].
-        origins: who said so, under which parent: numbers that `said` translates.
+        stamps: the time of each sample [ns].
+        origins: parent and broadcaster of each sample: numbers that `said` translates.
         values: the transforms, seven numbers each.
-        spans: of each frame where its samples begin, where they end, and 1 if it is static.
-        columns: these four as `walk` takes them: memoryviews, or arrays for machine code.
+        spans: for each frame the start and end of its samples, and 1 if it is static.
+        columns: these four in the form for `walk`: memoryviews, or arrays for numba.
 
     """
 
@@ -48,24 +48,24 @@ class Samples:
         self._share()
 
     def _share(self) -> None:
-        # Python reads and writes an element of a memoryview faster than one of an array.
+        # Reading and writing elements of a memoryview is faster than those of an array.
         self.stamps, self.origins, self.values, self.spans = views = [array.data for array in self._arrays]
         self.columns = self._arrays if self.compiled else views
 
     def use_arrays(self) -> None:
-        """Make `columns` arrays from now on."""
+        """Use arrays for `columns` from now on."""
         self.compiled = True
         self._share()
 
     def _grow(self, number: int, size: int) -> None:
-        """Make an array at least `size` long."""
+        """Extend an array to at least `size` elements."""
         old = self._arrays[number]
         if len(old) < size:
             self._arrays[number] = np.zeros(max(size, 2 * len(old)), dtype=old.dtype)
             self._arrays[number][: len(old)] = old
 
     def add_frame(self, *, static: bool, room: int) -> tuple[int, int]:
-        """Make room for a further frame; returns its number and where its room begins."""
+        """Allocate space for a new frame; return its number and the start of its space."""
         if self._free_frames:
             frame = self._free_frames.pop()
         else:
@@ -77,15 +77,15 @@ class Samples:
         return frame, begin
 
     def set_span(self, frame: int, begin: int, end: int) -> None:
-        """Say where the samples of a frame are."""
+        """Set the start and end of a frame's samples."""
         self.spans[3 * frame], self.spans[3 * frame + 1] = begin, end
 
     def remove_frame(self, frame: int) -> None:
-        """Let another frame have this number."""
+        """Release a frame's number for reuse."""
         self._free_frames.append(frame)
 
     def allocate(self, room: int) -> int:
-        """A free place for so many samples side by side."""
+        """Return the start of `room` contiguous free samples."""
         free = self._free.get(room)
         begin = free.pop() if free else self._used
         if begin == self._used:
@@ -96,16 +96,16 @@ class Samples:
         return begin
 
     def release(self, begin: int, room: int) -> None:
-        """Let others have a place."""
+        """Release space for reuse."""
         self._free.setdefault(room, []).append(begin)
 
     def move(self, begin: int, end: int, to: int) -> None:
-        """Move samples; the two places may overlap."""
+        """Move samples; source and destination may overlap."""
         for array, width in zip(self._arrays, (1, 1, 7), strict=False):
             array[width * to : width * (to + end - begin)] = array[width * begin : width * end]
 
     def origin(self, parent: str, authority: str) -> int:
-        """The number of a parent and an authority."""
+        """Return the number of a parent and an authority."""
         found = self._origins.get((parent, authority))
         if found is None:
             number = self._parents.setdefault(parent, len(self._parents))
@@ -114,7 +114,7 @@ class Samples:
         return found
 
     def said(self, origin: int) -> Sample:
-        """What a number of `origin` stands for."""
+        """Return the parent and authority of a number from `origin`."""
         return self._said[origin & ((1 << PARENT_SHIFT) - 1)]
 
 
@@ -122,11 +122,11 @@ class History:
     """The samples of one frame over the newest `cache_ns`, oldest first. A static frame has one, for all times.
 
     Attributes:
-        newest: who said where it stands last, and under which parent.
-        newest_ns: when that was [ns].
-        number: its place in `Samples.spans`.
-        static: it does not change with time.
-        steady: every sample has the same parent.
+        newest: parent and broadcaster of the newest sample.
+        newest_ns: the time of the newest sample [ns].
+        number: its index in `Samples.spans`.
+        static: True if it does not change with time.
+        steady: True if all samples have the same parent.
 
     """
 
@@ -166,22 +166,22 @@ class History:
 
     @property
     def oldest_ns(self) -> int:
-        """When the oldest sample holds [ns]."""
+        """Time of the oldest sample [ns]."""
         oldest: int = self._samples.stamps[self._begin]
         return oldest
 
     @property
     def span_ns(self) -> int:
-        """From the oldest sample to the newest [ns]."""
+        """Time between the oldest and the newest sample [ns]."""
         return self.newest_ns - self.oldest_ns
 
     @property
     def rate(self) -> float:
-        """Samples a second, as tf counts them: over the time that is buffered, but at least 0.1 ms."""
+        """Samples per second, as tf calculates it: over the buffered time, but at least 0.1 ms."""
         return len(self) / max(self.span_ns / 1e9, 1e-4)
 
     def add(self, parent: str, transform: Rigid, stamp_ns: int, authority: str) -> Outcome:
-        """Take a sample, in any order; one that is older than all that is kept, or repeats a moment, is refused."""
+        """Add a sample, in any order; refuse one that is older than the history, or has the stamp of another."""
         samples = self._samples
         before, origin = self.newest, self._origin
         known = parent == before.parent and authority == before.authority
@@ -225,7 +225,7 @@ class History:
         return "kept"
 
     def _make_room(self) -> None:
-        """Move to the start of the room, or to one of twice the size if this one is more than half full."""
+        """Move to the start of the space, or to one of twice the size if this one is more than half full."""
         samples, room = self._samples, self._room
         count, first = self._end - self._begin, self._limit - room
         if 2 * count > room:
@@ -237,21 +237,21 @@ class History:
         samples.set_span(self.number, self._begin, self._end)
 
     def forget(self) -> None:
-        """Give the room back; nothing can be asked of this history any more."""
+        """Release the space; this history cannot be used any more."""
         self._samples.release(self._limit - self._room, self._room)
         self._samples.remove_frame(self.number)
 
     def sample_at(self, stamp_ns: int) -> Sample:
-        """Who spoke of this moment [ns]. Raises `LookupError` if nobody did."""
+        """Return the origin of the sample at this time [ns]. Raises `LookupError` if there is none."""
         place = find(self._samples.stamps, self._begin, self._end, stamp_ns)
         if self.static or place == self._end or self._samples.stamps[place] != stamp_ns:
             raise LookupError(stamp_ns)
         return self._samples.said(self._samples.origins[place])
 
     def parent_at(self, stamp_ns: int) -> str:
-        """The parent at a time [ns]: where it changes between two samples, that of the earlier one.
+        """Return the parent at a time [ns]; between two samples, that of the earlier one.
 
-        The nearest at either end.
+        Outside the history, that of the nearest sample.
         """
         if self.steady:
             return self.newest.parent

@@ -1,6 +1,6 @@
-"""The arithmetic of transforms and the walk along a chain of frames: scalar loops, compiled by numba where worth it.
+"""Arithmetic of transforms, and the walk along a chain of frames: scalar loops, compiled by numba if worthwhile.
 
-Helpers of the kernel stay in this file: numba's cache is renewed when it changes.
+Keep the kernel's helpers in this file: numba's cache is renewed only when this file changes.
 """
 
 from __future__ import annotations
@@ -13,19 +13,19 @@ from typing import Any
 from rosmini.core.geometry.machine_code import machine_code
 
 Rigid = tuple[float, float, float, float, float, float, float]
-"""x, y, z [m], and the rotation's quaternion x, y, z, w."""
+"""x, y, z [m], and the rotation as a quaternion x, y, z, w."""
 
 IDENTITY: Rigid = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 PARENT_SHIFT = 32
-"""The bits of an origin above this one number the parent, those below the authority."""
+"""The bits of an origin from this one up are the parent's number, those below the authority's."""
 
 FOUND = -1
-"""What `walk` returns in place of an edge at fault."""
+"""Returned by `walk` instead of the index of an edge without data."""
 
 
 def compose(a: Rigid, b: Rigid) -> Rigid:
-    """`b` after `a`: the pose of c in a's frame, where `a` is the pose of b there, and `b` that of c in b."""
+    """Return the pose of c in the frame of a, where `a` is the pose of b in a, and `b` that of c in b."""
     ax, ay, az, ai, aj, ak, aw = a
     bx, by, bz, bi, bj, bk, bw = b
     # v + 2 w (q x v) + 2 q x (q x v)
@@ -44,7 +44,7 @@ def compose(a: Rigid, b: Rigid) -> Rigid:
 
 
 def inverse(a: Rigid) -> Rigid:
-    """The inverse: composed with `a`, on either side, it is the identity."""
+    """Return the inverse: composed with `a`, on either side, it is the identity."""
     x, y, z, i, j, k, w = a
     tx = 2 * (k * y - j * z)
     ty = 2 * (i * z - k * x)
@@ -62,7 +62,7 @@ def inverse(a: Rigid) -> Rigid:
 
 
 def interpolate(a: Rigid, b: Rigid, fraction: float) -> Rigid:
-    """Between `a` (0) and `b` (1): the position on the straight line, the rotation by slerp (Shoemake, 1985)."""
+    """Interpolate from `a` (0) to `b` (1): the position linearly, the rotation by slerp (Shoemake, 1985)."""
     ax, ay, az, ai, aj, ak, aw = a
     bx, by, bz, bi, bj, bk, bw = b
     rest = 1.0 - fraction
@@ -70,7 +70,7 @@ def interpolate(a: Rigid, b: Rigid, fraction: float) -> Rigid:
     if cosine < 0:
         bi, bj, bk, bw, cosine = -bi, -bj, -bk, -bw, -cosine
     p, q = rest, fraction
-    if cosine <= 0.9999:  # nearer than that the arc is a line; the length is normalized below
+    if cosine <= 0.9999:  # for smaller angles, linear is accurate; normalised below
         angle = math.acos(cosine)
         sine = math.sin(angle)
         p, q = math.sin(rest * angle) / sine, math.sin(fraction * angle) / sine
@@ -88,9 +88,9 @@ def interpolate(a: Rigid, b: Rigid, fraction: float) -> Rigid:
 
 
 def find(stamps: Sequence[int], begin: int, end: int, stamp_ns: int) -> int:
-    """The first of the sorted `stamps[begin:end]` that is not before `stamp_ns`; `end` if there is none.
+    """Return the first index of the sorted `stamps[begin:end]` that is not before `stamp_ns`, or `end`.
 
-    Samples mostly come at a steady rate, so the place is guessed first; bisection finds it where the guess misses.
+    Samples are usually evenly spaced, so an interpolated guess is tried first, then bisection.
     """
     low, high = begin, end - 1
     if stamp_ns > stamps[high]:
@@ -117,7 +117,7 @@ def find(stamps: Sequence[int], begin: int, end: int, stamp_ns: int) -> int:
 
 
 def sample(values: Sequence[float], place: int) -> Rigid:
-    """The transform at a place of the flat `values`."""
+    """Return the transform at an index of the flat `values`."""
     k = 7 * place
     return (
         values[k],
@@ -139,19 +139,19 @@ def walk(
     ups: int,
     stamp_ns: int,
 ) -> tuple[int, int, Rigid]:
-    """The transform along a way of edges, at a time [ns]; at 0, the latest time at which all of them are known.
+    """Return the transform along a path of edges, at a time [ns], or for 0 at the latest time known for all of them.
 
     Args:
-        stamps: the time of each sample [ns]; those of one edge stand together, sorted.
+        stamps: the time of each sample [ns]; those of one edge are contiguous and sorted.
         origins: the parent and the authority of each sample.
         values: the transform of each sample, seven numbers.
-        spans: of each edge where its samples begin, where they end, and 1 if it is static.
+        spans: for each edge the start and end of its samples, and 1 if it is static.
         way: the edges from the source up to the common ancestor, then those from the target up to it.
-        ups: how many of them belong to the source.
-        stamp_ns: when.
+        ups: the number of edges on the source's side.
+        stamp_ns: the time.
 
     Returns:
-        `FOUND`, or the place in `way` of an edge that is not known at that time; the time; the transform.
+        `FOUND`, or the index in `way` of an edge that is not known at that time; the time; the transform.
 
     """
     if stamp_ns == 0:
@@ -194,7 +194,7 @@ def walk(
 
 @cache
 def compiled_walk() -> Callable[..., tuple[int, int, Rigid]]:
-    """`walk` as machine code, for arrays. Raises `ImportError` without numba."""
+    """Return `walk` compiled by numba, for arrays. Raises `ImportError` without numba."""
     import numba
 
     types: Any = numba.types

@@ -1,4 +1,4 @@
-"""Hearing where frames are: `/tf` and `/tf_static` into a buffer (http://wiki.ros.org/tf2_ros)."""
+"""The listener: receives transforms from `/tf` and `/tf_static` into a buffer (http://wiki.ros.org/tf2_ros)."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ UNKNOWN = "unknown_publisher"
 
 
 class TransformListener:
-    """Fills `buffer` (one of its own, if none is given) with what a node hears on `/tf` and `/tf_static`.
+    """Fills `buffer` (by default a new one) with the transforms that a node receives on `/tf` and `/tf_static`.
 
-    When the node's time jumps back (a simulation or a bag starts again), the buffer forgets what it knew, as in tf2.
+    If the node's time jumps back (a simulation or a bag restarts), the buffer is cleared, as in tf2.
     """
 
     def __init__(self, node: Node, buffer: Buffer | None = None, queue_size: int | None = None) -> None:
@@ -31,20 +31,20 @@ class TransformListener:
         ]
 
     def callback(self, data: Any) -> None:
-        """Take a message of `/tf`."""
+        """Handle a message on `/tf`."""
         self.check_for_reset()
         authority = data._connection_header.get("callerid", UNKNOWN)
         self.buffer.set_transforms(data.transforms, authority)
 
     def static_callback(self, data: Any) -> None:
-        """Take a message of `/tf_static`."""
+        """Handle a message on `/tf_static`."""
         self.check_for_reset()
         authority = data._connection_header.get("callerid", UNKNOWN)
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, authority)
 
     def check_for_reset(self) -> None:
-        """Forget what was heard if time has jumped back."""
+        """Clear the buffer if time has jumped back."""
         now = self.node.clock.now_ns()
         if now < self.last_update_ns:
             self.node.logwarn("Detected jump back in time. Clearing TF buffer.")
@@ -52,6 +52,6 @@ class TransformListener:
         self.last_update_ns = now
 
     def unregister(self) -> None:
-        """Hear no more."""
+        """Stop receiving."""
         for subscriber in self._subscribers:
             subscriber.unregister()

@@ -15,11 +15,11 @@ QUEUE_FULL = "the queue of messages that wait for their transform was full"
 
 
 class MessageFilter:
-    """Hands a stamped message on as soon as it can be transformed into each of `target_frames`, at its stamp.
+    """Passes on a stamped message once it can be transformed into each of `target_frames`, at its stamp.
 
-    With a `tolerance` [s] it can then be at its stamp and that much later, too, as `setTolerance` of
-    `tf2_ros::MessageFilter` has it. At most `queue_size` messages wait (0: any number); the oldest go first.
-    `failed(message, reason)` is told of each that will never be handed on.
+    With a `tolerance` [s], it must also be possible that much later than its stamp, as with `setTolerance` of
+    `tf2_ros::MessageFilter`. At most `queue_size` messages wait (0: any number); the oldest is dropped first.
+    `failed(message, reason)` is called for each message that is dropped.
     """
 
     def __init__(
@@ -42,11 +42,11 @@ class MessageFilter:
         self._end = buffer.watch(self._look)
 
     def __len__(self) -> int:
-        """How many messages wait."""
+        """Return the number of waiting messages."""
         return len(self._waiting)
 
     def add(self, message: Any) -> None:
-        """Take a message with a header."""
+        """Add a message with a header."""
         if not message.header.frame_id.lstrip("/"):
             self._drop(message, NO_FRAME)
         elif not self._settle(message):
@@ -55,34 +55,34 @@ class MessageFilter:
                 self._drop(self._waiting.popleft(), QUEUE_FULL)
 
     def clear(self) -> None:
-        """Forget what waits."""
+        """Remove all waiting messages."""
         self._waiting.clear()
 
     def close(self) -> None:
-        """Forget what waits, and watch the buffer no more."""
+        """Remove all waiting messages, and stop watching the buffer."""
         self.clear()
         self._end()
 
     def _look(self) -> None:
-        """A transform has come."""
+        """Check all waiting messages after new transforms have arrived."""
         for _ in range(len(self._waiting)):
             message = self._waiting.popleft()
             if not self._settle(message):
                 self._waiting.append(message)
 
     def _settle(self, message: Any) -> bool:
-        """Hand a message on, or drop it; whether one of the two is done."""
+        """Pass a message on or drop it, if this can be decided; return True if so."""
         source = message.header.frame_id.lstrip("/")
         stamp = message.header.stamp.to_nsec()
         stamps = (stamp, stamp + self._tolerance_ns) if self._tolerance_ns else (stamp,)
         for target in self.target_frames:
             newest = self._newest(target, source)
-            if 0 < newest < stamps[-1]:  # quicker than to look, and nearly always why one waits
+            if 0 < newest < stamps[-1]:  # a cheap test of the usual case
                 return False
             for each in stamps:
                 if self.buffer.tree.knows(target, source, each):
                     continue
-                if newest > stamps[-1]:  # no transform that may still come can help
+                if newest > stamps[-1]:  # transforms that may still arrive cannot help
                     self._drop(message, TOO_OLD)
                     return True
                 return False
@@ -90,7 +90,7 @@ class MessageFilter:
         return True
 
     def _newest(self, target: str, source: str) -> int:
-        """The newest time [ns] at which all between two frames is known; 0: none, or all times."""
+        """Return the latest time [ns] for which all between two frames is known; 0: none, or all times."""
         try:
             return self.buffer.tree.latest_common_time(target, source)
         except TransformException:

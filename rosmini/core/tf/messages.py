@@ -1,4 +1,4 @@
-"""Transforms, and what they move, as ROS messages: points, vectors, poses, quaternions, scans, point clouds."""
+"""Conversion of transforms to and from messages, and of messages between frames: points, poses, clouds..."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FLOAT_TYPES = {7: "f4", 8: "f8"}
 
 
 def from_transform(message: Any) -> Rigid:
-    """A `geometry_msgs/Transform` as seven floats, as it is: its quaternion may be wrong."""
+    """Return a `geometry_msgs/Transform` as seven floats, unchecked: its quaternion may be invalid."""
     move, turn = message.translation, message.rotation
     return (
         float(move.x),
@@ -37,14 +37,14 @@ def from_transform(message: Any) -> Rigid:
 
 
 def to_stamped(parent: str, child: str, transform: Rigid, stamp_ns: int) -> Any:
-    """A `geometry_msgs/TransformStamped`: where `child` is in `parent` at a time."""
+    """Return a `geometry_msgs/TransformStamped` with the pose of `child` in `parent` at a time."""
     cls: Any = message_class("geometry_msgs/TransformStamped")
     return _maker(cls)(parent, *divmod(stamp_ns, 1_000_000_000), child, *transform)
 
 
 @cache
 def _maker(cls: type[Any]) -> Callable[..., Any]:
-    """What makes such messages from what varies, three times as fast as field by field."""
+    """Return a factory of such messages, three times as fast as setting field by field."""
     varying = ["header.frame_id", "header.stamp.secs", "header.stamp.nsecs", "child_frame_id"]
     varying += [f"transform.translation.{axis}" for axis in "xyz"] + [
         f"transform.rotation.{axis}" for axis in "xyzw"
@@ -53,16 +53,16 @@ def _maker(cls: type[Any]) -> Callable[..., Any]:
 
 
 def transform_of(stamped: Any) -> Rigid:
-    """The transform of a `geometry_msgs/TransformStamped`.
+    """Return the transform of a `geometry_msgs/TransformStamped`.
 
-    Raises `InvalidArgumentException` if its quaternion has no length.
+    Raises `InvalidArgumentException` if its quaternion has length 0.
     """
     found = from_transform(stamped.transform)
     return rigid(found[:3], found[3:])
 
 
 def from_pose(pose: Any) -> Rigid:
-    """A `geometry_msgs/Pose`. Raises `InvalidArgumentException` if its quaternion has no length."""
+    """Return a `geometry_msgs/Pose` as a transform. Raises `InvalidArgumentException` for a quaternion of length 0."""
     where, turn = pose.position, pose.orientation
     return rigid((where.x, where.y, where.z), (turn.x, turn.y, turn.z, turn.w))
 
@@ -117,9 +117,9 @@ def _cloud(message: Any, transform: Rigid) -> None:
 
 
 def cloud_view(message: Any, data: bytearray) -> list[NDArray[Any]]:
-    """The x, y and z of a `sensor_msgs/PointCloud2` as views (n) into `data`, a copy of its data.
+    """Return x, y and z of a `sensor_msgs/PointCloud2` as views (n) into `data`, a copy of its data.
 
-    Raises `TransformException` if it has no such fields as floats.
+    Raises `TransformException` if it lacks floating-point fields of these names.
     """
     columns = []
     fields = {field.name: field for field in message.fields}
@@ -162,7 +162,7 @@ MOVERS = {
     "sensor_msgs/PointCloud": _cloud,
     "sensor_msgs/PointCloud2": _cloud2,
 }
-"""What moves the content of a message, in place, by its type."""
+"""Functions that transform a message in place, by type."""
 
 
 ROTATIONS: dict[str, Callable[[Any], Any]] = {
@@ -170,13 +170,13 @@ ROTATIONS: dict[str, Callable[[Any], Any]] = {
     "geometry_msgs/PoseWithCovarianceStamped": lambda message: message.pose.pose.orientation,
     "geometry_msgs/QuaternionStamped": lambda message: message.quaternion,
 }
-"""The quaternion of a message, by its type."""
+"""Functions that return the quaternion of a message, by type."""
 
 
 def moved(message: Any, stamped: Any, warn: Callable[[str], object] = lambda _text: None) -> Any:
-    """Return a copy of a message in another frame, given by `stamped`: the `TransformStamped` of its frame there.
+    """Return a copy of a message in another frame; `stamped` is the `TransformStamped` of its frame in that frame.
 
-    The copy has the header of `stamped`. A quaternion of length 0, which every new `PoseStamped` has, counts as no
+    The copy has the header of `stamped`. A quaternion of length 0, as in a new `PoseStamped`, counts as no
     rotation, as in `tf.TransformerROS`; `warn` receives a sentence about it.
 
     Raises `TransformException` for a type that cannot be transformed.
@@ -201,9 +201,9 @@ def moved(message: Any, stamped: Any, warn: Callable[[str], object] = lambda _te
 
 
 def scan_points(scan: Any) -> Floats:
-    """Where the beams of a `sensor_msgs/LaserScan` ended (n, 3) [m], in the laser's frame.
+    """Return the end points of the beams of a `sensor_msgs/LaserScan` (n, 3) [m], in the laser's frame.
 
-    Beams that met nothing are left out.
+    Beams without a hit are omitted.
     """
     ranges = np.asarray(scan.ranges, dtype=np.float64)
     angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))

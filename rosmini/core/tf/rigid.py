@@ -1,8 +1,8 @@
 """Rigid transforms: seven floats, x, y, z [m] and the quaternion x, y, z, w, ordered as in `geometry_msgs/Transform`.
 
-The transform of frame `b` in frame `a` is where `b` stands in `a`: it takes the coordinates of a point in `b` to those
-in `a`. Tuples, not
-arrays: for one transform Python's floats are an order of magnitude faster than numpy. Points come as arrays (..., 3).
+The transform of frame `b` in frame `a` is the pose of `b` in `a`: it maps the coordinates of a point in `b` to those
+in `a`. Transforms are tuples, not
+arrays: for a single transform Python's floats are ten times as fast as numpy. Points are arrays (..., 3).
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ Floats = NDArray[np.float64]
 def rigid(
     translation: Sequence[float] = (0.0, 0.0, 0.0), rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0)
 ) -> Rigid:
-    """A translation (3) [m] and a quaternion (4: x, y, z, w) as one transform; the quaternion is brought to length 1.
+    """Return a translation (3) [m] and a quaternion (4: x, y, z, w) as a transform, with the quaternion normalised.
 
-    Raises `InvalidArgumentException` for a quaternion of length 0, which is no rotation.
+    Raises `InvalidArgumentException` for a quaternion of length 0.
     """
     x, y, z = (float(value) for value in translation)
     qx, qy, qz, qw = (float(value) for value in rotation)
@@ -56,12 +56,12 @@ def rigid(
 
 
 def from_yaw(x: float, y: float, yaw: float, z: float = 0.0) -> Rigid:
-    """A pose in the plane, x, y [m] and yaw [rad], as a transform."""
+    """Return a pose in the plane, x, y [m] and yaw [rad], as a transform."""
     return (x, y, z, 0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
 
 
 def from_rpy(translation: Sequence[float], roll: float, pitch: float, yaw: float) -> Rigid:
-    """A translation [m], and roll, pitch and yaw [rad] about the fixed axes x, y and z (REP 103)."""
+    """Return a transform from a translation [m], and roll, pitch and yaw [rad] about the fixed axes (REP 103)."""
     x, y, z = (float(value) for value in translation)
     cr, sr = math.cos(roll / 2), math.sin(roll / 2)
     cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
@@ -78,9 +78,9 @@ def from_rpy(translation: Sequence[float], roll: float, pitch: float, yaw: float
 
 
 def rpy(transform: Rigid) -> tuple[float, float, float]:
-    """Roll, pitch and yaw [rad] about the fixed axes x, y, z (REP 103).
+    """Return roll, pitch and yaw [rad] about the fixed axes x, y, z (REP 103).
 
-    Where pitch is 90 degrees up or down, yaw is 0.
+    If pitch is 90 degrees up or down, yaw is 0.
     """
     _, _, _, x, y, z, w = transform
     sine = 2 * (w * y - z * x)
@@ -92,7 +92,7 @@ def rpy(transform: Rigid) -> tuple[float, float, float]:
 
 
 def matrix(transform: Rigid) -> Floats:
-    """The homogeneous matrix (4, 4)."""
+    """Return the homogeneous matrix (4, 4)."""
     x, y, z, i, j, k, w = transform
     return np.array(
         [
@@ -105,12 +105,12 @@ def matrix(transform: Rigid) -> Floats:
 
 
 def transform_points(transform: Rigid, points: ArrayLike) -> Floats:
-    """Points (..., 3) [m] of the frame that `transform` places, in the frame in which it places it (..., 3)."""
+    """Transform points (..., 3) [m] from the frame of which `transform` is the pose to its parent frame."""
     whole = matrix(transform)
     result: Floats = matrix_product(points, whole[:3, :3].T) + whole[:3, 3]
     return result
 
 
 def rotate(transform: Rigid, vectors: ArrayLike) -> Floats:
-    """Vectors (..., 3), which have a direction and no place: turned and not moved."""
+    """Rotate vectors (..., 3), which have a direction but no position."""
     return matrix_product(vectors, matrix(transform)[:3, :3].T)

@@ -1,6 +1,6 @@
-"""The tree of frames: who stands where in whom, and where that is in any other frame (http://wiki.ros.org/tf2).
+"""The tree of frames over time, and the transform between any two of them (http://wiki.ros.org/tf2).
 
-Plain numbers in and out: names, times in whole nanoseconds, transforms as `Rigid`. No node, no message, no clock.
+It uses plain values: names, times as integers [ns], transforms as `Rigid`. No node, message or clock.
 """
 
 from __future__ import annotations
@@ -24,25 +24,25 @@ from .kernel import FOUND, IDENTITY, Rigid, compiled_walk, compose, walk
 from .wording import Complaints, Words
 
 CACHE_NS = 10_000_000_000
-"""How much of the past is kept [ns], if nothing else is asked for: tf's 10 s."""
+"""Default length of the history [ns]: tf's 10 s."""
 
 LATEST = 0
-"""The time that stands for the latest at which the whole chain is known: `Time(0)`."""
+"""Asks for the latest time for which the whole chain is known: `Time(0)`."""
 
 PATHS_KEPT = 4096
 
 LOOKUPS_TO_LOAD = 50_000
-"""After so many lookups the walk is compiled.
+"""Number of lookups after which the walk is compiled.
 
-Loading numba and the code takes 1.6 s, which is what so many lookups take in plain Python.
+Loading numba and the code takes 1.6 s, as long as this number of lookups in plain Python.
 """
 
 LOOKUPS_LOADED = 1_000
-"""Number of lookups from which the kernel is compiled if numba is loaded: 0.1 s to load, once 0.8 s to compile."""
+"""Number of lookups after which the walk is compiled if numba is loaded: 0.1 s to load, once 0.8 s to compile."""
 
 
 class Found(NamedTuple):
-    """A transform and the time for which it holds [ns]; 0 where nothing on the way moves."""
+    """A transform and its time [ns]; 0 if nothing on the path moves."""
 
     transform: Rigid
     stamp_ns: int
@@ -54,16 +54,16 @@ class Path(NamedTuple):
     source: tuple[History, ...]
     target: tuple[History, ...]
     way: Any
-    """The numbers of all of them, for `walk`."""
+    """The numbers of all edges, for `walk`."""
 
 
 class FrameTree:
-    """Frames, each under its parent, over time.
+    """Frames with their parents, over time.
 
     Args:
-        cache_ns: how much of the past is kept [ns].
-        warn: is told of data that are refused, once for each frame and reason.
-        now_ns: tells the time; only messages of errors look at it.
+        cache_ns: length of the history [ns].
+        warn: called for refused data, once per frame and reason.
+        now_ns: returns the time; only used in error messages.
 
     """
 
@@ -76,7 +76,7 @@ class FrameTree:
     ) -> None:
         self.cache_ns = cache_ns
         self.edges: dict[str, History] = {}
-        """What is known of each frame that has a parent, by its name."""
+        """The history of each frame that has a parent, by name."""
         self._samples = Samples()
         self._walk: Callable[..., tuple[int, int, Rigid]] = walk
         self._slow_lookups = 0
@@ -86,7 +86,7 @@ class FrameTree:
         self._complaints = Complaints(warn or (lambda _text: None))
         self._words = Words(self, now_ns)
 
-    # -- what is told -------------------------------------------------------------------------------------------
+    # -- input --------------------------------------------------------------------------------------------------
 
     def set(
         self,
@@ -98,11 +98,11 @@ class FrameTree:
         *,
         static: bool = False,
     ) -> bool:
-        """Take the transform of `child` in `parent` at a moment [ns], told by `authority`; whether it was taken.
+        """Add the transform of `child` in `parent` at a time [ns], sent by `authority`; return True if accepted.
 
-        As in tf, what cannot be right (a frame under itself, no name, nan, a quaternion that is no rotation) is refused
-        with a warning and not with an error, so are a moment that is there already and one that is too long ago. A
-        frame that was static at first stays so.
+        As in tf, invalid data (a frame in itself, an empty name, nan, an invalid quaternion) are refused
+        with a warning, not an error, and so is a repeated or too old time. A
+        frame that is static at first remains static.
         """
         reason = self._complaints.check(parent, child, transform)
         if reason is not None:
@@ -134,7 +134,7 @@ class FrameTree:
             self._roots[parent] = None
 
     def clear(self) -> None:
-        """Forget what moves, as tf does when time jumps back; static frames stay."""
+        """Remove moving frames, as tf does when time jumps back; static frames remain."""
         for edge in self.edges.values():
             if not edge.static:
                 edge.forget()
@@ -145,31 +145,31 @@ class FrameTree:
         self._paths.clear()
         self._wandering = False
 
-    # -- what is there -------------------------------------------------------------------------------------------
+    # -- contents ------------------------------------------------------------------------------------------------
 
     def __contains__(self, frame: object) -> bool:
         return frame in self.edges or frame in self._roots
 
     def __iter__(self) -> Iterator[str]:
-        """All frames: those without a parent first."""
+        """Yield all frames, roots first."""
         self._roots = {root: None for root in self._roots if root not in self.edges}
         yield from self._roots
         yield from self.edges
 
     def parent(self, frame: str) -> str | None:
-        """Under whom a frame is by its newest sample; None for a root."""
+        """Return a frame's parent in its newest sample, or None for a root."""
         history = self.edges.get(frame)
         return None if history is None else history.newest.parent
 
     def children(self) -> dict[str, list[str]]:
-        """The frames under each frame, sorted."""
+        """Return the children of each frame, sorted."""
         found: dict[str, list[str]] = {}
         for frame, history in sorted(self.edges.items()):
             found.setdefault(history.newest.parent, []).append(frame)
         return found
 
     def root(self, frame: str) -> str:
-        """The top of the tree that a frame is in. Raises `LookupException` for a loop."""
+        """Return the root of the tree that contains a frame. Raises `LookupException` for a loop."""
         seen = {frame}
         while (above := self.parent(frame)) is not None:
             if above in seen:
@@ -179,7 +179,7 @@ class FrameTree:
         return frame
 
     def chain(self, target: str, source: str, stamp_ns: int = LATEST) -> list[str]:
-        """The frames on the way from `source` to `target`, both included. Raises as `lookup` does."""
+        """Return the frames on the path from `source` to `target`, both included. Raises as `lookup` does."""
         up, down, _ = self._path(target, source, stamp_ns)
         if not up:
             top = source
@@ -188,21 +188,21 @@ class FrameTree:
         return [*(edge.frame for edge in up), top, *(edge.frame for edge in reversed(down))]
 
     def chain_full(self, target: str, target_ns: int, source: str, source_ns: int, fixed: str) -> list[str]:
-        """The frames on the way by way of `fixed`, at two times as in `lookup_full`."""
+        """Return the frames on the path through `fixed`, at two times as in `lookup_full`."""
         return self.chain(fixed, source, source_ns) + self.chain(target, fixed, target_ns)[1:]
 
-    # -- what is asked -------------------------------------------------------------------------------------------
+    # -- queries -------------------------------------------------------------------------------------------------
 
     def lookup(self, target: str, source: str, stamp_ns: int = LATEST) -> Found:
-        """The pose of `source` in `target` at a time [ns]: it maps coordinates in `source` to coordinates in `target`.
+        """Return the pose of `source` in `target` at a time [ns]: it maps coordinates in `source` to those in `target`.
 
-        `LATEST` is the newest time at which every edge on the way is known.
+        `LATEST` is the latest time for which every edge on the path is known.
 
         Raises:
             InvalidArgumentException: a name is empty or begins with `/`.
-            LookupException: a frame does not exist, or the way is a loop.
+            LookupException: a frame does not exist, or the path contains a loop.
             ConnectivityException: the frames are in different trees.
-            ExtrapolationException: an edge on the way is not known at that time.
+            ExtrapolationException: an edge on the path is not known at that time.
 
         """
         if target == source and target:
@@ -214,7 +214,7 @@ class FrameTree:
         return Found(transform, stamp_ns)
 
     def knows(self, target: str, source: str, stamp_ns: int = LATEST) -> bool:
-        """Whether `lookup` would answer: quicker than `why_not` where it often would not."""
+        """Return whether `lookup` would succeed: faster than `why_not` if it often would not."""
         if target == source and target:
             return True
         if target not in self or source not in self:
@@ -225,7 +225,7 @@ class FrameTree:
             return False
 
     def _found(self, target: str, source: str, stamp_ns: int) -> tuple[Path, int, int, Rigid]:
-        """The way, the edge on it that is not known at that time or `FOUND`, the time, and the transform."""
+        """Return the path, the edge on it that is not known at that time or `FOUND`, the time, and the transform."""
         if self._walk is walk:
             self._slow_lookups += 1
             if self._slow_lookups % LOOKUPS_LOADED == 0:
@@ -237,7 +237,7 @@ class FrameTree:
         return path, *self._walk(*self._samples.columns, path.way, len(path.source), stamp_ns)
 
     def _consider_machine_code(self) -> None:
-        """Walk in machine code from now on if it is worth it; the numbers that it finds are the same."""
+        """Use compiled code from now on if worthwhile; its results are the same."""
         if _numba_is_loaded() or self._slow_lookups >= LOOKUPS_TO_LOAD:
             with suppress(ImportError):
                 self._walk = compiled_walk()
@@ -245,7 +245,7 @@ class FrameTree:
                 self._paths.clear()
 
     def lookup_full(self, target: str, target_ns: int, source: str, source_ns: int, fixed: str) -> Found:
-        """The pose of `source` at one time [ns] in `target` at another, if `fixed` did not move in between.
+        """Return the pose of `source` at one time [ns] in `target` at another, if `fixed` does not move in between.
 
         Raises as `lookup` does.
         """
@@ -256,10 +256,10 @@ class FrameTree:
         return Found(compose(then.transform, seen.transform), then.stamp_ns)
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """The oldest of the newest samples [ns] between two frames; 0 if nothing on the way moves.
+        """Return the oldest of the newest samples [ns] between two frames; 0 if nothing on the path moves.
 
-        Not every edge need be known then: one whose only sample is newer is not. Raises as `lookup` does for the names
-        and the way.
+        An edge may still be unknown then, if its only sample is newer. Raises as `lookup` does for names
+        and paths.
         """
         if target == source and target in self:
             return self._newest(target)
@@ -270,17 +270,17 @@ class FrameTree:
         return history.newest_ns if history is not None and not history.static else 0
 
     def why_not(self, target: str, source: str, stamp_ns: int = LATEST) -> TransformException | None:
-        """The error that `lookup` would raise; None if it would answer."""
+        """Return the error that `lookup` would raise, or None if it would succeed."""
         try:
             self.lookup(target, source, stamp_ns)
         except TransformException as error:
             return error
         return None
 
-    # -- the way -------------------------------------------------------------------------------------------------
+    # -- paths ---------------------------------------------------------------------------------------------------
 
     def _path(self, target: str, source: str, stamp_ns: int) -> Path:
-        """The edges between two frames at a time."""
+        """Return the edges between two frames at a time."""
         for frame, role in ((target, "target_frame"), (source, "source_frame")):
             self._check(frame, role)
         up = self._ancestors(source, stamp_ns)
@@ -323,7 +323,7 @@ def _numba_is_loaded() -> bool:
 
 
 def _common(path: Path) -> int:
-    """The oldest of the newest samples [ns] on a way. A sample stamped 0 counts as one for all times, as in tf2."""
+    """Return the oldest of the newest samples [ns] on a path. As in tf2, a sample stamped 0 is valid at all times."""
     return min(
         [edge.newest_ns for edge in path.source + path.target if not edge.static and edge.newest_ns],
         default=LATEST,

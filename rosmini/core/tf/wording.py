@@ -1,4 +1,4 @@
-"""The texts of errors and warnings of the tree: what was asked, what exists, which edge is at fault, what to do."""
+"""Texts of the tree's errors and warnings: the query, the frames, the edge at fault, and what to do."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from .history import History
 from .kernel import Rigid
 
 NEAR_PERIODS = 5
-"""A transform that is fewer periods of its broadcaster away is on its way."""
+"""A transform that is missing by fewer periods than this is expected to arrive."""
 
 OTHER_CLOCK_NS = 10_000_000 * 1_000_000_000
-"""Times that lie farther apart (116 days) come from different clocks."""
+"""Times that differ by more than this (116 days) come from different clocks."""
 
 FRAMES_LISTED = 12
 
 
 def seconds(time_ns: int) -> str:
-    """A time in seconds, exact, with three decimals or as many more as it needs.
+    """Return a time in seconds, exactly, with at least three decimals.
 
     >>> seconds(2_500_000_000), seconds(-1_000)
     ('2.500', '-0.000001')
@@ -32,28 +32,28 @@ def seconds(time_ns: int) -> str:
 
 
 class Frames(Protocol):
-    """What the wording reads of a `FrameTree`."""
+    """The part of a `FrameTree` that the texts use."""
 
     cache_ns: int
     edges: dict[str, History]
 
     def __iter__(self) -> Iterator[str]: ...
     def root(self, frame: str) -> str:
-        """The top of the tree that a frame is in."""
+        """Return the root of the tree that contains a frame."""
 
     def children(self) -> dict[str, list[str]]:
-        """The frames under each frame."""
+        """Return the children of each frame."""
 
 
 class Words:
-    """The messages of the errors of one tree."""
+    """Error messages of one tree."""
 
     def __init__(self, tree: Frames, now_ns: Callable[[], int] | None) -> None:
         self._tree = tree
         self._now_ns = now_ns
 
     def bad_name(self, frame: str, role: str) -> str:
-        """A name that tf2 does not take."""
+        """Return the error for a name that tf2 does not accept."""
         if not frame:
             return (
                 f"Invalid argument passed to lookupTransform argument {role}: in tf2 frame_ids cannot be empty. "
@@ -66,7 +66,7 @@ class Words:
         )
 
     def unknown(self, frame: str, role: str) -> str:
-        """A frame that nobody has told of."""
+        """Return the error for an unknown frame."""
         known = sorted(self._tree)
         text = f'"{frame}" passed to lookupTransform argument {role} does not exist. '
         if not known:
@@ -82,14 +82,14 @@ class Words:
         return text + (f"{hint[0].upper()}{hint[1:]} " if hint else "") + f"There are these frames: {listed}."
 
     def loop(self) -> str:
-        """A way that comes back to where it was."""
+        """Return the error for a loop."""
         return (
             "The tf tree is invalid because it contains a loop. A frame is under its own child: two broadcasters "
             f"disagree about who is whose parent.\n{self.frames()}"
         )
 
     def frames(self) -> str:
-        """Every edge, in the words of tf, and who told of it."""
+        """Return every edge, in tf's words, with its sender."""
         return "\n".join(
             f"Frame {frame} exists with parent {history.newest.parent}"
             + (f" (from {history.newest.authority})." if history.newest.authority else ".")
@@ -97,7 +97,7 @@ class Words:
         )
 
     def unconnected(self, target: str, source: str) -> str:
-        """Two frames in two trees."""
+        """Return the error for two frames in different trees."""
         top, other = self._tree.root(target), self._tree.root(source)
         return (
             f"Could not find a connection between '{target}' and '{source}' because they are not part of the same "
@@ -107,7 +107,7 @@ class Words:
         )
 
     def extrapolation(self, edge: History, stamp_ns: int, target: str, source: str) -> str:
-        """A time at which an edge is not known."""
+        """Return the error for a time at which an edge is not known."""
         oldest, newest = edge.oldest_ns, edge.newest_ns
         future = stamp_ns > newest
         gap = stamp_ns - newest if future else oldest - stamp_ns
@@ -168,9 +168,9 @@ def _count(number: int) -> str:
 
 
 def draw(tree: Frames) -> str:
-    """The frames as text, each under its parent.
+    """Return the frames as text, each below its parent.
 
-    Branches are drawn as a file tree's are; a tree that is a loop throughout is not drawn.
+    Branches are drawn as in a file tree; a tree that consists of a loop is not drawn.
     """
     children = tree.children()
     lines: list[str] = []
@@ -190,7 +190,7 @@ def draw(tree: Frames) -> str:
 
 
 class Complaints:
-    """Warnings about refused data, each once for a frame: a real robot would repeat them at the rate of its data."""
+    """Warnings about refused data, each once per frame; on a real robot they repeat at the rate of the data."""
 
     def __init__(self, warn: Callable[[str], object]) -> None:
         self._warn = warn
@@ -206,7 +206,7 @@ class Complaints:
 
     @staticmethod
     def check(parent: str, child: str, transform: Rigid) -> str | None:
-        """What cannot be right about a transform, if anything."""
+        """Return the error in a transform, or None."""
         if parent == child:
             return f'TF_SELF_TRANSFORM: {{sender}} says where frame "{child}" is in itself; ignored.'
         if not child:
@@ -229,7 +229,7 @@ class Complaints:
         return None
 
     def repeated(self, history: History, stamp_ns: int, authority: str) -> None:
-        """A second transform of the same moment."""
+        """Warn of a second transform for the same time."""
         first = history.sample_at(stamp_ns).authority
         frame = history.frame
         if first == authority:
@@ -248,7 +248,7 @@ class Complaints:
         )
 
     def old(self, history: History, stamp_ns: int, authority: str) -> None:
-        """A transform of long ago."""
+        """Warn of a transform that is too old."""
         frame = history.frame
         self.say(
             frame,
@@ -261,7 +261,7 @@ class Complaints:
         )
 
     def two_parents(self, history: History, parent: str, authority: str) -> None:
-        """A frame that hangs under another parent from now on, by the word of another sender."""
+        """Warn of a frame that gets another parent from another sender."""
         before = history.newest
         if before.authority == authority:
             return  # a sender may move its own frame

@@ -1,4 +1,4 @@
-"""What a tool of the command line is: verbs, their options and results, and how a verb listens."""
+"""Command-line tools: verbs, their options and results, and verbs that listen."""
 
 from __future__ import annotations
 

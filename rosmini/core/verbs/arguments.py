@@ -1,4 +1,4 @@
-"""What the tools on the wire have in common: names as they are typed, and how long a verb goes on."""
+"""Common code of the tools: names as typed, and the duration of a verb."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
     from .tool import Call
 
 DURATION_S = 5.0
-"""How long a verb that goes on until Ctrl-C in a terminal does so in Python [s]."""
+"""Default duration of a verb in Python that runs until Ctrl-C in a terminal [s]."""
 
 
 def global_name(name: str) -> str:
-    """Return the global name that a name on a command line means: relative ones are in ``ROS_NAMESPACE``."""
+    """Return the global name for a name on a command line; relative ones are in ``ROS_NAMESPACE``."""
     namespace = canonicalize("/" + os.environ.get("ROS_NAMESPACE", ""))
     return resolve_for(name, f"{namespace.rstrip('/')}/tool")
 
 
 def dashed_remapping(words: Iterable[str]) -> str:
-    """Return what is wrong with the first word like ``--name:=x``, or nothing: ROS takes ``__name:=x`` for itself."""
+    """Return the error in the first word like ``--name:=x``, or an empty text: ROS uses ``__name:=x``."""
     found = next((word for word in words if word.startswith("-") and ":=" in word), "")
     return (
         f"{found} is no remapping; ROS's own names begin with two underscores: __{found.lstrip('-')}"
@@ -36,7 +36,7 @@ def dashed_remapping(words: Iterable[str]) -> str:
 
 
 def below_here(call: Call) -> Callable[[str], object]:
-    """Return what prints a text with paths; in Python those below the working folder are relative to it."""
+    """Return a function that prints a text; in Python it shortens paths below the working directory."""
     here = str(Path.cwd())
     return (
         call.say
@@ -46,7 +46,7 @@ def below_here(call: Call) -> Callable[[str], object]:
 
 
 def add_duration(parser: Parser) -> None:
-    """Add the option that says how long a verb goes on."""
+    """Add the option for the duration of a verb."""
     parser.add_option(
         "--duration",
         type="float",
@@ -56,7 +56,7 @@ def add_duration(parser: Parser) -> None:
 
 
 def duration_ns(given: Values, call: Call) -> int | None:
-    """Return how long the verb goes on [ns]; None: until Ctrl-C."""
+    """Return the duration of the verb [ns]; None: until Ctrl-C."""
     seconds: float | None = given.duration
     if seconds is None and not call.in_terminal:
         seconds = DURATION_S

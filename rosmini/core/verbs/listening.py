@@ -1,4 +1,4 @@
-"""Verbs that listen: how long, and with a node of their own."""
+"""Verbs that listen: their duration, and their node."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Graph, Node
 SECOND = 1_000_000_000
-"""Nanoseconds."""
+"""One second [ns]."""
 
 
 class Span(NamedTuple):
-    """The time in which a verb listens: the end of it, None for none."""
+    """The time in which a verb listens: its end, or None."""
 
     graph: Graph
     end_ns: int | None
 
     @classmethod
     def of(cls, graph: Graph, duration_ns: int | None) -> Self:
-        """Return the span from now on."""
+        """Return the span that starts now."""
         return cls(graph, None if duration_ns is None else graph.scheduler.now_ns() + duration_ns)
 
     def is_over(self) -> bool:
-        """Tell whether it is over."""
+        """Return whether it is over."""
         return self.end_ns is not None and self.graph.scheduler.now_ns() >= self.end_ns
 
     def every(self, period_ns: int) -> Iterator[None]:
-        """Let time pass and yield after each period, up to the end. Ctrl-C ends it, too."""
+        """Let time pass and yield after each period, until the end or Ctrl-C."""
         clock = self.graph.scheduler
         due = clock.now_ns()
         try:
@@ -38,13 +38,13 @@ class Span(NamedTuple):
                 due += period_ns
                 clock.sleep_until(due if self.end_ns is None else min(due, self.end_ns))
                 if self.end_ns is None or due <= self.end_ns:
-                    clock.give_way()  # what was published at this moment arrives
+                    clock.give_way()  # deliver messages published at this time
                     yield
         except KeyboardInterrupt:
             return
 
     def wait(self, node: Node, reason: str, begin: Callable[[Callable[[], None]], object]) -> None:
-        """Let time pass until what ``begin`` is given is called, up to the end. Ctrl-C ends it, too."""
+        """Let time pass until the function passed to ``begin`` is called, or until the end or Ctrl-C."""
         waiter = node.waiter(reason)
         begin(waiter.wake)
         left = None if self.end_ns is None else max(self.end_ns - self.graph.scheduler.now_ns(), 0)
@@ -58,9 +58,9 @@ class Span(NamedTuple):
 
 @contextmanager
 def tool_node(graph: Graph, name: str = "rostopic") -> Iterator[Node]:
-    """Start the node of a tool, under a name of its own that begins with ``name``, and shut it down in the end.
+    """Start a tool's node, under a unique name that begins with ``name``, and shut it down at the end.
 
-    Raises ``MasterUnreachable`` where a node would wait for the Master: a tool says so at once.
+    Raises ``MasterUnreachable`` at once, whereas a node would wait for the Master.
     """
     graph.ask_as(f"/{name}").ask("getPid")
     node = graph.node(name, anonymous=True)

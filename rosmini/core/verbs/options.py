@@ -1,4 +1,4 @@
-"""The command lines of ROS's tools: options, usage and errors in their form."""
+"""Command lines in the style of ROS's tools: options, usage and errors."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ if TYPE_CHECKING:
 
 
 class _Formatter(IndentedHelpFormatter):
-    """The standard one, which leaves the lines of the examples as they are."""
+    """A help formatter that preserves the lines of examples."""
 
     def format_epilog(self, epilog: str | None) -> str:
-        """Return what stands below the options."""
+        """Return the text below the options."""
         return f"\n{epilog}\n" if epilog else ""
 
 
 class Parser(OptionParser):
-    """A parser in the form of ROS's tools, which raises instead of ending the process; ``-h`` is the caller's.
+    """An option parser in the style of ROS's tools, which raises instead of exiting; the caller handles ``-h``.
 
     Args:
         tool: the name of the tool.
-        usage: the line of usage.
-        description: what it does.
-        example: a command line, or several, shown below the options.
-        failure: makes the error of its text.
+        usage: the usage line.
+        description: a description of the command.
+        example: one or more command lines, shown below the options.
+        failure: makes the error from its text.
 
     """
 
@@ -51,18 +51,18 @@ class Parser(OptionParser):
         raise self._failure(f"{self.get_usage().rstrip()}\n\n{self.prog}: error: {msg}")
 
     def flag(self, *names: str, help: str, dest: str | None = None) -> None:
-        """Add an option that is true when it is given."""
+        """Add an option that is True if given."""
         self.add_option(Option(*names, action="store_true", default=False, help=help, dest=dest))
 
     def whole(self, text: str | None, problem: str) -> int | None:
-        """Return a whole number, or None for None. Raises ``UsageError`` with ``problem`` for any other text."""
+        """Return an integer, or None for None. Raises ``UsageError`` with ``problem`` for any other text."""
         try:
             return None if text is None else int(text)
         except ValueError:
             self.error(problem)
 
     def parse(self, words: Sequence[str], /) -> Values:
-        """Return the options, with the words that are none as ``words``, and all as ``argv``. Raises ``UsageError``."""
+        """Return the options, with the arguments as ``words``, and everything as ``argv``. Raises ``UsageError``."""
         values, rest = self.parse_args(list(words))
         values.words, values.argv = rest, list(words)
         return values

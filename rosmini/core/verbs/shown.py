@@ -1,4 +1,4 @@
-"""Results that are pictures: a page in a terminal, a view in a notebook."""
+"""Results with a picture: a page in a terminal, a view in a notebook."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Shown(Result):
-    """A view, and in a terminal the page that it was written to."""
+    """A view, and in a terminal the page that it was saved to."""
 
     view: Any
     path: Path | None = None
@@ -28,7 +28,7 @@ class Shown(Result):
 
 
 def shown(view: Any, name: str, given: Values, call: Call) -> Shown:
-    """Write the page that was asked for; in a terminal open one in the browser if none was."""
+    """Save the view to the requested page; in a terminal, open a temporary page in the browser by default."""
     if given.output:
         return Shown(view=view, path=view.save(given.output))
     if not call.in_terminal:

@@ -1,4 +1,4 @@
-"""Verbs: each is a function that returns a result, with two front ends, the terminal and Python.
+"""Verbs: functions that return a result, with two front ends, the terminal and Python.
 
     TOOL = Tool("rosdemo", "say hello")
 
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from rosmini.core.peers import Peers
 
 NOT_A_VERB = 64
-"""The exit status of ROS's tools where the first word is none of their commands."""
+"""The exit status of ROS's tools if the first word is not a command."""
 
 
 class VerbError(CommandError):
-    """A verb could not do what it was asked to; ``status`` is the exit status."""
+    """A verb failed; ``status`` is the exit status."""
 
     def __init__(self, message: str, status: int = 1) -> None:
         super().__init__(message)
@@ -40,27 +40,27 @@ class VerbError(CommandError):
 
 @dataclass(frozen=True, kw_only=True)
 class Result:
-    """What a verb found or did. Its text is what the tool prints; ``complaints`` are what went wrong in parts."""
+    """The result of a verb. Its text is the tool's output; ``complaints`` are partial failures."""
 
     complaints: tuple[str, ...] = ()
     status: int = 0
     """The exit status."""
     end: str = "\n"
-    """What a terminal prints after the text."""
+    """Printed after the text in a terminal."""
     always_printed: ClassVar[bool] = False
-    """True if an empty text is printed, too, as an empty line: ROS's tools do that with lists."""
+    """True if an empty text is printed as an empty line: ROS's tools do that with lists."""
 
     def __str__(self) -> str:
         return ""
 
     def _repr_pretty_(self, printer: Any, _cycle: bool) -> None:
-        """Be shown by IPython as in a terminal."""
+        """Let IPython show the result as a terminal does."""
         printer.text("\n".join(filter(None, (str(self), *self.complaints))))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Lines(Result):
-    """A result whose data are the lines that are printed."""
+    """A result that consists of lines."""
 
     lines: tuple[str, ...] = ()
 
@@ -74,30 +74,30 @@ def _to_stderr(text: str) -> None:
 
 @dataclass(frozen=True)
 class Call:
-    """What a verb is given beside its options.
+    """The context of a verb, in addition to its options.
 
-    ``say`` prints what it prints as it goes, ``warn`` what is amiss; ``read_line`` reads what somebody types in a
-    terminal, and is None where nobody can.
+    ``say`` prints output while the verb runs, ``warn`` prints warnings; ``read_line`` reads input from a
+    terminal, and is None if there is none.
     """
 
     peers: Peers
-    """The graph on which the verb acts; for a verb that only asks, perhaps only the way to Master and nodes."""
+    """The graph on which the verb acts; for a verb that only queries, possibly just access to Master and nodes."""
     say: Callable[[str], object] = print
     warn: Callable[[str], object] = _to_stderr
     read_line: Callable[[], str] | None = None
     tells_time: bool = False
-    """Whether a verb says for how long it goes on by itself."""
+    """True if a verb announces how long it will run."""
     console: Mapping[str, Any] = field(default_factory=dict)
-    """The options of the :class:`rosmini.ros.scripts.Console` of nodes that a verb starts."""
+    """Options of the :class:`rosmini.ros.scripts.Console` for nodes that a verb starts."""
 
     @property
     def graph(self) -> Graph:
-        """The graph. Not for verbs that only ask."""
+        """The graph. Not available to verbs that only query."""
         return cast("Graph", self.peers)
 
     @property
     def in_terminal(self) -> bool:
-        """True in a terminal, where a verb goes on until Ctrl-C; in Python it ends after some time by itself."""
+        """True in a terminal, where a verb runs until Ctrl-C; in Python it ends after some time."""
         return self.read_line is not None
 
 
@@ -105,20 +105,20 @@ class Parser(Protocol):
     """The options of a verb."""
 
     def parse(self, words: Sequence[str], /) -> Any:
-        """Return what was given. Raises ``UsageError`` or another error that says what is wrong."""
+        """Return the options. Raises ``UsageError`` or another descriptive error."""
 
     def format_help(self) -> str:
         """Return the help text."""
 
 
 class ArgumentParser(argparse.ArgumentParser):
-    """argparse's, which raises ``UsageError`` and leaves `--help` to the tool."""
+    """argparse's parser, which raises ``UsageError`` and leaves `--help` to the tool."""
 
     def __init__(self, prog: str, description: str, **options: Any) -> None:
         super().__init__(prog=prog, description=description, add_help=False, **options)
 
     def parse(self, words: Sequence[str], /) -> argparse.Namespace:
-        """Return what was given. Raises ``UsageError``."""
+        """Return the options. Raises ``UsageError``."""
         return self.parse_args(list(words))
 
     def error(self, message: str) -> NoReturn:
@@ -136,16 +136,16 @@ class Verb:
     act: Callable[[Any, Call], Result]
     needs_graph: bool = False
     only_asks: bool | Callable[[Any], bool] = False
-    """Whether the verb needs no node of its own, with these options: it only asks the Master and the nodes."""
+    """True if the verb, with these options, needs no node, because it only queries the Master and the nodes."""
     in_terminal: Callable[[Sequence[str]], int] | None = None
-    """What a terminal does instead: for verbs that run nodes there until Ctrl-C."""
+    """Replacement in a terminal, for verbs that run nodes there until Ctrl-C."""
     is_listed: bool = True
-    """Whether the list of verbs has it."""
+    """True if it appears in the list of verbs."""
     takes: str = ""
-    """What its arguments name, for completion: kinds of `rosmini.tools.completion`; the last one may repeat."""
+    """Kinds of its arguments, for completion: see `rosmini.tools.completion`; the last one may repeat."""
 
     def do(self, given: Any, call: Call) -> Result:
-        """Return what the verb did. Raises ``VerbError`` for a file that cannot be opened, and what the verb raises."""
+        """Run the verb. Raises ``VerbError`` for a file that cannot be opened, and the errors of the verb."""
         try:
             return self.act(given, call)
         except OSError as error:
@@ -156,29 +156,29 @@ class Verb:
 
 @dataclass(frozen=True)
 class Overview:
-    """What a tool of ROS prints where the first word is none of its commands."""
+    """The output of a ROS tool if the first word is not a command."""
 
     has_heading: bool = True
     closing: str = "Type {tool} <command> -h for more detailed usage, e.g. '{tool} {example} -h'"
     status: int = NOT_A_VERB
-    """The exit status without any word."""
+    """The exit status without any words."""
     unknown_status: int = NOT_A_VERB
-    """The exit status where the first word is no command."""
+    """The exit status if the first word is not a command."""
 
 
 @dataclass(frozen=True)
 class Tool:
     """A tool and the table of its verbs.
 
-    ``usage_status`` is the exit status for a command line that makes no sense; ``elsewhere`` are verbs of ROS's tool
-    that are not here; ``example`` is what to write after a `+` for the nodes on which a verb can act. ``purpose`` makes
-    it a tool on the wire, which acts on the graph of the Master at ``ROS_MASTER_URI``: what it is a tool for, in the
-    ``overview`` that it prints, as ROS's do, where the first word is none of its commands. ``failure_status`` is the
-    exit status where no Master answers. A tool that ``needs_graph`` not only reads files. One that
-    ``reads_files`` does so in a terminal; what else it does there has an ``in_terminal`` of its own.
-    A tool that does one thing only, as roswtf, names its ``only_verb``, which is then not among the words. One that
-    ``takes_arguments`` of launch files, ``name:=value``, gets them; of others such words are remappings. One that
-    ``is_magic`` is a line magic of notebooks, too. ``group`` is its heading in `rosmini --help`, if not "ROS's own
+    ``usage_status`` is the exit status for a wrong command line; ``elsewhere`` are commands of ROS's tool
+    that rosmini does not have; ``example`` is the node to start with `+` in examples. A tool with a ``purpose`` acts on
+    the graph of the Master at ``ROS_MASTER_URI``; the purpose appears in the
+    ``overview`` that it prints if the first word is not a command. ``failure_status`` is the
+    exit status if no Master answers. A tool with ``needs_graph`` does more than read files. One that
+    ``reads_files`` only does so in a terminal; its other verbs have an ``in_terminal`` function.
+    A tool that does one thing, such as roswtf, has an ``only_verb``, which is not typed. One that
+    ``takes_arguments`` of launch files, ``name:=value``, gets them; for others such words are remappings. One that
+    ``is_magic`` is also a line magic of notebooks. ``group`` is its heading in `rosmini --help`, if not "ROS's own
     commands".
     """
 
@@ -211,7 +211,7 @@ class Tool:
         is_listed: bool = True,
         takes: str = "",
     ) -> Callable[[Callable[[Any, Call], Result]], Callable[[Any, Call], Result]]:
-        """Add the decorated function, under its own name if none is given."""
+        """Add the decorated function as a verb, by default under the function's name."""
 
         def add(act: Callable[[Any, Call], Result]) -> Callable[[Any, Call], Result]:
             known = name or act.__name__
@@ -223,7 +223,7 @@ class Tool:
         return add
 
     def find(self, name: str) -> Verb:
-        """Return a verb. Raises ``UsageError`` if there is none of this name, with the nearest."""
+        """Return a verb. Raises ``UsageError``, with similar names, if there is none of this name."""
         if name in self.verbs:
             return self.verbs[name]
         if name in self.elsewhere:
@@ -254,11 +254,11 @@ class Tool:
         tells_time: bool = False,
         console: Mapping[str, Any] | None = None,
     ) -> Result:
-        """Do what the words say, on ``graph`` (the default graph if not given), and return the result.
+        """Run the command given by the words on ``graph`` (default: the default graph), and return the result.
 
-        ``say`` and ``warn`` are those of :class:`Call`.
+        For ``say`` and ``warn`` see :class:`Call`.
 
-        Raises ``UsageError`` for words that make no sense, and what the verb raises.
+        Raises ``UsageError`` for wrong words, and the errors of the verb.
         """
         text = [os.fspath(word) if isinstance(word, os.PathLike) else str(word) for word in words]
         text = self.with_verb(text)
@@ -275,20 +275,20 @@ class Tool:
         return verb.do(given, Call(used, say, warn, tells_time=tells_time, console=console or {}))
 
     def alone(self, verb: str) -> Tool:
-        """Return the tool that does one of the verbs only: ``rqt_graph`` for ``graph`` of ``rqt``."""
+        """Return a tool with only one of the verbs: ``rqt_graph`` for ``graph`` of ``rqt``."""
         summary = f"{self.name}: {self.verbs[verb].summary}"
         return replace(self, name=f"{self.name}_{verb}", summary=summary, only_verb=verb)
 
     def on(self, graph: Graph | None = None) -> Prompt:
-        """Return what does verbs on ``graph`` in a notebook."""
+        """Return a callable that runs verbs on ``graph`` in a notebook."""
         return Prompt(self, graph)
 
     def with_verb(self, words: Sequence[str]) -> list[str]:
-        """Return the words with the verb that is understood, in front."""
+        """Return the words, with the implied verb added in front."""
         return [self.only_verb, *words] if self.only_verb else list(words)
 
     def help_for(self, words: Sequence[str]) -> str | None:
-        """Return the help that the words ask for, if they do."""
+        """Return the help text if the words ask for it, otherwise None."""
         helps = {"-h", "--help", "help"}
         if not words or (words[0] in helps and len(words) == 1):
             return self.help()
@@ -301,17 +301,17 @@ class Tool:
 
 @dataclass(frozen=True)
 class Prompt:
-    """A tool and the graph on which it acts (None: the default graph). Called with words, it prints the result."""
+    """A tool and the graph on which it acts (None: the default graph). Calling it prints the result."""
 
     tool: Tool
     graph: Graph | None = None
 
     def __call__(self, *words: object) -> None:
-        """Do what the words say, and print it. Raises as `Tool.run` does."""
+        """Run the command, and print its result. Raises as `Tool.run` does."""
         result = self.run(*words)
         for line in filter(None, (str(result), *result.complaints)):
             print(line)
 
     def run(self, *words: object) -> Result:
-        """Do what the words say, and return the result. Raises as `Tool.run` does."""
+        """Run the command, and return its result. Raises as `Tool.run` does."""
         return self.tool.run(*words, graph=self.graph)

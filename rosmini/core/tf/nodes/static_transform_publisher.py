@@ -19,9 +19,9 @@ x, y, z in metres, angles in radians: where child_frame_id is in frame_id."""
 
 
 def parse(arguments: tuple[str, ...], period: str = "") -> tuple[str, str, Rigid]:
-    """Frame, child and transform of the arguments: three metres, then yaw, pitch, roll or a quaternion.
+    """Return frame, child and transform from the arguments: three metres, then yaw, pitch, roll or a quaternion.
 
-    Raises `ScriptError` if they are none.
+    Raises `ScriptError` if they are invalid.
     """
     usage = USAGE.format(period=period)
     if len(arguments) not in (8, 9):
@@ -57,7 +57,7 @@ class StaticTransformPublisher:
 
 
 class RepeatingTransformPublisher:
-    """`tf/static_transform_publisher`: one transform, sent periodically on `/tf`, stamped one period ahead as there."""
+    """`tf/static_transform_publisher`: one transform, sent periodically on `/tf`, stamped one period ahead."""
 
     def __init__(self, node: Node, *arguments: str) -> None:
         usage = " period_in_ms"
@@ -75,5 +75,5 @@ class RepeatingTransformPublisher:
         self.timer = node.timer(self.period, lambda _event: self.send())
 
     def send(self) -> None:
-        """Send it now."""
+        """Send the transform now."""
         self.broadcaster.send_rigid(self.frame, self.child, self.transform, self.node.now() + self.period)

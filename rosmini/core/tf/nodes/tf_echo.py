@@ -1,4 +1,4 @@
-"""`tf/tf_echo`: prints where one frame is in another (http://wiki.ros.org/tf#tf_echo)."""
+"""`tf/tf_echo`: prints the pose of one frame in another (http://wiki.ros.org/tf#tf_echo)."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 
 def listed(values: Iterable[float]) -> str:
-    """Numbers to three decimals, without a negative zero."""
+    """Return numbers with three decimals, without a negative zero."""
     return "[" + ", ".join(f"{round(value, 3) + 0.0:.3f}" for value in values) + "]"
 
 
 def report(found: Found) -> str:
-    """What the tool prints of a transform."""
+    """Return the tool's output for a transform."""
     angles = rpy(found.transform)
     return (
         f"At time {found.stamp_ns / 1e9:.3f}\n"
@@ -35,10 +35,10 @@ def report(found: Found) -> str:
 
 
 class TfEcho:
-    """Prints `rate` times a second (once, if it is not given) where `target_frame` is in `source_frame`.
+    """Prints the pose of `target_frame` in `source_frame` `echo_rate` times a second (default 1).
 
-    The tool's names are as they are: the transform takes data in `target_frame` to `source_frame`. Raises `ScriptError`
-    for a rate that is none.
+    The argument names are the tool's: the transform converts data from `target_frame` to `source_frame`. Raises
+    `ScriptError` for an invalid rate.
     """
 
     def __init__(self, node: Node, source_frame: str, target_frame: str, echo_rate: str = "1") -> None:
@@ -56,7 +56,7 @@ class TfEcho:
         self.timer = node.timer(period, lambda _event: self.echo())
 
     def echo(self) -> None:
-        """Print it now, or why it cannot be."""
+        """Print the transform now, or the error."""
         try:
             text = report(self.buffer.tree.lookup(*self.frames))
         except TransformException as error:

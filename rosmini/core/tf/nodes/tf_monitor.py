@@ -1,4 +1,4 @@
-"""`tf/tf_monitor`: who sends which transforms, how often, how late (http://wiki.ros.org/tf#tf_monitor)."""
+"""`tf/tf_monitor`: lists the senders of transforms, with rates and delays (http://wiki.ros.org/tf#tf_monitor)."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 KEPT = 1000
-"""How many of the last messages of a node, or transforms of a frame, are counted."""
+"""Number of latest messages of a node, or transforms of a frame, used for the statistics."""
 
 
 class Delays:
-    """How late the last transforms of one sender or frame were [s]."""
+    """Delays of the latest transforms of one sender or frame [s]."""
 
     def __init__(self) -> None:
         self.times: deque[float] = deque(maxlen=KEPT)
@@ -25,13 +25,13 @@ class Delays:
         self.sender = ""
 
     def add(self, now: float, delay: float) -> None:
-        """Take one that came now."""
+        """Add a transform received at `now`."""
         self.times.append(now)
         self.delays.append(delay)
 
     @property
     def rate(self) -> float:
-        """How many came in a second; 1e8 for a single one, as the tool counts."""
+        """Transforms per second; 1e8 for a single one, as in the tool."""
         return (len(self.times) - 1 or 1) / max(self.times[-1] - self.times[0], 1e-8)
 
     def __str__(self) -> str:
@@ -40,9 +40,9 @@ class Delays:
 
 
 class TfMonitor:
-    """Prints once a second what came, of all frames or of the chain between two.
+    """Prints statistics once a second, for all frames or for the chain between two.
 
-    Raises `ScriptError` for one frame alone.
+    Raises `ScriptError` if only one frame is given.
     """
 
     def __init__(self, node: Node, framea: str = "", frameb: str = "") -> None:
@@ -82,7 +82,7 @@ class TfMonitor:
             self.net.add(now, now - stamp / 1e9 if stamp else 0.0)
 
     def report(self) -> None:
-        """Print what came up to now; nothing before the chain is there."""
+        """Print the statistics up to now, once the chain is complete."""
         wanted = sorted(self.frames)
         if self.chain is None:
             head = "RESULTS: for all Frames"

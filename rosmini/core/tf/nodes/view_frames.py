@@ -15,9 +15,9 @@ LISTEN_S = 5.0
 
 
 class ViewFrames:
-    """Writes `frames.gv` (for graphviz) and `frames.svg` (drawn by us, so nothing is needed) to the working directory.
+    """Writes `frames.gv` (for graphviz) and `frames.svg` (drawn by rosmini) to the working directory.
 
-    The real tool makes `frames.pdf` of the first. `picture` is what was drawn. The node has done its work then.
+    The real tool converts `frames.gv` to `frames.pdf`. `picture` is the drawing. The node then ends.
     """
 
     def __init__(self, node: Node, folder: str = ".") -> None:

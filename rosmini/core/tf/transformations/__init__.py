@@ -1,8 +1,8 @@
 """`tf.transformations`: homogeneous matrices (4, 4), Euler angles and quaternions (x, y, z, w) as arrays.
 
-Names, arguments and conventions are those of the module of that name
-(http://docs.ros.org/en/jade/api/tf/html/python/transformations.html); the code follows the formulas of textbooks.
-Angles are in radians, a matrix is applied to a column vector from the left.
+Names, arguments and conventions are those of ROS's module
+(http://docs.ros.org/en/jade/api/tf/html/python/transformations.html); the code follows textbook formulas.
+Angles are in radians; a matrix is multiplied by a column vector on its right.
 """
 
 from __future__ import annotations

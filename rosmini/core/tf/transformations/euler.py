@@ -1,7 +1,7 @@
-"""Euler angles of all 24 kinds: `sxyz` is about the static axes x, y, z in turn, `rzyx` about the rotating axes.
+"""Euler angles in all 24 conventions: `sxyz` is about the static axes x, y, z, `rzyx` about the rotating axes.
 
-For static axes i, j, k the rotation is R_k R_j R_i. Turning axes in one order are static ones in the other, with the
-angles in the other order too (Shoemake, "Euler angle conversion", Graphics Gems IV, 1994).
+For static axes i, j, k the rotation is R_k R_j R_i. Rotating axes are equivalent to static ones in reverse order, with
+the angles reversed too (Shoemake, "Euler angle conversion", Graphics Gems IV, 1994).
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ Axes = str | tuple[int, int, int, int]
 
 
 class Order(NamedTuple):
-    """Static axes, first to last; the third axis of the three; 1 or -1 for their handedness.
+    """Static axes, first to last; the axis that is neither first nor second; handedness 1 or -1.
 
-    Whether the angles come reversed.
+    `reversed` is True if the angles are in reverse order.
     """
 
     axes: tuple[int, int, int]
@@ -32,7 +32,7 @@ class Order(NamedTuple):
 
 
 def order_of(axes: Axes) -> Order:
-    """What a name such as `sxyz` means, or tf's tuple (first axis, odd order, first axis again, turning).
+    """Interpret a name such as `sxyz`, or tf's tuple (first axis, parity, repetition, frame).
 
     Raises `KeyError`.
     """
@@ -56,7 +56,7 @@ def order_of(axes: Axes) -> Order:
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
-    """The quaternion (x, y, z, w) of three angles [rad]; `sxyz` is roll, pitch, yaw (REP 103)."""
+    """Return the quaternion (x, y, z, w) of three angles [rad]; `sxyz` is roll, pitch, yaw (REP 103)."""
     order = order_of(axes)
     result = np.array([0.0, 0.0, 0.0, 1.0])
     for axis, angle in zip(order.axes, (ak, aj, ai) if order.reversed else (ai, aj, ak), strict=True):
@@ -67,17 +67,17 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
-    """The matrix (4, 4) of three angles [rad]."""
+    """Return the matrix (4, 4) of three angles [rad]."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def euler_from_matrix(matrix: ArrayLike, axes: Axes = "sxyz") -> tuple[float, float, float]:
-    """Three angles [rad] of a rotation; where two axes fall together, the last of the static axes turns by 0."""
+    """Return three angles [rad] of a rotation; in gimbal lock the angle about the last static axis is 0."""
     (i, j, k), other, sign, turned = order_of(axes)
     m = np.asarray(matrix, dtype=np.float64)[:3, :3]
     if i == k:
         sine, angles = math.hypot(m[i, j], m[i, other]), None
-        middle = math.atan2(sign * sine, m[i, i])  # of the two ways to turn so, tf's
+        middle = math.atan2(sign * sine, m[i, i])  # the one of the two solutions that tf returns
         if sine > EPS:
             angles = math.atan2(sign * m[i, j], m[i, other]), math.atan2(sign * m[j, i], -m[other, i])
     else:
@@ -90,5 +90,5 @@ def euler_from_matrix(matrix: ArrayLike, axes: Axes = "sxyz") -> tuple[float, fl
 
 
 def euler_from_quaternion(quaternion: ArrayLike, axes: Axes = "sxyz") -> tuple[float, float, float]:
-    """Three angles [rad] of a quaternion (x, y, z, w)."""
+    """Return three angles [rad] of a quaternion (x, y, z, w)."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)

@@ -1,4 +1,4 @@
-"""Homogeneous matrices (4, 4) that move, turn, scale, mirror or shear, and what they do read back from them."""
+"""Homogeneous matrices (4, 4) of translations, rotations, scalings, reflections and shears, and their parameters."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from rosmini.core.geometry.products import eigen, matrix_product, norm, norms, s
 Floats = NDArray[np.float64]
 
 EPS = 8.881784197001252e-16
-"""Four times the distance between 1.0 and the next float."""
+"""Four times the machine epsilon, as in ROS's module."""
 
 UNIT_TOLERANCE = 1e-8
-"""How near to 1 an eigenvalue has to be."""
+"""Tolerance of a test for an eigenvalue."""
 
 
 def vector_norm(data: ArrayLike, axis: int | None = None, out: Floats | None = None) -> float | Floats | None:
-    """The Euclidean length along `axis`: a float for a vector without an axis; None if it was written to `out`."""
+    """Return the Euclidean length along `axis`: a float for a vector without an axis; None if written to `out`."""
     squares = np.asarray(data, dtype=np.float64) ** 2
     if out is not None:
         np.sqrt(np.sum(squares, axis=axis), out=out)
@@ -31,7 +31,7 @@ def vector_norm(data: ArrayLike, axis: int | None = None, out: Floats | None = N
 
 
 def unit_vector(data: ArrayLike, axis: int | None = None, out: Floats | None = None) -> Floats | None:
-    """The same direction with length 1, along `axis`; None if it was written to `out`."""
+    """Return the data normalised to length 1 along `axis`; None if written to `out`."""
     vectors = np.asarray(data, dtype=np.float64)
     length = np.sqrt(np.sum(vectors**2, axis=axis, keepdims=axis is not None))
     with np.errstate(invalid="ignore"):
@@ -43,31 +43,31 @@ def unit_vector(data: ArrayLike, axis: int | None = None, out: Floats | None = N
 
 
 def unit(data: ArrayLike) -> Floats:
-    """One vector (3) with length 1."""
+    """Return a vector (3) normalised to length 1."""
     vector = np.asarray(data, dtype=np.float64)[:3]
     result: Floats = vector / norm(vector)
     return result
 
 
 def identity_matrix() -> Floats:
-    """The matrix that changes nothing."""
+    """Return the identity matrix."""
     return np.identity(4)
 
 
 def translation_matrix(direction: ArrayLike) -> Floats:
-    """Move by a vector (3)."""
+    """Return the matrix of a translation by a vector (3)."""
     result = np.identity(4)
     result[:3, 3] = np.asarray(direction, dtype=np.float64)[:3]
     return result
 
 
 def translation_from_matrix(matrix: ArrayLike) -> Floats:
-    """By what vector (3) a matrix moves."""
+    """Return the translation (3) of a matrix."""
     return np.array(matrix, dtype=np.float64)[:3, 3].copy()
 
 
 def about(linear: Floats, point: ArrayLike | None) -> Floats:
-    """A linear map (3, 3) as a matrix that leaves `point`, or the origin, where it is."""
+    """Return a linear map (3, 3) as a matrix with `point`, or the origin, as fixed point."""
     result = np.identity(4)
     result[:3, :3] = linear
     if point is not None:
@@ -77,7 +77,7 @@ def about(linear: Floats, point: ArrayLike | None) -> Floats:
 
 
 def rotation_matrix(angle: float, direction: ArrayLike, point: ArrayLike | None = None) -> Floats:
-    """Turn by an angle [rad] about the axis through `point` (the origin) along `direction` (Rodrigues' formula)."""
+    """Return the rotation by an angle [rad] about the axis through `point` (the origin) along `direction`."""
     x, y, z = axis = unit(direction)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -85,12 +85,12 @@ def rotation_matrix(angle: float, direction: ArrayLike, point: ArrayLike | None 
 
 
 def eigenvector(matrix: Floats, value: float) -> Floats:
-    """An eigenvector of length 1 for an eigenvalue of a matrix (3, 3).
+    """Return an eigenvector of length 1 for an eigenvalue of a matrix (3, 3).
 
     Raises `ValueError` if that is not one of its eigenvalues.
     """
     rows = matrix - value * np.identity(3)
-    # It is perpendicular to all rows: along the longest product of two of them, unless all rows are parallel.
+    # It is perpendicular to all rows: along the longest cross product of two of them, unless all are parallel.
     row = rows[int(norms(rows).argmax())]
     size = norm(row)
     products = np.cross(rows, np.roll(rows, -1, axis=0))
@@ -108,11 +108,11 @@ def eigenvector(matrix: Floats, value: float) -> Floats:
 
 
 def fixed_point(matrix: Floats) -> Floats:
-    """A point (4, the last 1) that a matrix leaves where it is. Raises `ValueError` if there is none."""
+    """Return a fixed point (4, the last element 1) of a matrix. Raises `ValueError` if there is none."""
     linear, moved = matrix[:3, :3], matrix[:3, 3]
     rows = np.identity(3) - linear
     values, axes = eigen(matrix_product(rows.T, rows))
-    known = values > 1e-14 * max(values[-1], EPS)  # along the other axes take 0: the shortest solution
+    known = values > 1e-14 * max(values[-1], EPS)  # along the other axes use 0: the shortest solution
     parts = matrix_product(axes.T, matrix_product(rows.T, moved)) * known / np.where(known, values, 1.0)
     point = matrix_product(axes, parts)
     if not np.allclose(
@@ -125,7 +125,7 @@ def fixed_point(matrix: Floats) -> Floats:
 
 
 def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats]:
-    """Angle [rad], axis (3) and a point (4) on it of a rotation. Raises `ValueError` if the matrix is none."""
+    """Return angle [rad], axis (3) and a point (4) on it. Raises `ValueError` if the matrix is not a rotation."""
     whole = np.asarray(matrix, dtype=np.float64)
     linear = whole[:3, :3]
     axis = eigenvector(linear.T, 1.0)
@@ -139,9 +139,9 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats]:
 def scale_matrix(
     factor: float, origin: ArrayLike | None = None, direction: ArrayLike | None = None
 ) -> Floats:
-    """Scale by `factor` about `origin`: in all directions, or along `direction` only.
+    """Return a scaling by `factor` about `origin`, in all directions or along `direction` only.
 
-    A factor of -1 mirrors at the point.
+    A factor of -1 is a point reflection.
     """
     if direction is None:
         return about(factor * np.identity(3), origin)
@@ -150,9 +150,9 @@ def scale_matrix(
 
 
 def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats | None]:
-    """Factor, a point (4) that stays, and the direction (3; None: all) of a scaling.
+    """Return factor, fixed point (4) and direction (3; None: all) of a scaling.
 
-    Raises `ValueError` if the matrix is none.
+    Raises `ValueError` if the matrix is not a scaling.
     """
     whole = np.asarray(matrix, dtype=np.float64)
     linear = whole[:3, :3]
@@ -166,19 +166,19 @@ def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats | None]:
 
 
 def reflection_matrix(point: ArrayLike, normal: ArrayLike) -> Floats:
-    """Mirror at the plane through `point` with this normal (Householder)."""
+    """Return the reflection at the plane through `point` with this normal (Householder)."""
     axis = unit(normal)
     return about(np.identity(3) - 2.0 * axis[:, None] * axis, point)
 
 
 def reflection_from_matrix(matrix: ArrayLike) -> tuple[Floats, Floats]:
-    """A point (4) on the mirror and its normal (3). Raises `ValueError` if the matrix is no reflection."""
+    """Return a point (4) on the mirror plane and its normal (3). Raises `ValueError` if it is not a reflection."""
     whole = np.asarray(matrix, dtype=np.float64)
     return fixed_point(whole), eigenvector(whole[:3, :3], -1.0)
 
 
 def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: ArrayLike) -> Floats:
-    """Shear by an angle [rad] along `direction`, in the plane through `point` with this normal.
+    """Return a shear by an angle [rad] along `direction`, in the plane through `point` with this normal.
 
     Raises `ValueError` if the direction is not in the plane.
     """
@@ -193,9 +193,9 @@ def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: A
 def superimposition_matrix(
     v0: ArrayLike, v1: ArrayLike, scaling: bool = False, usesvd: bool = True
 ) -> Floats:
-    """The motion that brings the points `v0` (3, n) nearest to `v1` (3, n), in the sum of squares.
+    """Return the motion that brings the points `v0` (3, n) closest to `v1` (3, n), by least squares.
 
-    With `scaling`, its size too. By quaternions (Horn, 1987), whatever `usesvd` says. Raises
+    With `scaling`, also scale. Always uses quaternions (Horn, 1987), whatever `usesvd` is. Raises
     `ValueError` for fewer than three points.
     """
     del usesvd
@@ -217,9 +217,9 @@ def superimposition_matrix(
 
 
 def _nearest_rotation(spread: Floats) -> Floats:
-    """The rotation (3, 3) that turns points nearest to others, from the sums (3, 3) of the products of coordinates.
+    """Return the best rotation (3, 3) between two sets of points, from the sums (3, 3) of products of coordinates.
 
-    It is that of the eigenvector of the largest eigenvalue (Horn, Closed-form solution of absolute orientation using
+    It is the eigenvector of the largest eigenvalue (Horn, Closed-form solution of absolute orientation using
     unit quaternions, 1987).
     """
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = spread.tolist()
@@ -242,7 +242,7 @@ def _nearest_rotation(spread: Floats) -> Floats:
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Floats:
-    """The product of matrices, in this order: the last one is applied first."""
+    """Return the product of matrices, in this order: the last one is applied first."""
     result = np.identity(4)
     for matrix in matrices:
         result = matrix_product(result, matrix)
@@ -250,7 +250,7 @@ def concatenate_matrices(*matrices: ArrayLike) -> Floats:
 
 
 def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
-    """Whether two matrices do the same: they may differ by a factor."""
+    """Return whether two matrices are equal up to a factor."""
     first = np.array(matrix0, dtype=np.float64)
     second = np.array(matrix1, dtype=np.float64)
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))

@@ -1,4 +1,4 @@
-"""Matrices put together from parts and taken apart, projections, and the basis of a crystal."""
+"""Composition and decomposition of matrices, projections, and crystallographic bases."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def compose_matrix(
     translate: ArrayLike | None = None,
     perspective: ArrayLike | None = None,
 ) -> Floats:
-    """Perspective (4), translation (3), rotation (static x, y, z), shear (xy, xz, yz) and scale (3), in this order."""
+    """Return the product of perspective (4), translation (3), rotation (sxyz), shear (xy, xz, yz) and scale (3)."""
     result = np.identity(4)
     if perspective is not None:
         result[3, :] = np.asarray(perspective, dtype=np.float64)[:4]
@@ -44,9 +44,9 @@ def compose_matrix(
 def decompose_matrix(
     matrix: ArrayLike,
 ) -> tuple[Floats, list[float], list[float], Floats, Floats]:
-    """Scale, shear, angles, translation and perspective, as `compose_matrix` takes them.
+    """Return scale, shear, angles, translation and perspective, as for `compose_matrix`.
 
-    Raises `ValueError` if it cannot be done.
+    Raises `ValueError` if the matrix is singular.
     """
     whole = np.array(matrix, dtype=np.float64)
     if abs(whole[3, 3]) < EPS:
@@ -66,9 +66,9 @@ def decompose_matrix(
 
 
 def _orthogonal(linear: Floats) -> tuple[Floats, Floats]:
-    """A matrix (3, 3) as the product of an orthogonal one and an upper triangular one with a positive diagonal.
+    """Return a matrix (3, 3) as product of an orthogonal and an upper triangular one with positive diagonal.
 
-    By Gram-Schmidt, twice: the second pass removes what rounding left.
+    Uses Gram-Schmidt twice: the second pass removes rounding errors.
     """
     rotation, upper = linear.copy(), np.identity(3)
     for _ in range(2):
@@ -90,10 +90,10 @@ def projection_matrix(
     perspective: ArrayLike | None = None,
     pseudo: bool = False,
 ) -> Floats:
-    """Projection on the plane through `point`: straight, along `direction`, or towards the eye `perspective`.
+    """Return a projection on the plane through `point`: orthogonal, along `direction`, or to the eye `perspective`.
 
-    With `pseudo`, the depth stays in what comes out of a perspective, so that things in front can be told from things
-    behind.
+    With `pseudo`, a perspective projection keeps the depth, so that objects in front and behind can be
+    distinguished.
     """
     place, axis = np.asarray(point, dtype=np.float64)[:3], unit(normal)
     if perspective is None:
@@ -115,9 +115,9 @@ def projection_matrix(
 def clip_matrix(
     left: float, right: float, bottom: float, top: float, near: float, far: float, perspective: bool = False
 ) -> Floats:
-    """From a view's box, or with `perspective` from its frustum, to the cube from -1 to 1.
+    """Return the matrix from a view's box, or with `perspective` from its frustum, to the cube from -1 to 1.
 
-    Raises `ValueError` for one without a volume.
+    Raises `ValueError` for an empty volume.
     """
     if left >= right or bottom >= top or near >= far:
         raise ValueError("invalid frustum: left < right, bottom < top and near < far are needed")
@@ -137,7 +137,7 @@ def clip_matrix(
 
 
 def orthogonalization_matrix(lengths: ArrayLike, angles: ArrayLike) -> Floats:
-    """From a crystal's own coordinates, with axes of lengths (3) and angles (3, in degrees), to Cartesian ones."""
+    """Return the matrix from a crystal's coordinates, with axes of lengths (3) and angles (3) [deg], to Cartesian."""
     a, b, c = np.asarray(lengths, dtype=np.float64)
     alpha, beta, gamma = np.radians(np.asarray(angles, dtype=np.float64))
     sine = math.sin(beta)

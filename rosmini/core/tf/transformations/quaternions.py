@@ -19,7 +19,7 @@ def _four(quaternion: ArrayLike) -> Floats:
 
 
 def quaternion_multiply(quaternion1: ArrayLike, quaternion0: ArrayLike) -> Floats:
-    """Hamilton's product: `quaternion0` is applied first."""
+    """Return the Hamilton product: `quaternion0` is applied first."""
     x1, y1, z1, w1 = _four(quaternion1)
     x0, y0, z0, w0 = _four(quaternion0)
     return np.array(
@@ -33,20 +33,20 @@ def quaternion_multiply(quaternion1: ArrayLike, quaternion0: ArrayLike) -> Float
 
 
 def quaternion_conjugate(quaternion: ArrayLike) -> Floats:
-    """The turn the other way, for a quaternion of length 1."""
+    """Return the inverse rotation of a quaternion of length 1."""
     x, y, z, w = _four(quaternion)
     return np.array([-x, -y, -z, w])
 
 
 def quaternion_inverse(quaternion: ArrayLike) -> Floats:
-    """What multiplied with `quaternion` gives 0, 0, 0, 1."""
+    """Return the inverse quaternion, also if its length is not 1."""
     four = _four(quaternion)
     result: Floats = quaternion_conjugate(four) / scalar_product(four, four)
     return result
 
 
 def quaternion_about_axis(angle: float, axis: ArrayLike) -> Floats:
-    """The turn by an angle [rad] about an axis (3)."""
+    """Return the rotation by an angle [rad] about an axis (3)."""
     direction = np.asarray(axis, dtype=np.float64)[:3]
     result = np.zeros(4)
     if scalar_product(direction, direction) > EPS**2:
@@ -56,9 +56,9 @@ def quaternion_about_axis(angle: float, axis: ArrayLike) -> Floats:
 
 
 def quaternion_matrix(quaternion: ArrayLike) -> Floats:
-    """The matrix (4, 4) of a rotation.
+    """Return the matrix (4, 4) of a rotation.
 
-    The quaternion need not have length 1, and one of length 0 counts as no rotation.
+    The quaternion need not be normalised; one of length 0 counts as no rotation.
     """
     four = _four(quaternion)
     square = scalar_product(four, four)
@@ -76,7 +76,7 @@ def quaternion_matrix(quaternion: ArrayLike) -> Floats:
 
 
 def quaternion_from_matrix(matrix: ArrayLike) -> Floats:
-    """The quaternion of a rotation matrix (4, 4), by its largest component (Shepperd, 1978)."""
+    """Return the quaternion of a rotation matrix (4, 4), by its largest component (Shepperd, 1978)."""
     whole = np.array(matrix, dtype=np.float64)[:4, :4]
     m = whole[:3, :3] / whole[3, 3]
     trace = float(np.trace(m))
@@ -101,9 +101,9 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Floats:
 def quaternion_slerp(
     quat0: ArrayLike, quat1: ArrayLike, fraction: float, spin: int = 0, shortestpath: bool = True
 ) -> Floats:
-    """Between two rotations, at constant speed on the great arc (Shoemake, 1985).
+    """Interpolate between two rotations at constant speed (Shoemake, 1985).
 
-    `spin` adds half turns of 180 degrees on the way.
+    `spin` adds half turns.
     """
     first, second = (four / math.sqrt(scalar_product(four, four)) for four in (_four(quat0), _four(quat1)))
     if fraction in (0.0, 1.0):
@@ -123,9 +123,9 @@ def quaternion_slerp(
 
 
 def random_quaternion(rand: ArrayLike | None = None) -> Floats:
-    """A rotation, all alike probable (Shoemake, 1992), of three numbers in [0, 1).
+    """Return a uniformly distributed rotation (Shoemake, 1992) from three numbers in [0, 1).
 
-    Without them, of fresh random ones.
+    By default these numbers are random.
     """
     u, v, w = np.random.default_rng().random(3) if rand is None else np.asarray(rand, dtype=np.float64)
     a, b = math.sqrt(1 - u), math.sqrt(u)
@@ -140,10 +140,10 @@ def random_quaternion(rand: ArrayLike | None = None) -> Floats:
 
 
 def random_rotation_matrix(rand: ArrayLike | None = None) -> Floats:
-    """The matrix of `random_quaternion`."""
+    """Return the matrix of `random_quaternion`."""
     return quaternion_matrix(random_quaternion(rand))
 
 
 def random_vector(size: int) -> Floats:
-    """Numbers in [0, 1)."""
+    """Return random numbers in [0, 1)."""
     return np.random.default_rng().random(size)
