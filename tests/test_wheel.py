@@ -72,14 +72,15 @@ def test_the_command_xacro_finds_packages_by_itself(python, tmp_path):
     assert '<link name="base_scan">' in run(python, "-c", script, cwd=tmp_path)
 
 
-def test_the_wheel_carries_the_assets_and_no_tests(wheel):
+def test_the_wheel_contains_the_assets_and_stubs_but_no_tests(wheel):
     names = set(zipfile.ZipFile(wheel).namelist())
     assets = {
         f"rosmini/_assets/{path.relative_to(ROOT / 'assets').as_posix()}"
         for path in (ROOT / "assets").rglob("*.msg")
     }
     assert "rosmini/_assets/ros/std_msgs/msg/String.msg" in assets
-    assert {*assets, "rosmini/_assets/core/rospy/package.xml"} <= names
+    stubs = {"rosmini/msgs/std_msgs/msg.pyi", "rosmini/msgs/std_srvs/srv.pyi"}
+    assert {*assets, *stubs, "rosmini/_assets/core/rospy/package.xml"} <= names
     assert {name.partition("/")[0].partition("-")[0] for name in names} == {
         "rosmini",
         "rosmini_ros",

@@ -1,10 +1,10 @@
-"""`python -m assets.generate`: make the committed worlds, maps, .rviz files, meshes, pictures and stubs again."""
+"""`python -m assets.generate`: make the committed worlds, maps, .rviz files, meshes and pictures again."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from . import rviz_files, stubs, worlds
+from . import rviz_files, worlds
 from .drawings import DRAWINGS
 from .meshes import turtlebot3
 
@@ -29,7 +29,7 @@ def main(checkout: Path = CHECKOUT) -> None:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8", newline="\n")
         print(file)
-    for file in (*worlds.write_maps(checkout / "assets/ros"), *stubs.write_stubs(checkout / "rosmini/msgs")):
+    for file in worlds.write_maps(checkout / "assets/ros"):
         print(file)
 
 

@@ -1,6 +1,6 @@
-"""Type stubs for the messages and services that come with rosmini: `rosmini/msgs/<package>/msg.pyi`.
+"""Type stubs of rosmini's messages and services: `rosmini/msgs/<package>/msg.pyi`, written by `build_hook.py`.
 
-Type checkers and editors find them there. Packages of a workspace have none; their classes are `Any` to a type checker.
+Type checkers and editors find them there. For packages of a workspace, `rosmini stubs` writes some.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from rosmini.msgs.registry import Registry
 from rosmini.msgs.sources import PackageSource
 from rosmini.msgs.stubs import package_stubs
 
-HEAD = "# Written by python -m assets.generate; do not edit.\n"
+HEAD = "# Written by assets/generate/build_hook.py; do not edit.\n"
 
 
 def stub_files(registry: Registry) -> dict[str, str]:
-    """The texts of all stub files by their path below ``rosmini/msgs``, sorted."""
+    """Return the texts of all stub files by their path below ``rosmini/msgs``, sorted."""
     files = {
         f"{package}/{name}": text
         for package in registry.source.packages()
@@ -26,9 +26,9 @@ def stub_files(registry: Registry) -> dict[str, str]:
 
 
 def write_stubs(root: Path) -> list[Path]:
-    """Write the stubs of the packages that come with rosmini into a folder, and remove those of packages that are gone.
+    """Write the stubs of rosmini's packages into a folder, and remove those of packages that no longer exist.
 
-    Returns the paths that changed: none if the stubs were fresh.
+    Returns the changed paths: none if the stubs were up to date.
     """
     files = stub_files(_bundled())
     changed = []

@@ -1,2 +1,0 @@
-# Written by python -m assets.generate; do not edit.
-from . import msg as msg

@@ -1,3 +1,0 @@
-# Written by python -m assets.generate; do not edit.
-from . import msg as msg
-from . import srv as srv
