@@ -261,7 +261,7 @@ class BagTimeline(Panel):
     def __init__(self, graph: Graph, path: str = "", *, name: str | None = None) -> None:
         super().__init__(graph, name=name)
         self.path = ""
-        self._drawn: Drawing | None = None
+        self._bag: Drawing | None = None
         if path:
             self.load(path)
 
@@ -279,16 +279,14 @@ class BagTimeline(Panel):
     def load(self, path: str) -> None:
         """Show another bag. Raises ``ViewError``, ``ROSBagException``."""
         try:
-            self._drawn = drawn(rqt_bag(path))
+            self._bag = drawn(rqt_bag(path))
         except OSError as error:
             raise ViewError(f"{path} cannot be opened: {error.strerror}") from error
         self.path = path
 
     def parts(self) -> Sequence[Part]:
         """The file, and its rows."""
-        shown = (
-            Words("name a file: it is read when you have typed it") if self._drawn is None else self._drawn
-        )
+        shown = self._bag or Words("name a file: it is read when you have typed it")
         return [bar(Control("file", "File", "text", self.path)), shown]
 
     def _operate(self, _key: Sequence[str], value: Any) -> None:

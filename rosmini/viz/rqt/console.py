@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Sequence
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from rosmini.core.errors import nearest
 from rosmini.core.graph.console import Console
 from rosmini.core.graph.rosout import LEVELS, NAMES
 from rosmini.viz.rqt.selection import matches
-from rosmini.viz.rqt.table import heading, table_figure
-from rosmini.viz.svg import element, escape
-from rosmini.viz.view import View, ViewError
+from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
 
 from .panel import Panel, bar
-from .parts import Control, Row, Rows, Words
+from .parts import Control, Row, Rows, Words, cell_text
+from .table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -98,85 +98,63 @@ def rqt_console(
     return LogTable(rows, marks, columns, total=len(messages), title=title)
 
 
-class LogTable(View):
-    """A table of log messages: what passed the filters, of `total` messages."""
+class LogTable(Table):
+    """A table of log messages: those of `total` messages that passed the filters."""
 
     def __init__(
         self,
-        rows: Sequence[Any],
+        messages: Sequence[Any],
         marks: Sequence[bool],
         columns: Sequence[Column],
         *,
         total: int,
         title: str | None,
     ) -> None:
-        self.rows = list(rows)
-        self.columns = tuple(columns)
+        rows = tuple(
+            Row(
+                tuple(_cell(message, column) for column in columns),
+                level=NAMES[message.level],
+                is_marked=is_marked,
+            )
+            for message, is_marked in zip(messages, marks, strict=True)
+        )
+        titles = tuple(column.capitalize() for column in columns)
+        part = Rows(titles, rows, "Log messages", "no message passes the filters")
+        super().__init__(part, title=title or "", noun="message")
+        self.messages = list(messages)
         self.total = total
-        self.title = title
-        self.marks = list(marks)
-        """Which of them are highlighted."""
-
-    def __len__(self) -> int:
-        return len(self.rows)
 
     @property
     def counted(self) -> str:
-        """How many messages are shown, and of how many."""
-        if len(self.rows) == self.total:
+        """The number of messages that are shown, and of all."""
+        if len(self) == self.total:
             return plural(self.total, "message")
-        return f"{len(self.rows)} of {plural(self.total, 'message')}"
+        return f"{len(self)} of {plural(self.total, 'message')}"
+
+    @property
+    def caption(self) -> str:
+        """The title, if there is one, and the count."""
+        return super().caption if self.title else self.counted
 
     @property
     def text(self) -> str:
-        """A line of counts, then a line for each message; `*` marks those that are highlighted."""
-        head = f"{self.title or 'rqt_console'}: {self.counted}"
-        cells = [[_cell(message, column) for column in self.columns] for message in self.rows]
-        widths = [
-            max((len(line) for row in cells for line in row[number].split("\n")), default=0)
-            for number in range(len(self.columns))
-        ]
-        lines = [head]
-        for row, mark in zip(cells, self.marks, strict=True):
-            parts = [cell.split("\n") for cell in row]
-            for number in range(max(len(part) for part in parts)):
-                shown = [part[number] if number < len(part) else "" for part in parts]
+        """A line with the count, then the lines of each message; `*` marks those that are highlighted."""
+        cells = [[cell_text(cell).split("\n") for cell in row.cells] for row in self.part.rows]
+        widths = [max(len(line) for cell in column for line in cell) for column in zip(*cells, strict=True)]
+        lines = [f"{self.title or 'rqt_console'}: {self.counted}"]
+        for row, parts in zip(self.part.rows, cells, strict=True):
+            for number, shown in enumerate(zip_longest(*parts, fillvalue="")):
                 joined = "  ".join(cell.ljust(width) for cell, width in zip(shown, widths, strict=True))
-                lines.append(f"{'*' if mark and number == 0 else ' '} {joined}".rstrip())
+                lines.append(f"{'*' if row.is_marked and number == 0 else ' '} {joined}".rstrip())
         return "\n".join(lines)
 
     @property
     def alt(self) -> str:
         """Counts by level, and the first messages."""
-        counts = [(name, sum(message.level == LEVELS[name] for message in self.rows)) for name in LEVELS]
+        counts = [(name, sum(message.level == LEVELS[name] for message in self.messages)) for name in LEVELS]
         found = ", ".join(f"{count} {name}" for name, count in counts if count)
-        first = "; ".join(f"{message.name}: {message.msg}" for message in self.rows[:ALT_MESSAGES])
+        first = "; ".join(f"{message.name}: {message.msg}" for message in self.messages[:ALT_MESSAGES])
         return f"Table of log messages, {self.counted}{f' ({found})' if found else ''}. {first}".strip()
-
-    def _images(self) -> dict[str, bytes]:
-        return {}
-
-    @property
-    def html(self) -> str:
-        """A `<figure>` with the table, which scrolls by itself where a page is narrow."""
-        head = heading(column.capitalize() for column in self.columns)
-        body = "".join(
-            element(
-                "tr",
-                "".join(_data(message, column) for column in self.columns),
-                class_="marked" if mark else None,
-            )
-            for message, mark in zip(self.rows, self.marks, strict=True)
-        )
-        if not self.rows:
-            body = element("tr", element("td", "no message passes the filters", colspan=len(self.columns)))
-        caption = f"{self.title} ({self.counted})" if self.title else self.counted
-        return table_figure(head, body, caption=caption, label="Log messages")
-
-
-def _data(message: Any, column: Column) -> str:
-    kinds = f"{column} {NAMES[message.level]}" if column in ("severity", "message") else column
-    return f'<td class="{kinds}">{escape(_cell(message, column))}</td>'
 
 
 def _cell(message: Any, column: Column) -> str:
@@ -323,19 +301,6 @@ class LogConsole(Panel):
         chosen = self.filters
         table = self.view(limit=SHOWN)
         texts = [Control(key, label, "text", chosen[key]) for key, label in FILTERS.items()]
-        rows = tuple(
-            Row(
-                (
-                    f"{message.header.stamp.to_sec():.3f}",
-                    NAMES[message.level],
-                    message.name,
-                    message.msg,
-                    location_of(message),
-                ),
-                mark="marked" if mark else NAMES[message.level],
-            )
-            for message, mark in zip(table.rows, table.marks, strict=True)
-        )
         return [
             bar(Control("level", "Level", "choice", chosen["level"], tuple(LEVELS)), *texts),
             bar(
@@ -344,12 +309,7 @@ class LogConsole(Panel):
                 Control("clear", "Clear", "button"),
             ),
             Words(f"{table.counted}{', paused' if self.paused else ''}"),
-            Rows(
-                ("Stamp", "Severity", "Node", "Message", "Location"),
-                rows,
-                "Log messages",
-                "no message passes the filters",
-            ),
+            table.part,
         ]
 
     def settings(self) -> dict[str, Any]:

@@ -53,17 +53,17 @@ def _table(kind: str, title: str | None, parts: Callable[[], list[tuple[str, Mes
         raise ViewError(f"{kind!r} is no type: one is written package/Type, as in geometry_msgs/Twist")
     try:
         found = parts()
-        rows: list[tuple[str, str, str]] = []
+        rows: list[Row] = []
         for part, spec in found:
             head, path = f"{kind}{part}", part.lower() and f"{part.lower()}/"
-            rows.append((head, head, head))
+            rows.append(Row((head, head, head)))
             rows += [
-                (f"{'  ' * depth}{name}", type_, f"{path}{where}")
-                for depth, name, type_, where in _fields(spec)
+                Row((name, type_, f"{path}{where}"), depth) for depth, name, type_, where in _fields(spec)
             ]
     except (UnknownType, UnknownPackage, DefinitionError, IllegalName) as error:
         raise ViewError(str(error)) from error
-    return Table(COLUMNS, rows, title=title or kind, noun="part" if len(found) > 1 else "type")
+    table = Rows(COLUMNS, tuple(rows), f"Fields of {kind}")
+    return Table(table, title=title or kind, noun="part" if len(found) > 1 else "type")
 
 
 def _fields(spec: MessageSpec, depth: int = 1, path: str = "") -> Iterator[tuple[int, str, str, str]]:
@@ -72,10 +72,6 @@ def _fields(spec: MessageSpec, depth: int = 1, path: str = "") -> Iterator[tuple
         yield depth, field.ros_name, field.type, where
         if not field.builtin:
             yield from _fields(registry().definition(field.base), depth + 1, f"{where}/")
-
-
-REDRAW_S = 1.0
-"""How often a picture is drawn again [s]."""
 
 
 class _TypeBrowser(Panel):
@@ -107,13 +103,9 @@ class _TypeBrowser(Panel):
 
     def parts(self) -> Sequence[Part]:
         """The type, and its fields."""
-        rows = tuple(
-            Row((tree.strip(), kind, path), (len(tree) - len(tree.lstrip())) // 2)
-            for tree, kind, path in self._table.rows
-        )
         return [
             bar(Control("type", "Type", "text", self.kind)),
-            Rows(self._table.columns, rows, f"Fields of {self.kind}"),
+            self._table.part,
         ]
 
     def _operate(self, _key: Sequence[str], value: Any) -> None:

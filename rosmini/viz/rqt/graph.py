@@ -167,7 +167,7 @@ class NodeGraph(Panel):
         }  # fmt: skip
         self._state = GraphState()
         self._asked: float | None = None
-        self._drawn: tuple[Any, Picture] | None = None
+        self._picture: tuple[Any, Picture] | None = None
         self.change(**options)
 
     @classmethod
@@ -244,14 +244,14 @@ class NodeGraph(Panel):
         if self._asked is None or abs(now - self._asked) >= LOOK_S:
             self.refresh()
         key = (self._state, tuple(sorted(self.options.items())))
-        if self._drawn is None or self._drawn[0] != key:
+        if self._picture is None or self._picture[0] != key:
             try:
                 drawn = rqt_graph(self._state, **self.options)
             except ViewError:
                 self.options["highlight"] = ""
                 drawn = rqt_graph(self._state, **self.options)
-            self._drawn = (key, drawn)
-        return self._drawn[1]
+            self._picture = (key, drawn)
+        return self._picture[1]
 
     def parts(self) -> Sequence[Part]:
         """The switches, and the drawing."""

@@ -1,4 +1,4 @@
-"""Panels that only show: the fields of types, the tree of frames, images."""
+"""`rqt_image_view`: the newest image on a topic (http://wiki.ros.org/rqt_image_view)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rosmini.viz.image_pictures import image_picture
 from rosmini.viz.view import ViewError
 
 from .panel import Panel, bar
-from .parts import Control, Drawing, Words, drawn
+from .parts import Control, Words, drawn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from rosmini.viz.view import View
 
     from .parts import Part
-
-REDRAW_S = 1.0
-"""How often a picture is drawn again [s]."""
 
 
 class ImageView(Panel):
@@ -49,7 +46,6 @@ class ImageView(Panel):
         self.topic = ""
         self._image: Any = None
         self._subscriber: Any = None
-        self._drawn: tuple[float, Drawing] | None = None
         if topic:
             self.choose(topic)
 
@@ -97,10 +93,7 @@ class ImageView(Panel):
         head = bar(Control("topic", "Topic", "choice", self.topic, choices))
         if self._image is None:
             return [head, Words("no image has come yet")]
-        now = self.graph.now().to_sec()
-        if self._drawn is None or abs(now - self._drawn[0]) >= REDRAW_S:
-            self._drawn = (now, drawn(image_picture(self._image, title=self.topic)))
-        return [head, self._drawn[1]]
+        return [head, self._redrawn(lambda: drawn(image_picture(self._image, title=self.topic)))]
 
     def _operate(self, _key: Sequence[str], value: Any) -> None:
         self.choose(value)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
+from functools import partial
 
-from rosmini.viz.rqt.table import INKS, heading
 from rosmini.viz.style import themed, variable
 from rosmini.viz.svg import element, escape
 
 from .parts import Bar, Box, Cell, Control, Drawing, Part, Row, Rows, Words, number_text
 
-NAME = "rosmini-rqt"
+NAME, TABLE = "rosmini-rqt", "rosmini-rqt-table"
+INKS = {"DEBUG": "muted", "INFO": "ink", "WARN": "label", "ERROR": "bad-line", "FATAL": "bad-line"}
+"""The colour of each level of a log message."""
 COLOURS = ["page", "ink", "muted", "blue", "label", "bad-line", "group-fill", "group-line", "topic-fill"]
 
 
@@ -35,7 +38,7 @@ def _part(part: Part) -> str:
         case Bar():
             return element("div", "".join(_in_bar(cell) for cell in part.cells), class_="rq-bar")
         case Rows():
-            return _table(part)
+            return table(part)
         case Drawing():
             return _drawing(part)
         case Words():
@@ -62,21 +65,33 @@ def _in_bar(cell: Cell) -> str:
     return element("label", _control(cell) + name if cell.kind == "check" else name + _control(cell))
 
 
-def _table(part: Rows) -> str:
-    body = "".join(map(_row, part.rows))
+def table(part: Rows) -> str:
+    """Return a table, which scrolls by itself where a page is narrow."""
+    body = "".join(_row(part.columns, row) for row in part.rows)
     if not part.rows:
         body = element("tr", element("td", escape(part.empty), colspan=len(part.columns)))
-    table = element("table", element("thead", heading(part.columns)) + element("tbody", body))
-    return element("div", table, class_="rq-table", role="region", aria_label=part.label, tabindex="0")
+    head = element("tr", "".join(element("th", escape(title), scope="col") for title in part.columns))
+    whole = element("table", element("thead", head) + element("tbody", body))
+    return element("div", whole, class_=TABLE, role="region", aria_label=part.label, tabindex="0")
 
 
-def _row(row: Row) -> str:
+def _row(columns: Iterable[str], row: Row) -> str:
     indent = f"padding-left:{0.5 + 1.2 * row.depth:.1f}em" if row.depth else None
     cells = "".join(
-        element("td", escape(cell) if isinstance(cell, str) else _control(cell), style=None if i else indent)
-        for i, cell in enumerate(row.cells)
+        element(
+            "td",
+            _breakable(cell) if isinstance(cell, str) else _control(cell),
+            style=None if number else indent,
+            class_=f"rq-{column.lower()}" if row.level else None,
+        )
+        for number, (column, cell) in enumerate(zip(columns, row.cells, strict=True))
     )
-    return element("tr", cells, class_=row.mark or None)
+    return element("tr", cells, class_=f"{row.level}{' marked' * row.is_marked}".strip() or None)
+
+
+def _breakable(text: str) -> str:
+    """Return a text in which a narrow page breaks the long names of ROS where their words end."""
+    return re.sub(r"(?<=\w)([/_])(?=\w)", r"\1<wbr>", escape(text))
 
 
 def _control(control: Control) -> str:
@@ -120,8 +135,8 @@ def _number(control: Control, common: dict[str, str | None]) -> str:
     return element("input", type=kind, value=value, min=low, max=high, step=step, **common)
 
 
-def _rule(selector: str, **properties: str) -> str:
-    scoped = ",".join(f".{NAME} {part}".rstrip() for part in selector.split(","))
+def _rule(selector: str, _scope: str = NAME, **properties: str) -> str:
+    scoped = ",".join(f".{_scope} {part}".rstrip() for part in selector.split(","))
     return f"{scoped}{{{''.join(f'{n}:{v};' for n, v in properties.items()).replace('_', '-')}}}"
 
 
@@ -134,7 +149,26 @@ _BOX = {
     "font": "inherit",
 }
 
-CSS = (
+_rule_of_table = partial(_rule, _scope=TABLE)
+
+TABLE_CSS = (
+    f".{TABLE}{{overflow:auto;color:{variable('ink')};}}"
+    + _rule_of_table("table", border_collapse="collapse", margin="0", width="100%", font_size="0.93em", border="none")
+    + _rule_of_table("tr,tbody tr:nth-child(odd),tbody tr:hover", background="none")
+    + _rule_of_table("th,td", text_align="left", vertical_align="baseline", padding="3px 10px 3px 0.5em", border="none",
+                     border_bottom=_LINE, color="inherit", white_space="pre-wrap")
+    + _rule_of_table("th", background=variable("group-fill"), font_weight="600", position="sticky", top="0")
+    + _rule_of_table("tr.marked td", background=variable("topic-fill"))
+    + _rule_of_table("td.rq-stamp", font_variant_numeric="tabular-nums")
+    + _rule_of_table("td.rq-message", min_width="11em", max_width="44em")
+    + _rule_of_table("td.rq-location", color=variable("muted"), white_space="nowrap")
+    + _rule_of_table("tr.FATAL td.rq-severity,tr.FATAL td.rq-message", font_weight="700")
+    + "".join(_rule_of_table(f"tr.{level} td.rq-severity,tr.{level} td.rq-message", color=variable(ink))
+              for level, ink in INKS.items())
+    + themed(f".{TABLE}", ["ink", "muted", "label", "bad-line", "group-fill", "group-line", "topic-fill"])
+)  # fmt: skip
+
+CSS = TABLE_CSS + (
     f".{NAME}{{background:{variable('page')};color:{variable('ink')};border:{_LINE};border-radius:10px;"
     "font:14px/1.45 var(--rosmini-font,sans-serif);max-width:960px;overflow:hidden;text-align:left}"
     + _rule("fieldset", border="0", margin="0", padding="0", min_width="0")
@@ -153,18 +187,11 @@ CSS = (
     + _rule("[data-points]", touch_action="pan-y", cursor="crosshair")
     + _rule("[data-points] svg", width="100%")
     + _rule("[data-points]:focus-visible", outline=f"2px solid {variable('blue')}", outline_offset="-2px")
-    + _rule("input:focus-visible,select:focus-visible,button:focus-visible,.rq-table:focus-visible",
+    + _rule("input:focus-visible,select:focus-visible,button:focus-visible,.rosmini-rqt-table:focus-visible",
             outline=f"2px solid {variable('blue')}", outline_offset="1px")
     + _rule("[aria-invalid=true]", border_color=variable("bad-line"))
     + _rule(".rq-problem", color=variable("bad-line"), margin_left="6px")
-    + _rule(".rq-table", overflow="auto", max_height="420px")
-    + _rule("table", border_collapse="collapse", margin="0", width="100%", font_size="0.93em", border="none")
-    + _rule("tr,tbody tr:nth-child(odd),tbody tr:hover", background="none")
-    + _rule("th,td", text_align="left", vertical_align="middle", padding="3px 10px 3px 0.5em", border="none",
-            border_bottom=_LINE, color="inherit", white_space="pre-wrap")
-    + _rule("th", background=variable("group-fill"), font_weight="600", position="sticky", top="0")
-    + _rule("tr.marked td", background=variable("topic-fill"))
-    + "".join(_rule(f"tr.{level} td:nth-child(2)", color=variable(ink)) for level, ink in INKS.items())
+    + _rule(f".{TABLE}", max_height="420px")
     + _rule(".rq-drawing", overflow_x="auto", padding="8px 12px")
     + _rule(".rq-drawing svg", max_width="100%", height="auto")
     + _rule(".rq-drawing[data-picks] .rm-node", cursor="pointer")

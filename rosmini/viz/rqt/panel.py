@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.graph import Node
 from rosmini.core.names import resolve
+from rosmini.core.verbs import Span
 from rosmini.viz.live.live_view import LiveView
 from rosmini.viz.svg import element
 from rosmini.viz.view import View, ViewError
 
 from .markup import page
-from .parts import Bar, Control, Part, Words, controls, text_of
+from .parts import Bar, Control, Drawing, Part, Words, controls, text_of
 from .plugin import Plugin
 
 if TYPE_CHECKING:
@@ -29,6 +30,10 @@ if TYPE_CHECKING:
     from .parts import Value
 
     T = TypeVar("T")
+
+
+REDRAW_S = 1.0
+"""How often a picture is drawn again [s]."""
 
 
 class PanelNode(Node):
@@ -54,6 +59,7 @@ class Panel(Plugin, LiveView):
         """What the last thing that was done did."""
         self.problem = ""
         """Why the last thing that :meth:`set` was to do was refused."""
+        self._drawn: tuple[float, Drawing] | None = None
         self._node = node or _own_node(graph, name or self.tool)
 
     @property
@@ -63,19 +69,11 @@ class Panel(Plugin, LiveView):
 
     @classmethod
     @contextmanager
-    def heard(cls, graph: Graph, *words: str, seconds: float, **options: Any) -> Iterator[Self]:
-        """Open a panel under a name of its own, let graph time pass, and close it in the end.
-
-        Raises:
-            ViewError: the time is not positive.
-
-        """
-        if not 0 < seconds < float("inf"):
-            raise ViewError(f"a duration is a positive number of seconds, not {seconds!r:.40}")
+    def alone(cls, graph: Graph, *words: str, **options: Any) -> Iterator[Self]:
+        """Open a panel under a name that no other node has, and close it in the end."""
         make: Any = cls
         panel = make(graph, *words, name=graph.anonymous_name(cls.tool), **options)
         try:
-            graph.run(seconds)
             yield panel
         finally:
             panel.close()
@@ -84,7 +82,9 @@ class Panel(Plugin, LiveView):
     def still(cls, given: Values, call: Call) -> View:
         """Return the view of a panel that has listened for some time."""
         words, options = cls.arguments(given)
-        with cls.heard(call.graph, *words, seconds=given.duration, **options) as panel:
+        with cls.alone(call.graph, *words, **options) as panel:
+            for _ in Span.of(call.graph, round(max(given.duration, 0.0) * 1e9)).every(100_000_000):
+                pass
             return panel.view(given.title)
 
     # -- for each kind of panel -----------------------------------------------------------------------------------
@@ -117,6 +117,13 @@ class Panel(Plugin, LiveView):
 
     def restore(self, settings: dict[str, Any]) -> None:
         """Take what a perspective kept; of other keys nothing is taken. Raises ``RosminiError``, ``ValueError``."""
+
+    def _redrawn(self, draw: Callable[[], Drawing]) -> Drawing:
+        """Return a drawing that is at most a second old."""
+        now = self.graph.now().to_sec()
+        if self._drawn is None or abs(now - self._drawn[0]) >= REDRAW_S:
+            self._drawn = (now, draw())
+        return self._drawn[1]
 
     # -- operating it ---------------------------------------------------------------------------------------------
 
@@ -219,6 +226,13 @@ def _own_node(graph: Graph, name: str) -> PanelNode:
     if isinstance(before, PanelNode):
         before.shutdown("a new panel took its place")
     return PanelNode(name, graph)
+
+
+def pass_time(graph: Graph, seconds: float) -> None:
+    """Let graph time pass. Raises ``ViewError`` unless it is positive."""
+    if not 0 < seconds < float("inf"):
+        raise ViewError(f"a duration is a positive number of seconds, not {seconds!r:.40}")
+    graph.run(seconds)
 
 
 def bar(*cells: str | Control) -> Bar:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, TypeVar
 
 from rosmini.viz.rounding import fixed
 from rosmini.viz.svg import element
 from rosmini.viz.view import PNG_MIME, Picture, ViewError
 
+T = TypeVar("T")
 Kind = Literal["text", "number", "slider", "choice", "check", "button"]
 Value = str | float | bool
 
@@ -96,11 +97,12 @@ class Bar:
 
 @dataclass(frozen=True)
 class Row:
-    """A row of a table: ``depth`` indents it, ``mark`` names its look (a log level, "marked")."""
+    """A row of a table: ``depth`` indents it, ``level`` is that of a log message, and ``is_marked`` highlights it."""
 
     cells: tuple[Cell, ...]
     depth: int = 0
-    mark: str = ""
+    level: str = ""
+    is_marked: bool = False
 
 
 @dataclass(frozen=True)
@@ -201,7 +203,7 @@ def _text(part: Part) -> str:
         case Bar():
             return "  ".join(filter(None, map(_in_bar, part.cells)))
         case Rows():
-            return _table(part)
+            return "\n".join(aligned(part)) if part.rows else part.empty
         case Box():
             inner = text_of(part.parts)
             return f"[{part.title}]" + "".join(f"\n  {line}" for line in inner.split("\n") if line)
@@ -217,19 +219,38 @@ def _in_bar(cell: Cell) -> str:
     return f"{cell.label}: {cell.text}".rstrip() if cell.kind != "button" else ""
 
 
-def _table(part: Rows) -> str:
-    if not part.rows:
-        return part.empty
+def cell_text(cell: Cell) -> str:
+    """Return what a cell shows."""
+    return cell if isinstance(cell, str) else cell.text
+
+
+def aligned(part: Rows) -> list[str]:
+    """Return the titles and the rows of a table, a line for each, with aligned columns."""
     lines = [part.columns]
     for row in part.rows:
-        first, *others = (cell if isinstance(cell, str) else cell.text for cell in row.cells)
-        lines.append(("  " * row.depth + ("*" if row.mark == "marked" else "") + first, *others))
+        first, *others = map(cell_text, row.cells)
+        lines.append(("  " * row.depth + ("*" if row.is_marked else "") + first, *others))
     cells = [[" ".join(cell.split("\n")) if i else cell for i, cell in enumerate(line)] for line in lines]
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    return "\n".join(
+    return [
         "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
         for line in cells
-    )
+    ]
+
+
+def without_controls(part: Rows) -> Rows:
+    """Return a table without the columns that have controls, as a still shows it."""
+    kept = [
+        number
+        for number in range(len(part.columns))
+        if not any(isinstance(row.cells[number], Control) for row in part.rows)
+    ]
+
+    def reduced(cells: Sequence[T]) -> tuple[T, ...]:
+        return tuple(cells[number] for number in kept)
+
+    rows = tuple(replace(row, cells=reduced(row.cells)) for row in part.rows)
+    return replace(part, columns=reduced(part.columns), rows=rows)
 
 
 def number_text(value: float) -> str:

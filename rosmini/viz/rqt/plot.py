@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.verbs import global_name
 from rosmini.ros.introspection.fields import FieldError, class_of, reader
+from rosmini.ros.introspection.topics import Found, look_up, what_next
 from rosmini.viz.plots import COLOURS, plot
-from rosmini.viz.rqt.listening import find_topic, listen
 from rosmini.viz.view import Picture, ViewError
 
-from .panel import Panel, bar, each_of
-from .parts import Control, Drawing, Words
+from .panel import Panel, bar, each_of, pass_time
+from .parts import Control, Drawing, Words, drawn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -56,11 +56,14 @@ def rqt_plot(source: Graph | Bag, *fields: str, duration: float = 5.0, title: st
     silent = [name for name, (times, _) in samples.items() if not times]
     if silent:
         raise ViewError(f"no message came for {', '.join(silent)}; listen longer, or start its publisher")
-    from rosmini.viz.plots import plot
+    return _plotted(samples, begin, x="time [s]", title=title or "rqt_plot")
 
-    series = {name: ([time - begin for time in times], values) for name, (times, values) in samples.items()}
-    most = max(len(times) for times, _ in series.values())
-    return plot(series, x="time [s]", y="value", title=title or "rqt_plot", marks=most <= MANY)
+
+def _plotted(samples: Samples, zero: float, *, x: str, title: str) -> Picture:
+    """Plot samples over the time since ``zero``."""
+    lines = {name: ([time - zero for time in times], values) for name, (times, values) in samples.items()}
+    most = max(len(times) for times, _ in lines.values())
+    return plot(lines, x=x, y="value", title=title, marks=most <= MANY)
 
 
 def expanded(name: str) -> list[str]:
@@ -76,18 +79,10 @@ def expanded(name: str) -> list[str]:
 
 
 def _heard(graph: Any, names: list[str], duration: float) -> tuple[Samples, float]:
-    found = {name: find_topic(graph, name) for name in names}
-    series = {name: Series(name, topic.path) for name, topic in found.items()}
-
-    def subscribe(node: Any) -> None:
-        for one, topic in zip(series.values(), found.values(), strict=True):
-            node.subscriber(topic.topic, class_of(topic.type), hearer(one), numpy=False)
-
-    def hearer(one: Series) -> Callable[[Any], None]:
-        return lambda message: one.take(graph.now().to_sec(), message)
-
-    begin = listen(graph, "rqt_plot", duration, subscribe)
-    return {name: one.points() for name, one in series.items()}, begin
+    begin = graph.now().to_sec()
+    with Plot.alone(graph, *names, seconds=float("inf")) as panel:
+        pass_time(graph, duration)
+        return panel.samples(), begin
 
 
 def _read(bag: Any, names: Iterable[str]) -> tuple[Samples, float]:
@@ -102,6 +97,22 @@ def _read(bag: Any, names: Iterable[str]) -> tuple[Samples, float]:
             series.take(time.to_sec(), message)
         samples[name] = series.points()
     return samples, min((times[0] for times, _ in samples.values() if times), default=0.0)
+
+
+def find_topic(graph: Graph, name: str) -> Found:
+    """Return the topic that a name stands for, which may go on with fields.
+
+    Raises:
+        ViewError: there is no such topic or field, or its type is not known here; the message has the nearest.
+
+    """
+    full = name if name.startswith("/") else f"/{name}"
+    found = look_up(graph, full)
+    if found is None:
+        raise ViewError(f"there is nothing to hear at {full}; {what_next(graph, full)}")
+    if class_of(found.type) is None:
+        raise ViewError(f"messages on {found.topic} are {found.type}, which no package here defines")
+    return found
 
 
 class Series:
@@ -147,10 +158,6 @@ class Series:
         return self._times, self._values
 
 
-REDRAW_S = 1.0
-"""How often the lines are drawn again [s]."""
-
-
 class Plot(Panel):
     """Plot any numbers in messages, from now on.
 
@@ -175,7 +182,6 @@ class Plot(Panel):
         self._lines: dict[str, tuple[Series, Subscriber]] = {}
         self._field = "/odom/twist/twist/linear/x"
         self._paused = False
-        self._drawn: tuple[float, Drawing] | None = None
         for field in fields:
             self.add(field)
 
@@ -195,6 +201,10 @@ class Plot(Panel):
     def fields(self) -> tuple[str, ...]:
         """What is plotted."""
         return tuple(self._lines)
+
+    def samples(self) -> Samples:
+        """Return times and values of each field. Raises ``ViewError`` for a field that is not a number."""
+        return {name: series.points() for name, (series, _) in self._lines.items()}
 
     def add(self, field: str) -> None:
         """Plot a field, or several: ``/p/x:y``. Raises ``ViewError``."""
@@ -235,10 +245,7 @@ class Plot(Panel):
 
     def parts(self) -> Sequence[Part]:
         """What is plotted, and the lines."""
-        now = self.graph.now().to_sec()
-        fresh = self._drawn is not None and (self._paused or abs(now - self._drawn[0]) < REDRAW_S)
-        if self._drawn is None or not fresh:
-            self._drawn = (now, self._drawing(now))
+        lines = self._drawn[1] if self._paused and self._drawn else self._redrawn(self._drawing)
         remove = [Control(f"remove/{name}", f"Remove {name}", "button") for name in self._lines]
         return [
             bar(
@@ -249,7 +256,7 @@ class Plot(Panel):
                 Control("clear", "Clear", "button"),
             ),
             *([bar(*remove)] if remove else []),
-            self._drawn[1],
+            lines,
             *(
                 Words(f"{name}: {series.problem}", is_bad=True)
                 for name, (series, _) in self._lines.items()
@@ -257,15 +264,13 @@ class Plot(Panel):
             ),
         ]
 
-    def _drawing(self, now: float) -> Drawing:
-        points = {name: series.points() for name, (series, _) in self._lines.items() if not series.problem}
-        heard = {name: found for name, found in points.items() if found[0]}
+    def _drawing(self) -> Drawing:
+        now = self.graph.now().to_sec()
+        good = {name: series for name, (series, _) in self._lines.items() if not series.problem}
+        heard = {name: series.points() for name, series in good.items() if series.points()[0]}
         if not heard:
             return Drawing("<p>no number has come yet</p>", "no number has come yet")
-        lines = {name: ([time - now for time in times], values) for name, (times, values) in heard.items()}
-        most = max(len(times) for times, _ in lines.values())
-        drawn = plot(lines, x="time from now [s]", y="value", title=self.tool, marks=most <= MANY)
-        return Drawing(drawn.svg or "", drawn.text)
+        return drawn(_plotted(heard, now, x="time from now [s]", title=self.tool))
 
     def settings(self) -> dict[str, Any]:
         """What is plotted, by the real one's name."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import NamedTuple
 
+from .parts import Row, Rows
 from .plugin import plugins
 from .table import Table
 
@@ -46,4 +47,6 @@ def menu() -> tuple[Entry, ...]:
 
 def rqt_plugins() -> Table:
     """Show the table of plugins."""
-    return Table(("Group", "Plugin", "Package", "Here"), menu(), title="rqt's plugins", noun="plugin")
+    rows = tuple(Row(entry) for entry in menu())
+    part = Rows(("Group", "Plugin", "Package", "Here"), rows, "Plugins of rqt")
+    return Table(part, title="rqt's plugins", noun="plugin")

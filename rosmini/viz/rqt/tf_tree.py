@@ -1,4 +1,4 @@
-"""Panels that only show: the fields of types, the tree of frames, images."""
+"""`rqt_tf_tree`: the tree of frames (http://wiki.ros.org/rqt_tf_tree)."""
 
 from __future__ import annotations
 
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
     from .parts import Part
 
-REDRAW_S = 1.0
-"""How often a picture is drawn again [s]."""
-
 
 class TfTree(Panel):
     """The tree of frames, as it is now (http://wiki.ros.org/rqt_tf_tree)."""
@@ -32,7 +29,6 @@ class TfTree(Panel):
     def __init__(self, graph: Graph, *, name: str | None = None) -> None:
         super().__init__(graph, name=name)
         self._listener = TransformListener(self.node)
-        self._drawn: tuple[float, Picture] | None = None
 
     def view(self, title: str | None = None) -> Picture:
         """Return the tree as a picture."""
@@ -40,10 +36,7 @@ class TfTree(Panel):
 
     def parts(self) -> Sequence[Part]:
         """The tree, drawn again every second."""
-        now = self.graph.now().to_sec()
-        if self._drawn is None or abs(now - self._drawn[0]) >= REDRAW_S:
-            self._drawn = (now, self.view())
-        return [bar(Control("refresh", "Refresh", "button")), drawn(self._drawn[1])]
+        return [bar(Control("refresh", "Refresh", "button")), self._redrawn(lambda: drawn(self.view()))]
 
     def _operate(self, _key: Sequence[str], _value: Any) -> None:
         self._drawn = None

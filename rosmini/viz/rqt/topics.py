@@ -10,13 +10,12 @@ from rosmini.msgs.message import Message
 from rosmini.ros.introspection.fields import class_of
 from rosmini.ros.introspection.rates import Arrivals, Sizes
 from rosmini.ros.introspection.topics import types
-from rosmini.viz.rqt.listening import listen
-from rosmini.viz.rqt.table import Table
 from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
 
-from .panel import Panel, each_of
-from .parts import Control, Row, Rows
+from .panel import Panel, each_of, pass_time
+from .parts import Control, Row, Rows, without_controls
+from .table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
@@ -29,12 +28,12 @@ if TYPE_CHECKING:
 
     from .parts import Part
 
-COLUMNS = ("Topic", "Type", "Bandwidth", "Hz", "Value")
 LONGEST = 60
 """How many characters of a value are shown."""
 MOST_ELEMENTS = 5
 """How many elements of an array of messages are shown."""
-WINDOW = 10_000
+WINDOW, LONG_WINDOW = 100, 10_000
+"""Number of messages that rate and bandwidth are computed from, of a panel and of a still."""
 
 
 def rqt_topic(
@@ -53,26 +52,9 @@ def rqt_topic(
 
     """
     known = known_topics(graph)
-    heard = {name: Heard() for name in known}
-
-    def subscribe(node: Any) -> None:
-        for name, kind in known.items():
-            node.subscriber(name, class_of(kind), hearer(heard[name]), numpy=False)
-
-    def hearer(one: Heard) -> Any:
-        return lambda message: one.hear(graph.now().to_nsec(), message)
-
-    end = listen(graph, "rqt_topic", duration, subscribe) + duration
-    rows: list[tuple[str, ...]] = []
-    for name, kind in known.items():
-        one = heard[name]
-        rows.append((name, kind, *one.figures(end), "not heard" if one.last is None else ""))
-        if name in expand and one.last is not None:
-            rows += [
-                ("  " * depth + field, kind, "", "", value)
-                for depth, field, kind, value in fields_of(one.last)
-            ]
-    return Table(COLUMNS, rows, title=title, noun="topic")
+    with TopicMonitor.alone(graph, *known, window=LONG_WINDOW) as monitor:
+        pass_time(graph, duration)
+        return Table(without_controls(monitor.table(expand)), title=title, noun="topic")
 
 
 def known_topics(graph: Graph) -> dict[str, str]:
@@ -83,7 +65,7 @@ def known_topics(graph: Graph) -> dict[str, str]:
 class Heard:
     """What came on a topic: how often, how much, the last of it. ``window`` is the number of messages that count."""
 
-    def __init__(self, window: int = WINDOW) -> None:
+    def __init__(self, window: int) -> None:
         self.last: Any = None
         self._sizes = Sizes(window)
         self._arrivals = Arrivals(window)
@@ -138,8 +120,6 @@ def value_text(value: Any) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
 
 
-WINDOW = 100
-"""How many messages rate and bandwidth are of."""
 FIGURES_S = 1.0
 """How often rates and bandwidths are worked out [s]."""
 
@@ -164,8 +144,9 @@ class TopicMonitor(Panel):
     )
     usage, takes, example, listen_s = "[TOPIC...]", "topic", "/odom", 2.0
 
-    def __init__(self, graph: Graph, *topics: str, name: str | None = None) -> None:
+    def __init__(self, graph: Graph, *topics: str, name: str | None = None, window: int = WINDOW) -> None:
         super().__init__(graph, name=name)
+        self._window = window
         self._heard: dict[str, tuple[Heard, Subscriber]] = {}
         self._figures: dict[str, tuple[float, tuple[str, str]]] = {}
         for topic in topics:
@@ -195,7 +176,7 @@ class TopicMonitor(Panel):
                 f"there is no topic {topic!r:.80}; {nearest(topic, known) or '`rostopic list` lists all'}"
             )
         if topic not in self._heard:
-            one = Heard(WINDOW)
+            one = Heard(self._window)
             graph = self.graph
             subscriber = self.node.subscriber(
                 topic,
@@ -206,24 +187,24 @@ class TopicMonitor(Panel):
             self._heard[topic] = (one, subscriber)
 
     def parts(self) -> Sequence[Part]:
-        """A row for each topic, and below those that are heard one for each field."""
+        """The table."""
+        return [self.table(self._heard)]
+
+    def table(self, expand: Collection[str]) -> Rows:
+        """Return a row for each topic, and below those to ``expand`` a row for each field."""
         now = self.graph.now().to_sec()
         rows: list[Row] = []
         for topic, kind in known_topics(self.graph).items():
             tick = Control(f"hear/{topic}", f"hear {topic}", "check", topic in self._heard)
             one = self._heard[topic][0] if topic in self._heard else None
             figures = ("", "") if one is None else self._worked_out(topic, one, now)
-            rows.append(
-                Row((topic, tick, kind, *figures, "not heard yet" if one and one.last is None else ""))
-            )
-            if one is not None and one.last is not None:
+            rows.append(Row((topic, tick, kind, *figures, "not heard" if one and one.last is None else "")))
+            if one is not None and one.last is not None and topic in expand:
                 rows += [
                     Row((name, "", kind, "", "", value), depth)
                     for depth, name, kind, value in fields_of(one.last)
                 ]
-        return [
-            Rows(("Topic", "Hear", "Type", "Bandwidth", "Hz", "Value"), tuple(rows), "Topics", "no topics")
-        ]
+        return Rows(("Topic", "Hear", "Type", "Bandwidth", "Hz", "Value"), tuple(rows), "Topics", "no topics")
 
     def _worked_out(self, topic: str, one: Heard, now: float) -> tuple[str, str]:
         before = self._figures.get(topic)

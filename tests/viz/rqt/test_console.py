@@ -63,7 +63,7 @@ LOG = [
 )
 def test_filters(filters: dict[str, Any], shown: list[int]) -> None:
     table = rqt_console(LOG, **filters)
-    assert [message.msg for message in table.rows] == [LOG[number].msg for number in shown]
+    assert [message.msg for message in table.messages] == [LOG[number].msg for number in shown]
     assert len(table) == len(shown)
     for number, entry in enumerate(LOG):
         first = entry.msg.partition("\n")[0]
@@ -108,12 +108,17 @@ class Cells(HTMLParser):
         self.open: list[str] = []
         self.cells: list[tuple[str, str, str]] = []
         self.marked = 0
+        self.levels: list[str] = []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag == "wbr":  # it has no end
+            return
         self.open.append(tag)
         if tag in ("td", "th"):
             self.cells.append((tag, dict(attrs).get("class") or "", ""))
-        self.marked += tag == "tr" and dict(attrs).get("class") == "marked"
+        self.marked += tag == "tr" and "marked" in (dict(attrs).get("class") or "").split()
+        if tag == "tr":
+            self.levels.append(dict(attrs).get("class") or "")
 
     def handle_endtag(self, tag: str) -> None:
         assert self.open.pop() == tag
@@ -133,10 +138,9 @@ def test_the_html_is_a_table() -> None:
     assert [text for tag, _, text in page.cells if tag == "th"] == [
         "Stamp", "Severity", "Node", "Message", "Location",
     ]  # fmt: skip
-    assert [text for _, kind, text in page.cells if kind.startswith("message")] == [
-        entry.msg for entry in LOG
-    ]
-    assert ("td", "severity FATAL", "FATAL") in page.cells
+    assert [text for _, kind, text in page.cells if kind == "rq-message"] == [entry.msg for entry in LOG]
+    assert ("td", "rq-severity", "FATAL") in page.cells
+    assert page.levels[-1] == "FATAL"
     assert page.marked == 2
     assert "Figure &lt;1&gt; (5 messages)" in table.html
     assert "/home/user" not in table.html + table.text

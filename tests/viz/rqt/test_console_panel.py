@@ -58,7 +58,7 @@ def test_what_is_highlighted_is_marked(console, say):
     console.set("regex", True)
     console.set("highlight", "^t")
     assert [line[0] for line in console.text.splitlines() if "/talker" in line] == ["1", "*"]
-    assert 'class="marked"' in console.markup(live=True)
+    assert 'class="WARN marked"' in console.markup(live=True)
 
 
 def test_pause_and_clear(console, say):

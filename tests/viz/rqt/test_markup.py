@@ -19,7 +19,7 @@ ALL = (
             Control("go", "Go", "button"),
         )
     ),
-    Box(EVIL, (Rows((EVIL,), (Row((EVIL,), mark="marked"),), EVIL), Words(EVIL, is_bad=True))),
+    Box(EVIL, (Rows((EVIL,), (Row((EVIL,), is_marked=True),), EVIL), Words(EVIL, is_bad=True))),
     Drawing("<svg></svg>", "a picture", "pick"),
 )
 

@@ -2,36 +2,32 @@
 
 from __future__ import annotations
 
-import pytest
-
-from rosmini.viz import ViewError
+from rosmini.viz.rqt.parts import Row, Rows
 from rosmini.viz.rqt.table import Table
 
 
+def table(columns: tuple[str, ...], *rows: Row) -> Table:
+    return Table(Rows(columns, rows, "Things", "no thing"), title="things", noun="thing")
+
+
 def test_three_forms() -> None:
-    table = Table(("Name", "Value"), [("a", "<1>"), ("  b", "2"), ("long", "")], title="things", noun="thing")
-    assert table.text == "things: 2 things\n  Name  Value\n  a     <1>\n    b   2\n  long"
-    assert table.alt == "Table of things, 2 things; columns Name, Value. a, <1>; b, 2; long"
-    assert "<td>&lt;1&gt;</td>" in table.html
-    assert table.html.count("padding-left") == 1 + table.html.count(
-        "padding-left", 0, table.html.index("</style>")
-    )
-    assert 'scope="col"' in table.html
-    assert len(table) == 3
+    made = table(("Name", "Value"), Row(("a", "<1>")), Row(("b", "2"), depth=1), Row(("long", "")))
+    assert made.text == "things: 2 things\n  Name  Value\n  a     <1>\n    b   2\n  long"
+    assert made.alt == "Table of things, 2 things; columns Name, Value. a, <1>; b, 2; long"
+    rows = made.html.partition("</style>")[2]
+    assert "<td>&lt;1&gt;</td>" in rows
+    assert rows.count("padding-left") == 1
+    assert 'scope="col"' in rows
+    assert "things (2 things)" in rows
+    assert len(made) == 3
 
 
 def test_a_narrow_page_may_break_long_names() -> None:
-    table = Table(("Type",), [("sensor_msgs/Imu",)], title="types", noun="type")
-    assert "<td>sensor_<wbr>msgs/<wbr>Imu</td>" in table.html
-    assert "sensor_msgs/Imu" in table.text
+    made = table(("Type",), Row(("sensor_msgs/Imu",)))
+    assert "<td>sensor_<wbr>msgs/<wbr>Imu</td>" in made.html
+    assert "sensor_msgs/Imu" in made.text
 
 
 def test_a_table_without_rows_says_so() -> None:
-    table = Table(("Name",), [], title="things", noun="thing")
-    assert table.text == "things: 0 things"
-    assert "no thing" in table.html
-
-
-def test_a_row_of_another_length_is_refused() -> None:
-    with pytest.raises(ViewError, match="2 cells"):
-        Table(("a", "b"), [("1",)], title="t", noun="row")
+    assert table(("Name",)).text == "things: 0 things"
+    assert "no thing" in table(("Name",)).html

@@ -177,7 +177,7 @@ def test_a_terminal_names_the_command_that_does_the_same(
 
 
 def test_the_table_of_plugins_has_nine_groups_and_names_every_tool_that_is_here() -> None:
-    rows = TOOL.run("plugins").view.rows  # type: ignore[attr-defined]
+    rows = [row.cells for row in TOOL.run("plugins").view.part.rows]  # type: ignore[attr-defined]
     assert len({row[0] for row in rows}) == 9
     assert len(rows) == len({row[2] for row in rows})
     assert {row[3] for row in rows if row[3] in cli.COMMANDS} >= {
