@@ -16,6 +16,8 @@ from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.motion import Door, Walk
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, World
 
+from ...conftest import nightly
+
 OMNI = replace(BURGER, name="omni", drive="holonomic", linear_acceleration=0.8)
 TROLLEY = replace(BURGER, name="trolley", drive=None, mass=0.3)
 SECONDS = 3.0
@@ -165,7 +167,7 @@ def save(engine: Engine, rng: np.random.Generator) -> None:
 
 @pytest.mark.parametrize("look", [glance, save])
 @pytest.mark.parametrize("scenery", SCENES)
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, *nightly(1)])
 def test_who_looks_or_saves_changes_nothing(scenery, seed, look):
     assert run(scenery(), seed, look) == run(scenery(), seed)
 
@@ -181,7 +183,7 @@ def test_with_numba_and_without_everything_is_equal_to_the_last_bit(scenery, mon
     assert run(scenery(), 1) == expected
 
 
-@pytest.mark.parametrize("count", [1, 9])
+@pytest.mark.parametrize("count", [1, *nightly(9)])
 @pytest.mark.parametrize("scenery", SCENES)
 def test_robots_far_away_change_nothing(scenery, count):
     engine = scenery()

@@ -353,6 +353,7 @@ def test_thin_walls_are_written_as_boxes():
     assert after.bounds == pytest.approx((0, -0.01, 2.01, 1))
 
 
+@pytest.mark.nightly
 def test_a_world_of_100_000_sides_is_read():
     """In about 3 s; with work for each pair of sides it would be ended by pytest's time limit."""
     many = "".join(
