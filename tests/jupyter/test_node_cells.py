@@ -44,24 +44,24 @@ def test_what_a_node_prints_appears_in_the_cell_in_which_time_passes(new_kernel:
     assert new_kernel.ok("import rospy\nrospy.init_node('here')\nrospy.sleep(1)").stdout == "turn 3\n"
 
 
-def test_it_appears_in_a_terminal_cell_too(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore")
-    started = new_kernel.ok(f"%%node talker.py\n{TALKER}")
-    assert new_kernel.ok("%%terminal\nsleep 2").stdout == "$ sleep 2\nturn 1\nturn 2\n"
+def test_it_appears_in_a_terminal_cell_too(shared_kernel: Any) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore")
+    started = shared_kernel.ok(f"%%node talker.py\n{TALKER}")
+    assert shared_kernel.ok("%%terminal\nsleep 2").stdout == "$ sleep 2\nturn 1\nturn 2\n"
     assert started.stdout == "turn 0\n"
 
 
-def test_an_interrupt_ends_the_cell_and_the_nodes_go_on(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
-    new_kernel.ok(f"%%node talker.py\n{TALKER}")
-    waiting = new_kernel.send("rosmini.wait(10_000_000)")
-    new_kernel.until(lambda: "turn 10" in waiting.stdout, "some turns")
-    new_kernel.interrupt()
-    new_kernel.until(lambda: waiting.idle, "the end of the cell")
+def test_an_interrupt_ends_the_cell_and_the_nodes_go_on(shared_kernel: Any) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    shared_kernel.ok(f"%%node talker.py\n{TALKER}")
+    waiting = shared_kernel.send("rosmini.wait(10_000_000)")
+    shared_kernel.until(lambda: "turn 10" in waiting.stdout, "some turns")
+    shared_kernel.interrupt()
+    shared_kernel.until(lambda: waiting.idle, "the end of the cell")
     assert waiting.errors == ["KeyboardInterrupt"]
     assert "site-packages" not in waiting.tracebacks[0]
-    assert new_kernel.ok("rosmini.wait(1)").stdout.startswith("turn ")
-    assert new_kernel.ok("%rosnode list").stdout == "/rosout\n/talker\n"
+    assert shared_kernel.ok("rosmini.wait(1)").stdout.startswith("turn ")
+    assert shared_kernel.ok("%rosnode list").stdout == "/rosout\n/talker\n"
 
 
 def test_the_start_of_a_script_that_never_comes_back_can_be_interrupted(new_kernel: Any) -> None:
@@ -85,44 +85,44 @@ def ask(kernel: Any, code: str) -> Any:
     return kernel._cell(kernel.client.execute(code, allow_stdin=True))
 
 
-def test_the_reader_types_below_the_cell_in_which_time_passes(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
-    cell = ask(new_kernel, ASK)
-    request = new_kernel.client.get_stdin_msg(timeout=300)
+def test_the_reader_types_below_the_cell_in_which_time_passes(shared_kernel: Any) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    cell = ask(shared_kernel, ASK)
+    request = shared_kernel.client.get_stdin_msg(timeout=300)
     assert request["parent_header"]["msg_id"] == cell.id
-    new_kernel.client.input("Ada")
-    new_kernel.until(lambda: cell.idle, "the end of the cell")
+    shared_kernel.client.input("Ada")
+    shared_kernel.until(lambda: cell.idle, "the end of the cell")
     assert cell.stdout == "who? hello Ada\n"
     assert cell.errors == []
 
     # a question that comes later belongs to the later cell
-    new_kernel.ok("%%node later.py\nimport time\ntime.sleep(1)\nprint('hello', input('who? '))")
-    cell = ask(new_kernel, "rosmini.wait(2)")
-    request = new_kernel.client.get_stdin_msg(timeout=300)
+    shared_kernel.ok("%%node later.py\nimport time\ntime.sleep(1)\nprint('hello', input('who? '))")
+    cell = ask(shared_kernel, "rosmini.wait(2)")
+    request = shared_kernel.client.get_stdin_msg(timeout=300)
     assert request["parent_header"]["msg_id"] == cell.id
-    new_kernel.client.input("Bob")
-    new_kernel.until(lambda: cell.idle, "the end of the cell")
+    shared_kernel.client.input("Bob")
+    shared_kernel.until(lambda: cell.idle, "the end of the cell")
     assert cell.stdout == "who? hello Bob\n"
 
 
-def test_an_interrupt_while_the_reader_types_ends_the_cell(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
-    cell = ask(new_kernel, ASK)
-    new_kernel.client.get_stdin_msg(timeout=300)
-    new_kernel.interrupt()
-    new_kernel.until(lambda: cell.idle, "the end of the cell")
+def test_an_interrupt_while_the_reader_types_ends_the_cell(shared_kernel: Any) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    cell = ask(shared_kernel, ASK)
+    shared_kernel.client.get_stdin_msg(timeout=300)
+    shared_kernel.interrupt()
+    shared_kernel.until(lambda: cell.idle, "the end of the cell")
     assert cell.errors == ["KeyboardInterrupt"]
-    cell = ask(new_kernel, "rosmini.wait(1)")
-    new_kernel.client.get_stdin_msg(timeout=300)
-    new_kernel.client.input("Ada")
-    new_kernel.until(lambda: cell.idle, "the end of the cell")
+    cell = ask(shared_kernel, "rosmini.wait(1)")
+    shared_kernel.client.get_stdin_msg(timeout=300)
+    shared_kernel.client.input("Ada")
+    shared_kernel.until(lambda: cell.idle, "the end of the cell")
     assert "hello Ada" in cell.stdout
 
 
-def test_where_nobody_can_type_the_script_says_what_to_do(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore")
-    assert "add --stdin TEXT" in new_kernel.ok(ASK).stderr
-    assert new_kernel.ok(ASK.replace("ask.py", "ask.py --stdin Ada")).stdout == "who? hello Ada\n"
+def test_where_nobody_can_type_the_script_says_what_to_do(shared_kernel: Any) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore")
+    assert "add --stdin TEXT" in shared_kernel.ok(ASK).stderr
+    assert shared_kernel.ok(ASK.replace("ask.py", "ask.py --stdin Ada")).stdout == "who? hello Ada\n"
 
 
 def test_a_restart_while_nodes_run_leaves_no_folder(new_kernel: Any) -> None:
@@ -150,9 +150,9 @@ def test_a_script_that_forks_is_one_script_here(new_kernel: Any) -> None:
 def test_two_notebooks_have_nothing_in_common(new_kernel: Any, shared_kernel: Any) -> None:
     for kernel in (new_kernel, shared_kernel):
         kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
-    new_kernel.ok(f"%%node talker.py\n{TALKER}")
-    assert shared_kernel.ok("%rosnode list").stdout == "/rosout\n"
-    assert "no executable" in shared_kernel.run("%rosrun notebook talker.py").tracebacks[0]
+    shared_kernel.ok(f"%%node talker.py\n{TALKER}")
+    assert new_kernel.ok("%rosnode list").stdout == "/rosout\n"
+    assert "no executable" in new_kernel.run("%rosrun notebook talker.py").tracebacks[0]
     assert folder_of(new_kernel) != folder_of(shared_kernel)
 
 
@@ -170,39 +170,39 @@ rospy.spin()
 """
 
 
-def test_a_roscore_that_is_interrupted_begins_anew_nevertheless(new_kernel: Any, tmp_path: Path) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+def test_a_roscore_that_is_interrupted_begins_anew_nevertheless(shared_kernel: Any, tmp_path: Path) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     begun = tmp_path / "begun"
-    new_kernel.ok(f"%%node hangs.py\n{HANGS.format(begun=str(begun))}")
-    cell = new_kernel.send("%roscore")
-    new_kernel.until(begun.exists, "the hook of the old graph")
-    new_kernel.interrupt()  # no drive notes it: the hook is called by the cell itself
-    new_kernel.until(lambda: cell.idle, "the end of the cell")
-    assert new_kernel.ok("%rosnode list").stdout == "/rosout\n"
-    assert new_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
+    shared_kernel.ok(f"%%node hangs.py\n{HANGS.format(begun=str(begun))}")
+    cell = shared_kernel.send("%roscore")
+    shared_kernel.until(begun.exists, "the hook of the old graph")
+    shared_kernel.interrupt()  # no drive notes it: the hook is called by the cell itself
+    shared_kernel.until(lambda: cell.idle, "the end of the cell")
+    assert shared_kernel.ok("%rosnode list").stdout == "/rosout\n"
+    assert shared_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
 
 
-def test_a_subshell_lets_time_pass_and_starts_nothing(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
-    new_kernel.ok(f"%%node talker.py\n{TALKER}")
-    subshell = new_kernel.subshell()
+def test_a_subshell_lets_time_pass_and_starts_nothing(shared_kernel: Any) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    shared_kernel.ok(f"%%node talker.py\n{TALKER}")
+    subshell = shared_kernel.subshell()
     for code in ("%%node other.py\npass", "%roscore", "%rosrun notebook talker.py"):
-        refused = new_kernel.run(code, subshell=subshell)
+        refused = shared_kernel.run(code, subshell=subshell)
         assert "not in a subshell" in refused.tracebacks[0]
-    assert new_kernel.run("rosmini.wait(1)\n%rosnode list", subshell=subshell).errors == []
-    assert new_kernel.ok("%rosnode list").stdout == "/rosout\n/talker\n"
-    assert new_kernel.ok("rosmini.wait(1)").stdout == "turn 2\n"
+    assert shared_kernel.run("rosmini.wait(1)\n%rosnode list", subshell=subshell).errors == []
+    assert shared_kernel.ok("%rosnode list").stdout == "/rosout\n/talker\n"
+    assert shared_kernel.ok("rosmini.wait(1)").stdout == "turn 2\n"
 
 
-def test_words_of_rosrun_are_completed(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore\n")
-    new_kernel.ok(f"%%node talker.py\n{TALKER}")
+def test_words_of_rosrun_are_completed(shared_kernel: Any) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore\n")
+    shared_kernel.ok(f"%%node talker.py\n{TALKER}")
     for line, word in (
         ("%rosrun note", "notebook"),
         ("%rosrun notebook ta", "talker.py"),
         ("%rosrun rosmini_sim s", "simulator"),
     ):
-        reply = new_kernel.client.complete(line, len(line), reply=True, timeout=300)
+        reply = shared_kernel.client.complete(line, len(line), reply=True, timeout=300)
         assert word in reply["content"]["matches"], reply
 
 
@@ -246,11 +246,11 @@ def test_the_stored_form_is_the_same_in_every_run(tmp_path: Path, root: Path) ->
     assert f"{len(codes)} passed" in done.stdout
 
 
-def test_a_script_with_asyncio_is_told_why_it_cannot_run_here(new_kernel: Any) -> None:
-    new_kernel.ok("%load_ext rosmini\n%roscore")
+def test_a_script_with_asyncio_is_told_why_it_cannot_run_here(shared_kernel: Any) -> None:
+    shared_kernel.ok("%load_ext rosmini\n%roscore")
     cell = (
         "%%node a.py\nimport asyncio\nasync def main():\n    await asyncio.sleep(0.1)\nasyncio.run(main())\n"
     )
-    ended = new_kernel.ok(cell)
+    ended = shared_kernel.ok(cell)
     assert "RuntimeError: asyncio.run() cannot be called from a running event loop" in ended.stderr
     assert "a notebook's kernel runs an event loop of its own in this thread" in ended.stderr
