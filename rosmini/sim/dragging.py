@@ -39,10 +39,10 @@ def check_room(engine: Engine, thing: Obstacle, pose: Pose) -> None:
     fixtures = engine.contacts.ground.fixtures
     for shape, place in simple_parts(thing.shape, pose):
         if isinstance(shape, ROUND):
-            hindrance = fixtures.blocked(place, shape.radius, thing.height)
+            obstruction = fixtures.blocked(place, shape.radius, thing.height)
         else:
-            hindrance = fixtures.blocked((0.0, 0.0, 0.0), outline_at(shape, place), thing.height)
-        if hindrance is not None:
+            obstruction = fixtures.blocked((0.0, 0.0, 0.0), outline_at(shape, place), thing.height)
+        if obstruction is not None:
             x, y, theta = pose
             where = f"({x:.2f}, {y:.2f}) with heading {theta:.2f}"
-            raise WorldError(f"{thing.name!r} cannot be put to {where}: {hindrance} is in its way")
+            raise WorldError(f"{thing.name!r} cannot be put to {where}: {obstruction} is in its way")

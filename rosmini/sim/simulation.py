@@ -150,7 +150,7 @@ class Simulation(ABC):
     def _truth(self, name: str) -> Pose:
         entity, engine = self._entity(name), self.engine
         if entity in engine.robots:
-            return engine.peek(entity, self.host.engine_now)
+            return engine.predict_pose(entity, self.host.engine_now)
         self.host.catch_up()
         return engine.pose(entity)
 

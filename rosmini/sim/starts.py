@@ -138,7 +138,7 @@ def add(engine: Engine, start: Start) -> Robot:
         raise RosminiError(msg)
     if start.pose is None and start.name not in engine.robots:
         for pose in chain(engine.world.starts, _around(engine.world, 2 * model.reach + GAP)):
-            if engine.hindrance(model, pose) is None:
+            if engine.obstruction(model, pose) is None:
                 return engine.add(start.name, model, pose)
     outside = None if start.pose is None else engine.world.outside(start.pose)
     if outside and start.name not in engine.robots:

@@ -315,7 +315,7 @@ def test_a_walker_cannot_be_put_but_taken_away_and_inserted():
     engine.advance(2.0)
     with pytest.raises(WorldError, match="'walker' moves by itself: take it away"):
         engine.put("walker", (5.0, 5.0, 0.0))
-    engine.take_away("walker")
+    engine.remove_obstacle("walker")
     assert engine.movers == {}
     engine.insert(WALKER)
     engine.advance(4.0)

@@ -150,7 +150,7 @@ def test_a_wheel_that_has_turned_is_drawn_turned(server):
     server.engine.command("tb3", 0.1, 0.0)
     server.engine.advance(server.engine.now + 0.6)
     after = server.show3d().scene.transform("models/tb3/wheel_left_link")
-    turned = robot.left_way / 0.033
+    turned = robot.left_distance / 0.033
     assert turned > 1
     assert (np.trace(before[:3, :3].T @ after[:3, :3]) - 1) / 2 == pytest.approx(math.cos(turned), abs=1e-6)
 

@@ -98,7 +98,7 @@ def _slide(mu: float, gravity: float) -> Callable[[float], float]:
         text = f'<sdf version="1.6"><model name="m"><link name="l"><pose>0 0 0.2 0 0 0</pose>{box}</link></model></sdf>'
         with Graph() as graph:
             server = _server(graph)
-            server.engine.tune(gravity=gravity)
+            server.engine.set_surface(gravity=gravity)
             model = spawn_text(server.world, text, "m", (0.0,) * 6)
             model.set_velocity((speed, 0.0, 0.0))
             graph.run(abs(speed) / (mu * gravity) + 1.0)

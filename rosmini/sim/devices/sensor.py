@@ -56,7 +56,7 @@ class Sensor(Device):
     ...     varying = ("data",)
     ...
     ...     def sample(self, number):
-    ...         return [abs(self.robot.left_way + self.robot.right_way) / 2]
+    ...         return [abs(self.robot.left_distance + self.robot.right_distance) / 2]
 
     Args:
         host: the simulated world.

@@ -19,7 +19,7 @@ from rosmini.sim.shapes import ROUND, Compound, Shape, outline_at, reach_of, sim
 from rosmini.sim.world import Obstacle
 
 from .instant import SECOND, STEP_NS, Instant, Placed, between_poses
-from .kernels import CRATE, LEAF, ROBOT
+from .kernels import CRATE, KINEMATIC, ROBOT
 
 Floats = NDArray[np.float64]
 Velocity = tuple[float, float, float]
@@ -74,7 +74,7 @@ class Mass(NamedTuple):
     y: float = 0.0
 
 
-def spread(pieces: Sequence[Piece], mass: float) -> Mass:
+def mass_of_pieces(pieces: Sequence[Piece], mass: float) -> Mass:
     """Return the moment of inertia and centre of a mass spread evenly over convex pieces."""
     parts = []  # for each piece: its area, its centre, and the second moment of the area about the centre
     for corners, radius in pieces:
@@ -158,12 +158,12 @@ class Body:
     reach: float
     """Distance of the farthest point from its origin [m]."""
     restitution: float = 0.0
-    rubs: tuple[float | None, float, float] = (None, 0.0, 0.0)
+    ground_friction: tuple[float | None, float, float] = (None, 0.0, 0.0)
     """Ground friction coefficient (None: the surface's), the load on it [kg], and the lever arm [m]."""
     around: Any = field(default=None, repr=False)
     """The fixed outlines near it; used by `rosmini.sim.engine.contacts`."""
 
-    def words(self) -> str:
+    def description(self) -> str:
         """Return a description that fits into a sentence."""
         return f"the {'robot' if self.kind == ROBOT else 'obstacle'} {self.name!r}"
 
@@ -182,7 +182,7 @@ class Body:
     def row(self, surface: Surface) -> tuple[float, ...]:
         """Return its properties in the order of `rosmini.sim.engine.kernels`."""
         x, y, girth = self._circle
-        drag, load, lever = self.rubs
+        drag, load, lever = self.ground_friction
         default = surface.grip if self.kind == ROBOT else surface.drag
         hold = (default if drag is None else drag) * load * surface.gravity
         mass = self.mass
@@ -192,37 +192,44 @@ class Body:
         )  # fmt: skip
 
 
-def body_of_robot(name: str, model: RobotModel, owner: Placed) -> Body:
+def robot_body(name: str, model: RobotModel, owner: Placed) -> Body:
     """Return the body of a robot with a drive."""
     lever = model.wheel_separation / 2 if model.drive == "differential" else model.reach / 2
     pieces = [Piece(np.array(model.footprint, dtype=float), 0.0)]
     mass = Mass(model.mass, model.inertia)
-    rubs = (None, model.mass, lever)
-    return Body(name, ROBOT, owner, pieces, 0.0, model.height, mass, model.reach, 0.0, rubs)
+    ground_friction = (None, model.mass, lever)
+    return Body(name, ROBOT, owner, pieces, 0.0, model.height, mass, model.reach, 0.0, ground_friction)
 
 
-def body_of_crate(crate: Crate) -> Body:
+def crate_body(crate: Crate) -> Body:
     """Return the body of an obstacle that can be pushed or put elsewhere."""
     obstacle = crate.obstacle
     if obstacle.mass is None:
-        return body_of_leaf(obstacle, crate)
+        return kinematic_body(obstacle, crate)
     pieces = pieces_of(obstacle.shape)
-    mass = spread(pieces, obstacle.mass)
+    mass = mass_of_pieces(pieces, obstacle.mass)
     # friction spread evenly over a disc of this area has a lever of two thirds of its radius
     size = sum(math.pi * p.radius**2 if len(p.corners) == 1 else area(p.corners) for p in pieces)
     radius = math.sqrt(size / math.pi)
     if isinstance(obstacle.shape, Compound):  # use the disc with the same moment of inertia, m r^2 / 2
         radius = math.sqrt(2 * mass.inertia / mass.mass)
-    rubs = (obstacle.drag, obstacle.mass, 2 / 3 * radius)
+    ground_friction = (obstacle.drag, obstacle.mass, 2 / 3 * radius)
     return Body(
         *(obstacle.name, CRATE, crate, pieces, obstacle.bottom, obstacle.height),
-        *(mass, crate.reach, obstacle.restitution, rubs),
+        *(mass, crate.reach, obstacle.restitution, ground_friction),
     )  # fmt: skip
 
 
-def body_of_leaf(obstacle: Obstacle, owner: Placed) -> Body:
+def kinematic_body(obstacle: Obstacle, owner: Placed) -> Body:
     """Return the body of an obstacle that cannot be pushed but is not fixed."""
     reach, mass = reach_of(obstacle.shape), Mass(1.0, 1.0)
     return Body(
-        obstacle.name, LEAF, owner, pieces_of(obstacle.shape), obstacle.bottom, obstacle.height, mass, reach
+        obstacle.name,
+        KINEMATIC,
+        owner,
+        pieces_of(obstacle.shape),
+        obstacle.bottom,
+        obstacle.height,
+        mass,
+        reach,
     )

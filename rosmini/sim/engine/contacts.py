@@ -18,26 +18,26 @@ from .bodies import (
     Crate,
     Piece,
     Surface,
-    body_of_crate,
-    body_of_leaf,
-    body_of_robot,
+    crate_body,
+    kinematic_body,
     pieces_of,
+    robot_body,
 )
 from .ground import Cells, Ground
 from .instant import Instant
-from .kernels import REST, ROBOT, SLACK
+from .kernels import PUSH_DEPTH, REST_SPEED, ROBOT
 from .movers import Mover
 from .outlines import Contact, contact
 from .robot import Robot
 from .scene import Loops, Near, contact_points
 
-OVERLAP = 1e-4
+PLACEMENT_OVERLAP = 1e-4
 """Overlap [m] that is ignored when a robot is placed, because of rounding."""
 
-FEEL = 1e-4
+TOUCH_DISTANCE = 1e-4
 """Maximum distance at which two bodies touch [m]."""
 
-NEARER = 1e-6
+ROUNDING = 1e-6
 """Approach [m] that counts as rounding: a body passing at a constant distance comes no nearer than this."""
 
 
@@ -77,20 +77,20 @@ class Contacts:
 
     def add_robot(self, robot: Robot) -> None:
         """Add the body of a robot with a drive."""
-        self._roaming[robot.name] = self.bodies[robot.name] = body_of_robot(robot.name, robot.model, robot)
+        self._roaming[robot.name] = self.bodies[robot.name] = robot_body(robot.name, robot.model, robot)
 
     def add_mover(self, mover: Mover) -> None:
         """Add the body of an obstacle that moves by itself."""
         name = mover.obstacle.name
-        self._roaming[name] = self.bodies[name] = body_of_leaf(mover.obstacle, mover)
+        self._roaming[name] = self.bodies[name] = kinematic_body(mover.obstacle, mover)
 
     def add_crate(self, crate: Crate) -> None:
         """Add the body of an obstacle that can be pushed or put elsewhere."""
         name = crate.obstacle.name
-        self.loose[name], self.bodies[name] = crate, body_of_crate(crate)
-        self.settle(crate)
+        self.loose[name], self.bodies[name] = crate, crate_body(crate)
+        self.update_cells(crate)
 
-    def settle(self, crate: Crate) -> None:
+    def update_cells(self, crate: Crate) -> None:
         """Update the cells with the pose of an obstacle now or at the end of this step."""
         (x, y, _), r = crate.pose, crate.reach + 0.1
         self._cells.put(crate.obstacle.name, (x - r, y - r, x + r, y + r))
@@ -129,7 +129,7 @@ class Contacts:
         px, py, _ = body.owner.pose
         return (body,) if math.hypot(px - x, py - y) <= reach + body.reach else ()
 
-    def around(self, bodies: Iterable[Body], reach: float) -> list[Body]:
+    def neighbours(self, bodies: Iterable[Body], reach: float) -> list[Body]:
         """Return the bodies whose circles are within `reach` [m] of the circle of any of the given bodies."""
         places = [(*body.owner.pose[:2], body.reach) for body in bodies]
         found: dict[Body, None] = {}
@@ -155,12 +155,12 @@ class Contacts:
 
     # -- overlaps ------------------------------------------------------------------------------------------------
 
-    def hindrance(self, model: RobotModel, pose: Pose, ignoring: str = "") -> str | None:
+    def obstruction(self, model: RobotModel, pose: Pose, ignoring: str = "") -> str | None:
         """Describe a body that a robot of this model would overlap at `pose`; None if there is room."""
         pieces = [Piece(np.array(model.footprint, dtype=float), 0.0)]
         return next(self._in_the_way(pieces, pose, ignoring, 0.0, model.height, model.reach), None)
 
-    def hindrance_of(self, obstacle: Obstacle, pose: Pose) -> str | None:
+    def obstruction_of(self, obstacle: Obstacle, pose: Pose) -> str | None:
         """Describe a body, not fixed, that an obstacle would overlap at `pose`; None if there is room."""
         pieces, reach = pieces_of(obstacle.shape), self.reach_of(obstacle)
         bottom, top = obstacle.bottom, obstacle.height
@@ -179,10 +179,10 @@ class Contacts:
         for body in self.near(x, y, reach):
             if body.name != ignoring and body.meets(bottom, top):
                 there = body.owner.pose
-                if _overlap([_at(piece, there) for piece in body.pieces], placed) > OVERLAP:
-                    yield body.words()
+                if _overlap([_at(piece, there) for piece in body.pieces], placed) > PLACEMENT_OVERLAP:
+                    yield body.description()
 
-    def stuck(self, name: str, pose: Pose, keep: float) -> bool:
+    def is_blocked(self, name: str, pose: Pose, keep: float) -> bool:
         """Return True if a mover at `pose` would be nearer to a body that is not fixed than now and than `keep`."""
         body = self.bodies[name]
         now, then = body.owner.pose, pose
@@ -192,7 +192,7 @@ class Contacts:
                 placed = [_at(piece, there) for piece in other.pieces]
                 for piece in body.pieces:
                     deep = _overlap([_at(piece, then)], placed, keep)
-                    if deep > 10 * SLACK and deep > _overlap([_at(piece, now)], placed, keep) + NEARER:
+                    if deep > 10 * PUSH_DEPTH and deep > _overlap([_at(piece, now)], placed, keep) + ROUNDING:
                         return True
         return False
 
@@ -206,17 +206,17 @@ class Contacts:
         x, y, _ = pose
         others: list[tuple[str, list[Piece], Body | None]] = [
             (each.name, [each.piece], None)
-            for each in self.ground.near(x, y, body.reach + FEEL)
+            for each in self.ground.near(x, y, body.reach + TOUCH_DISTANCE)
             if body.meets(each.bottom, each.top)
         ]
         others += [
             (each.name, [_at(piece, each.owner.pose) for piece in each.pieces], each)
-            for each in self.near(x, y, body.reach + FEEL)
+            for each in self.near(x, y, body.reach + TOUCH_DISTANCE)
             if each is not body and each.meets(body.bottom, body.top)
         ]
         found = []
         for other, pieces, mate in others:
-            hits = [hit for a in placed for b in pieces if (hit := _contact(a, b, -FEEL))[0]]
+            hits = [hit for a in placed for b in pieces if (hit := _contact(a, b, -TOUCH_DISTANCE))[0]]
             points = sum(hit[0] for hit in hits)
             for hit in hits:
                 nx, ny = -hit[1], -hit[2]
@@ -235,7 +235,7 @@ class Contacts:
             return 0.0
         return sum(force for one, two, force in forces if {one, two} == {body.name, other})
 
-    def tune(self, surface: Surface) -> None:
+    def set_surface(self, surface: Surface) -> None:
         """Use other friction coefficients and gravity from now on."""
         self.surface = surface
 
@@ -250,7 +250,7 @@ def _pressed(body: Body, nx: float, ny: float, surface: Surface) -> float:
         return 0.0
     sx, sy = body.owner.slip
     speed = math.hypot(sx, sy)
-    if speed < REST:
+    if speed < REST_SPEED:
         return 0.0
     grip = surface.grip * body.owner.model.mass * surface.gravity
     return max(0.0, -(sx * nx + sy * ny) / speed * grip)
@@ -265,7 +265,7 @@ def _contact(a: Piece, b: Piece, least: float) -> Contact:
 
 
 def _overlap(one: list[Piece], other: list[Piece], around: float = 0.0) -> float:
-    """Return the deepest overlap of two sets of pieces [m], the first grown by `around`; 0 without an overlap."""
+    """Return the deepest overlap of two sets of pieces [m], the first grown by `neighbours`; 0 without an overlap."""
     hits = (_contact(a, b, -around) for a in one for b in other)
     deep = (max(hit[3], hit[6]) if hit[0] == 2 else hit[3] for hit in hits if hit[0])
     return max((each + around for each in deep), default=0.0)

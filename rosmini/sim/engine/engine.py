@@ -47,7 +47,7 @@ from .sweep import Sweeps
 
 Floats = NDArray[np.float64]
 
-PLAY = 0.999
+FOOTPRINT_SCALE = 0.999
 """Factor by which a footprint shrinks when searching for a free place: 0.1 mm on each side of a Burger."""
 
 __all__ = ["STEP", "Engine", "EngineState", "RobotGone"]
@@ -69,29 +69,29 @@ class Engine:
     ) -> None:
         self.noise = noise
         self._rng = rng
-        self._all = Population()
-        self.robots = self._all.robots
+        self._population = Population()
+        self.robots = self._population.robots
         """All robots, by name."""
-        self.movers = self._all.movers
+        self.movers = self._population.movers
         """Obstacles that move by themselves."""
-        self.contacts = self._all.contacts
+        self.contacts = self._population.contacts
         """The bodies of all robots and obstacles."""
-        self.trails = self._all.trails
+        self.trails = self._population.trails
         """Recent poses of all bodies."""
-        self._stepper = Stepper(self._all)
-        self._begin(world)
-        self._sweeps = Sweeps(self._all, self.scan)
+        self._stepper = Stepper(self._population)
+        self._load_world(world)
+        self._sweeps = Sweeps(self._population, self.scan)
         for obstacle in world.obstacles:
             if not obstacle.fixed:
-                self._all.take_in(obstacle)
+                self._population.add_obstacle_body(obstacle)
         self._stepper.invalidate_clearance()
 
-    def _begin(self, world: World) -> None:
+    def _load_world(self, world: World) -> None:
         """Load a world with only its fixed obstacles."""
         self._world: World | None = world
-        self._plain = world
+        self._initial_world = world
         self._obstacles = {obstacle.name: obstacle for obstacle in world.obstacles}
-        self._all.laser_view = LaserView(world)
+        self._population.laser_view = LaserView(world)
         self.contacts.ground = Ground(world)
         for obstacle in world.obstacles:
             if obstacle.fixed:
@@ -101,23 +101,23 @@ class Engine:
     def world(self) -> World:
         """The world with all obstacles that are in it now."""
         if self._world is None:
-            self._world = self._plain.with_just(self._obstacles.values())
+            self._world = self._initial_world.with_just(self._obstacles.values())
         return self._world
 
     @property
     def now(self) -> float:
         """The time [s] since the engine was created."""
-        return self._all.now
+        return self._population.now
 
     @property
     def laser_view(self) -> LaserView:
         """The cross-sections that lasers see."""
-        return self._all.laser_view
+        return self._population.laser_view
 
     @property
     def changed(self) -> int:
         """Number of times a body was added, removed or put elsewhere."""
-        return self._all.changed
+        return self._population.changed
 
     # -- robots --------------------------------------------------------------------------------------------------
 
@@ -127,25 +127,25 @@ class Engine:
         Raises `WorldError`, which names the obstacle in the way, and `RosminiError` if the name is taken.
         """
         self._check_name(name)
-        where = self._start(model) if pose is None else self._free(model, pose)
-        return self._enter(name, model, where)
+        where = self._start(model) if pose is None else self._free_pose(model, pose)
+        return self._add_robot(name, model, where)
 
-    def _enter(self, name: str, model: RobotModel, pose: Pose) -> Robot:
-        new = self._made(name, model, pose)
-        self._all.note(new)
-        self._changed(pose, model.reach)
+    def _add_robot(self, name: str, model: RobotModel, pose: Pose) -> Robot:
+        new = self._make_robot(name, model, pose)
+        self._population.record_leg(new)
+        self._invalidate_near(pose, model.reach)
         return new
 
-    def _made(self, name: str, model: RobotModel, pose: Pose) -> Robot:
+    def _make_robot(self, name: str, model: RobotModel, pose: Pose) -> Robot:
         wheels = RealWheels(model, self._rng(f"{name}/wheels"), self.noise)
-        new = self.robots[name] = make_robot(name, model, pose, wheels, self._all.instant)
-        self._all.embody(new)
+        new = self.robots[name] = make_robot(name, model, pose, wheels, self._population.instant)
+        self._population.add_robot_body(new)
         return new
 
-    def _changed(self, pose: Pose, reach: float) -> None:
+    def _invalidate_near(self, pose: Pose, reach: float) -> None:
         """Invalidate the clearances near a body that was added, removed or put elsewhere."""
-        self._all.changed += 1
-        self._stepper.lift(self.contacts.near(pose[0], pose[1], reach + VIEW))
+        self._population.changed += 1
+        self._stepper.reset_clearances(self.contacts.near(pose[0], pose[1], reach + VIEW))
 
     def _check_name(self, name: str) -> None:
         if name in self.robots:
@@ -166,7 +166,7 @@ class Engine:
         self.trails.forget(name)
         self.contacts.remove(name)
         self.laser_view.forget_viewer(name)
-        self._changed(gone.pose, gone.model.reach)
+        self._invalidate_near(gone.pose, gone.model.reach)
 
     def robot(self, name: str) -> Robot:
         """Return the robot of this name. Raises `RobotGone`, with the names of the existing robots."""
@@ -198,37 +198,37 @@ class Engine:
             self._put_obstacle(self.obstacle(name), pose, velocity)
         else:
             lifted = self.robots[name]
-            where = self._free(lifted.model, pose, name)
+            where = self._free_pose(lifted.model, pose, name)
             vx, vy, w = velocity
             c, s = math.cos(pose[2]), math.sin(pose[2])
             lifted.launch(where, (c * vx + s * vy, c * vy - s * vx, w))
             self.trails.forget(name)
-            self._all.note(lifted)
+            self._population.record_leg(lifted)
             if name in self.contacts.loose:
                 self._put_loose(name, where, velocity)
-            self._changed(where, lifted.model.reach)
+            self._invalidate_near(where, lifted.model.reach)
 
     def _put_loose(self, name: str, pose: Pose, velocity: Velocity = AT_REST) -> None:
         crate = self.contacts.loose[name]
         crate.put(pose, velocity if crate.obstacle.movable else AT_REST)
-        self.contacts.settle(crate)
+        self.contacts.update_cells(crate)
 
     def _put_obstacle(self, obstacle: Obstacle, pose: Pose, velocity: Velocity) -> None:
         if obstacle.motion is not None:
             msg = f"the obstacle {obstacle.name!r} moves by itself: take it away and insert another instead"
             raise WorldError(msg)
-        hindrance = self._hindrance_of(replace(obstacle, pose=pose))
-        if hindrance is not None:
+        obstruction = self._obstruction_of(replace(obstacle, pose=pose))
+        if obstruction is not None:
             x, y, theta = pose
             where = f"({x:.2f}, {y:.2f}) with heading {theta:.2f}"
-            msg = f"the obstacle {obstacle.name!r} cannot be placed at {where}: {hindrance} is in its way"
+            msg = f"the obstacle {obstacle.name!r} cannot be placed at {where}: {obstruction} is in its way"
             raise WorldError(msg)
         if obstacle.movable:
             self.trails.forget(obstacle.name)
             self._put_loose(obstacle.name, pose, velocity)
-            self._changed(pose, self.contacts.loose[obstacle.name].reach)
+            self._invalidate_near(pose, self.contacts.loose[obstacle.name].reach)
         else:
-            self.take_away(obstacle.name)
+            self.remove_obstacle(obstacle.name)
             self._insert(replace(obstacle, pose=pose))
 
     def reset(self) -> None:
@@ -240,10 +240,10 @@ class Engine:
             mover.start()
         for each in self.robots.values():
             each.stop(each.start)
-        for moving in self._all.moving:
-            self._all.note(moving)
-        self._all.changed += 1
-        self._stepper.forget()
+        for moving in self._population.moving:
+            self._population.record_leg(moving)
+        self._population.changed += 1
+        self._stepper.discard_clearances()
 
     def command(self, name: str, v: float, w: float, timeout: float = 0.0, *, vy: float = 0.0) -> None:
         """Command a robot's wheels: v [m/s] ahead, w [rad/s] to the left, vy [m/s] to its left side, within its limits.
@@ -257,29 +257,29 @@ class Engine:
             msg = f"the robot {name!r} cannot go {v} m/s{aside} and {w} rad/s: both have to be finite"
             raise RosminiError(msg)
         told.command(v, vy, w)
-        told.expires_ns = self._all.instant.ns + to_ns(timeout) if timeout else math.inf
+        told.expires_ns = self._population.instant.ns + to_ns(timeout) if timeout else math.inf
         self._stepper.commanded(told)
 
-    def _free(self, model: RobotModel, pose: Pose, name: str = "") -> Pose:
-        def hindrance(at: Pose) -> str | None:
-            return self.hindrance(model, at, name)
+    def _free_pose(self, model: RobotModel, pose: Pose, name: str = "") -> Pose:
+        def obstruction(at: Pose) -> str | None:
+            return self.obstruction(model, at, name)
 
         return free_pose(
-            self.world, model, pose, hindrance, lambda at: self.contacts.hindrance(model, at, name)
+            self.world, model, pose, obstruction, lambda at: self.contacts.obstruction(model, at, name)
         )
 
-    def hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
+    def obstruction(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
         """Describe the object that occupies `pose`; None if a robot has room there."""
         corners = np.array(model.footprint)
         middle = corners.mean(axis=0)
-        within = middle + (corners - middle) * PLAY  # a robot may be placed where it only touches
+        within = middle + (corners - middle) * FOOTPRINT_SCALE  # a robot may be placed where it only touches
         fixtures = self.contacts.ground.fixtures
-        return fixtures.blocked(pose, within, model.height) or self.contacts.hindrance(model, pose, name)
+        return fixtures.blocked(pose, within, model.height) or self.contacts.obstruction(model, pose, name)
 
     def _start(self, model: RobotModel) -> Pose:
         starts = self.world.starts
-        free = (start for start in starts if self.hindrance(model, start) is None)
-        return next(free, None) or self._free(model, starts[0])
+        free = (start for start in starts if self.obstruction(model, start) is None)
+        return next(free, None) or self._free_pose(model, starts[0])
 
     # -- things --------------------------------------------------------------------------------------------------
 
@@ -290,24 +290,24 @@ class Engine:
         way.
         """
         self._check_name(obstacle.name)
-        hindrance = self._hindrance_of(obstacle)
-        if hindrance is not None:
+        obstruction = self._obstruction_of(obstacle)
+        if obstruction is not None:
             where = "({:.2f}, {:.2f})".format(*obstacle.pose)
             raise WorldError(
-                f"the obstacle {obstacle.name!r} cannot be put to {where}: {hindrance} is in its way"
+                f"the obstacle {obstacle.name!r} cannot be put to {where}: {obstruction} is in its way"
             )
         self._insert(obstacle)
 
-    def _hindrance_of(self, obstacle: Obstacle) -> str | None:
-        return None if obstacle.passable else self.contacts.hindrance_of(obstacle, obstacle.at(0.0))
+    def _obstruction_of(self, obstacle: Obstacle) -> str | None:
+        return None if obstacle.passable else self.contacts.obstruction_of(obstacle, obstacle.at(0.0))
 
     def _insert(self, obstacle: Obstacle) -> None:
         self._obstacles[obstacle.name] = obstacle
         self._world = None
-        self._all.take_in(obstacle)
-        self._changed(obstacle.pose, self.contacts.reach_of(obstacle))
+        self._population.add_obstacle_body(obstacle)
+        self._invalidate_near(obstacle.pose, self.contacts.reach_of(obstacle))
 
-    def take_away(self, name: str) -> None:
+    def remove_obstacle(self, name: str) -> None:
         """Remove an obstacle at run time. Raises `RobotGone` for an unknown name."""
         gone, pose = self.obstacle(name), self.pose(name)
         del self._obstacles[name]
@@ -316,12 +316,12 @@ class Engine:
         self.contacts.remove(name)
         self.movers.pop(name, None)
         self.laser_view.remove(name)
-        self._changed(pose, self.contacts.reach_of(gone))
+        self._invalidate_near(pose, self.contacts.reach_of(gone))
 
     def obstacle(self, name: str) -> Obstacle:
         """Return the obstacle of this name as it was inserted. Raises `RobotGone`."""
         if name not in self._obstacles:
-            hint, world = nearest(name, [*self._obstacles, *self.robots]), self._plain.name
+            hint, world = nearest(name, [*self._obstacles, *self.robots]), self._initial_world.name
             msg = (
                 f"there is nothing {name!r} in the world {world!r} that could be moved or taken away. {hint}"
             )
@@ -373,7 +373,7 @@ class Engine:
         """Friction coefficients and gravity."""
         return self.contacts.surface
 
-    def tune(self, **changes: float) -> None:
+    def set_surface(self, **changes: float) -> None:
         """Change friction coefficients or gravity: see `rosmini.sim.engine.bodies.Surface`.
 
         Raises `WorldError`.
@@ -381,28 +381,28 @@ class Engine:
         for what, value in changes.items():
             if not (math.isfinite(value) and value >= 0):
                 raise WorldError(f"{what} cannot be {value}; it has to be a finite number, 0 or more")
-        self.contacts.tune(replace(self.contacts.surface, **changes))
+        self.contacts.set_surface(replace(self.contacts.surface, **changes))
 
     # -- time ----------------------------------------------------------------------------------------------------
 
     def advance(self, until: float) -> None:
         """Advance time to `until` [s]; a time in the past has no effect."""
         ns = to_ns(until)
-        if ns >= self._all.instant.ns:
+        if ns >= self._population.instant.ns:
             self._stepper.advance(ns)
-            self._all.instant.seconds = max(self.now, until)
+            self._population.instant.seconds = max(self.now, until)
 
-    def peek(self, name: str, when: float) -> Pose:
+    def predict_pose(self, name: str, when: float) -> Pose:
         """Return a robot's pose at a time in the near future, without advancing time.
 
         If something may be in its way by then, the answer is its current pose. Raises `RobotGone`.
         """
-        return self._stepper.peek(self.robot(name), to_ns(when))
+        return self._stepper.predict_pose(self.robot(name), to_ns(when))
 
     def state(self) -> EngineState:
         """Return a state from which `restore` reproduces the further run to the last bit."""
         return EngineState(
-            now_ns=self._all.instant.ns,
+            now_ns=self._population.instant.ns,
             now=self.now,
             world=self.world,
             noise=self.noise,
@@ -421,8 +421,8 @@ class Engine:
         Robots that are not in the state are removed, missing ones are added again.
         """
         if state.world is not self.world:
-            self._begin(state.world)
-        everything, contacts = self._all, self.contacts
+            self._load_world(state.world)
+        everything, contacts = self._population, self.contacts
         contacts.clear()
         everything.instant.ns, everything.instant.seconds = state.now_ns, state.now
         self.noise, self._stepper.slips_ns = state.noise, state.slips_ns
@@ -430,7 +430,7 @@ class Engine:
         self.movers.clear()
         for obstacle in self._obstacles.values():
             if not obstacle.fixed:
-                self._all.take_in(obstacle)
+                self._population.add_obstacle_body(obstacle)
         for name, mover in state.movers.items():
             self.movers[name].restore(mover)
         old = dict(self.robots)
@@ -439,16 +439,16 @@ class Engine:
             robot = old.get(each.name)
             if robot is not None and robot.model == each.model:
                 self.robots[each.name] = robot
-                self._all.embody(robot)
+                self._population.add_robot_body(robot)
             else:
-                robot = self._made(each.name, each.model, (0.0, 0.0, 0.0))
+                robot = self._make_robot(each.name, each.model, (0.0, 0.0, 0.0))
             robot.restore(each.state)
         for name, thing in state.things.items():
             contacts.loose[name].restore(thing)
-            contacts.settle(contacts.loose[name])
+            contacts.update_cells(contacts.loose[name])
         everything.trails.restore(state.trails)
         everything.changed += 1
-        self._stepper.forget()
+        self._stepper.discard_clearances()
 
     # -- sensing -------------------------------------------------------------------------------------------------
 

@@ -18,10 +18,10 @@ Floats = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 """x and y of the lower and the upper corner [m]."""
 
-SQUARE = 1.0
+CELL_SIZE = 1.0
 """Edge length of the grid's cells [m]."""
 
-LARGE = 64
+MAX_CELLS = 64
 """Number of cells above which a box is kept in a separate list and always tested."""
 
 
@@ -70,8 +70,8 @@ class Cells:
     @staticmethod
     def _covered(box: Box) -> list[tuple[int, int]]:
         """Return the cells that a box covers; an empty list if there are too many."""
-        left, bottom, right, top = (math.floor(each / SQUARE) for each in box)
-        if (right - left + 1) * (top - bottom + 1) > LARGE:
+        left, bottom, right, top = (math.floor(each / CELL_SIZE) for each in box)
+        if (right - left + 1) * (top - bottom + 1) > MAX_CELLS:
             return []
         return [(i, j) for i in range(left, right + 1) for j in range(bottom, top + 1)]
 
@@ -102,7 +102,7 @@ class Ground:
     def __init__(self, world: World) -> None:
         self._walls, self._height = world.hard_walls, world.wall_height
         self._index = Nearby(boxes_around(self._walls)) if len(self._walls) else None
-        self._made: dict[int, FixedPiece] = {}
+        self._wall_pieces: dict[int, FixedPiece] = {}
         self.cells = Cells()
         self._pieces: dict[str, list[FixedPiece]] = {}
         self._number = 0
@@ -150,8 +150,10 @@ class Ground:
         return sorted(found, key=lambda piece: piece.order)
 
     def _wall(self, row: int) -> FixedPiece:
-        made = self._made.get(row)
+        made = self._wall_pieces.get(row)
         if made is None:
             piece = Piece(self._walls[row].reshape(2, 2).copy(), 0.0)
-            made = self._made[row] = FixedPiece((0, row), "wall", 0.0, self._height, piece, box_of(piece))
+            made = self._wall_pieces[row] = FixedPiece(
+                (0, row), "wall", 0.0, self._height, piece, box_of(piece)
+            )
         return made

@@ -37,44 +37,56 @@ outlines near each body (the start of its part of a list, and the list), their c
 the box around each with its radius; and in the same form the bodies near each body.
 """
 
-MASS, INERTIA, MIDDLE_X, MIDDLE_Y, GIRTH, KIND, X, Y, CENTRE_X, CENTRE_Y, RESTITUTION, HOLD, TURN_HOLD = (
-    range(13)
-)
+(
+    MASS,
+    INERTIA,
+    MIDDLE_X,
+    MIDDLE_Y,
+    RADIUS,
+    KIND,
+    X,
+    Y,
+    CENTRE_X,
+    CENTRE_Y,
+    RESTITUTION,
+    GROUND_FORCE,
+    GROUND_TORQUE,
+) = range(13)
 """The properties of a body: the circle around it in its frame, the current centre of the circle, its centre of mass,
 and the largest force [N] and torque [N m] with which the ground holds it, or its wheels drive it."""
 
-ROBOT, CRATE, LEAF = 0.0, 1.0, 2.0
+ROBOT, CRATE, KINEMATIC = 0.0, 1.0, 2.0
 """Kinds of bodies: driven by wheels, pushed, moving by itself."""
 
 TOUCH = 1e-9
 """Overlap [m] below which a robot only touches an obstacle."""
 
-SLACK = 2e-5
+PUSH_DEPTH = 2e-5
 """Overlap [m] of a robot with an obstacle that it pushes: bodies that do not overlap do not push each other."""
 
-ROUNDS = 20
+MAX_ROUNDS = 20
 """Maximum number of rounds of pushing a robot out of obstacles; a wedge between two walls takes the most."""
 
-QUICK, NEARLY = 4, 1e-6
+EXACT_ROUNDS, TOLERANCE = 4, 1e-6
 """Rounds after which robots that push each other may still overlap, and by how much [m]."""
 
 ITERATIONS = 30
 """Number of iterations over the impulses of all contacts."""
 
-APART = 1e-6
+MAX_GAP = 1e-6
 """Maximum gap at which two bodies can push each other [m]."""
 
-PART = 0.2
+OVERLAP_FRACTION = 0.2
 """Fraction of an overlap, not explained by an impact, that is removed in a step."""
 
-REST = 1e-4
+REST_SPEED = 1e-4
 """Speed below which a movable obstacle stops [m/s, rad/s]."""
 
 
 # -- bodies ----------------------------------------------------------------------------------------------------------
 
 
-def give(
+def point_correction(
     count: int, d0: float, d1: float, r0: float, r1: float, mass: float, inertia: float
 ) -> tuple[float, float]:
     """Return how far to move a body along a contact's normal [m] and how far to turn it [rad] so that it just touches.
@@ -96,7 +108,7 @@ def give(
     return k / mass, k * lever / inertia
 
 
-def stand(i: int, scene: Scene) -> None:
+def update_corners(i: int, scene: Scene) -> None:
     """Update a body's corners and the centre of its circle from its pose."""
     poses, bodies, outline, corners, first, begin = scene[0], scene[1], scene[2], scene[3], scene[4], scene[5]
     x, y, c, s = poses[i, 0], poses[i, 1], math.cos(poses[i, 2]), math.sin(poses[i, 2])
@@ -107,33 +119,33 @@ def stand(i: int, scene: Scene) -> None:
     bodies[i, Y] = y + s * bodies[i, MIDDLE_X] + c * bodies[i, MIDDLE_Y]
 
 
-def beside(i: int, m: int, more: float, bodies: Floats, boxes: Floats) -> bool:
+def may_touch_fixed(i: int, m: int, more: float, bodies: Floats, boxes: Floats) -> bool:
     """Return True if a fixed outline may be within `more` [m] of a body's circle."""
-    x, y, r = bodies[i, X], bodies[i, Y], bodies[i, GIRTH] + more
+    x, y, r = bodies[i, X], bodies[i, Y], bodies[i, RADIUS] + more
     return bool(boxes[m, 0] - r <= x <= boxes[m, 2] + r and boxes[m, 1] - r <= y <= boxes[m, 3] + r)
 
 
-def close(i: int, j: int, more: float, bodies: Floats) -> bool:
+def may_touch(i: int, j: int, more: float, bodies: Floats) -> bool:
     """Return True if the circles of two bodies are within `more` [m]."""
     dx, dy = bodies[j, X] - bodies[i, X], bodies[j, Y] - bodies[i, Y]
-    r = bodies[i, GIRTH] + bodies[j, GIRTH] + more
+    r = bodies[i, RADIUS] + bodies[j, RADIUS] + more
     return bool(dx * dx + dy * dy <= r * r)
 
 
 # -- robots make way -------------------------------------------------------------------------------------------------
 
 
-def shove(i: int, part: float, nx: float, ny: float, hit: Contact, slack: float, scene: Scene) -> None:
+def push_along(i: int, part: float, nx: float, ny: float, hit: Contact, slack: float, scene: Scene) -> None:
     """Move and turn a robot by the fraction `part` of the motion that removes a contact's overlap."""
     poses, bodies = scene[0], scene[1]
     count, _, _, d0, x0, y0, d1, x1, y1 = hit
     x, y = poses[i, 0], poses[i, 1]
     r0, r1 = (x0 - x) * ny - (y0 - y) * nx, (x1 - x) * ny - (y1 - y) * nx
-    along, turn = give(count, d0 - slack, d1 - slack, r0, r1, bodies[i, MASS], bodies[i, INERTIA])
+    along, turn = point_correction(count, d0 - slack, d1 - slack, r0, r1, bodies[i, MASS], bodies[i, INERTIA])
     poses[i, 0] = x + part * along * nx
     poses[i, 1] = y + part * along * ny
     poses[i, 2] += part * turn
-    stand(i, scene)
+    update_corners(i, scene)
 
 
 def push_out(i: int, nearly: float, fair: bool, scene: Scene) -> int:
@@ -147,14 +159,14 @@ def push_out(i: int, nearly: float, fair: bool, scene: Scene) -> int:
     a0, a1, ra = first[p], first[p + 1], radius[p]
     for k in range(near_at[i], near_at[i + 1]):
         m = near[k]
-        if beside(i, m, 0.0, bodies, boxes):
+        if may_touch_fixed(i, m, 0.0, bodies, boxes):
             found = contact(corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4], worst)
             if found[0] and max(found[3], found[6]) > worst:
                 worst, hit = max(found[3], found[6]), found
     for k in range(mate_at[i], mate_at[i + 1]):
         j = mates[k]
-        if close(i, j, 0.0, bodies):
-            play = 0.0 if bodies[j, KIND] == LEAF else SLACK
+        if may_touch(i, j, 0.0, bodies):
+            play = 0.0 if bodies[j, KIND] == KINEMATIC else PUSH_DEPTH
             least = max(worst, nearly) if bodies[j, KIND] == ROBOT else worst
             for q in range(begin[j], begin[j + 1]):
                 found = contact(corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q], least + play)
@@ -168,26 +180,26 @@ def push_out(i: int, nearly: float, fair: bool, scene: Scene) -> int:
         own, other = bodies[i, MASS], bodies[who, MASS]
         mine = 0.5 if fair or own == other else (1.0 if own < other else 0.0)
     if mine > 0.0:
-        shove(i, mine, -hit[1], -hit[2], hit, slack, scene)
+        push_along(i, mine, -hit[1], -hit[2], hit, slack, scene)
     if mine < 1.0:
-        shove(who, 1.0 - mine, hit[1], hit[2], hit, slack, scene)
+        push_along(who, 1.0 - mine, hit[1], hit[2], hit, slack, scene)
     return who
 
 
-def make_way(queue: Ints, scene: Scene, moved: Ints) -> None:
+def resolve_overlaps(queue: Ints, scene: Scene, moved: Ints) -> None:
     """Resolve the overlaps of robots with obstacles and each other; set `moved` to 1 for each robot that was moved."""
     poses = scene[0]
     total = poses.shape[0]
     for i in range(total):
-        stand(i, scene)
+        update_corners(i, scene)
     waiting, again = np.empty(total, np.int64), np.zeros(total, np.int64)
     count = queue.shape[0]
     for k in range(count):
         waiting[k] = queue[k]
-    for number in range(ROUNDS):
+    for number in range(MAX_ROUNDS):
         for k in range(count):
             i = waiting[k]
-            who = push_out(i, TOUCH if number < QUICK else NEARLY, 2 * number >= ROUNDS, scene)
+            who = push_out(i, TOUCH if number < EXACT_ROUNDS else TOLERANCE, 2 * number >= MAX_ROUNDS, scene)
             if who >= 0:
                 again[i] = again[who] = moved[i] = moved[who] = 1
         left = 0
@@ -208,12 +220,12 @@ def make_way(queue: Ints, scene: Scene, moved: Ints) -> None:
 
 # -- things are pushed -----------------------------------------------------------------------------------------------
 
-FIRST, SECOND, NX, NY, PX, PY, DEPTH, SPEED, BOUNCE, ALONG, ACROSS, PUSH, RUB = range(13)
+FIRST, SECOND, NX, NY, PX, PY, DEPTH, SPEED, BOUNCE, ALONG, ACROSS, PUSH_IMPULSE, RUB_IMPULSE = range(13)
 """Columns of a contact: the bodies, the normal, the point, the depth, the opening speed, its target, the masses
 along and across the normal, and the impulses."""
 
 
-def arm(i: int, x: float, y: float, scene: Scene) -> tuple[float, float]:
+def lever_arm(i: int, x: float, y: float, scene: Scene) -> tuple[float, float]:
     """Return the vector from a body's centre of mass to a point."""
     poses, bodies = scene[0], scene[1]
     c, s = math.cos(poses[i, 2]), math.sin(poses[i, 2])
@@ -221,32 +233,34 @@ def arm(i: int, x: float, y: float, scene: Scene) -> tuple[float, float]:
     return x - poses[i, 0] - c * cx + s * cy, y - poses[i, 1] - s * cx - c * cy
 
 
-def gather(scene: Scene, hits: Floats) -> int:
+def find_contacts(scene: Scene, hits: Floats) -> int:
     """Find all contacts and return their number; the second body is -1 - m for the fixed outline m."""
     _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
     count = 0
     for i in range(bodies.shape[0]):
-        if bodies[i, KIND] == LEAF:
+        if bodies[i, KIND] == KINEMATIC:
             continue
         for p in range(begin[i], begin[i + 1]):
             a0, a1, ra = first[p], first[p + 1], radius[p]
             for k in range(near_at[i], near_at[i + 1]):
                 m = near[k]
-                if beside(i, m, APART, bodies, boxes):
-                    found = contact(corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4], -APART)
-                    count = note(found, i, -1 - m, hits, count)
+                if may_touch_fixed(i, m, MAX_GAP, bodies, boxes):
+                    found = contact(
+                        corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4], -MAX_GAP
+                    )
+                    count = append_contact(found, i, -1 - m, hits, count)
             for k in range(mate_at[i], mate_at[i + 1]):
                 j = mates[k]
-                if (j > i or bodies[j, KIND] == LEAF) and close(i, j, APART, bodies):
+                if (j > i or bodies[j, KIND] == KINEMATIC) and may_touch(i, j, MAX_GAP, bodies):
                     for q in range(begin[j], begin[j + 1]):
                         found = contact(
-                            corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q], -APART
+                            corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q], -MAX_GAP
                         )
-                        count = note(found, i, j, hits, count)
+                        count = append_contact(found, i, j, hits, count)
     return count
 
 
-def note(found: Contact, i: int, j: int, hits: Floats, count: int) -> int:
+def append_contact(found: Contact, i: int, j: int, hits: Floats, count: int) -> int:
     """Append the points of a contact; return the new number of points."""
     points, nx, ny, d0, x0, y0, d1, x1, y1 = found
     for k in range(points):
@@ -260,9 +274,9 @@ def note(found: Contact, i: int, j: int, hits: Floats, count: int) -> int:
     return count
 
 
-def lightness(i: int, rx: float, ry: float, nx: float, ny: float, bodies: Floats) -> float:
+def inverse_mass(i: int, rx: float, ry: float, nx: float, ny: float, bodies: Floats) -> float:
     """Return the inverse effective mass of a body at a point, along a direction."""
-    if i < 0 or bodies[i, KIND] == LEAF:
+    if i < 0 or bodies[i, KIND] == KINEMATIC:
         return 0.0
     lever = rx * ny - ry * nx
     return float(1.0 / bodies[i, MASS] + lever * lever / bodies[i, INERTIA])
@@ -275,68 +289,70 @@ def speed_at(i: int, rx: float, ry: float, nx: float, ny: float, motion: Floats)
     return float((motion[i, 0] - motion[i, 2] * ry) * nx + (motion[i, 1] + motion[i, 2] * rx) * ny)
 
 
-def impel(i: int, rx: float, ry: float, px: float, py: float, bodies: Floats, motion: Floats) -> None:
+def apply_impulse(i: int, rx: float, ry: float, px: float, py: float, bodies: Floats, motion: Floats) -> None:
     """Apply an impulse at a body's point."""
-    if i >= 0 and bodies[i, KIND] != LEAF:
+    if i >= 0 and bodies[i, KIND] != KINEMATIC:
         motion[i, 0] += px / bodies[i, MASS]
         motion[i, 1] += py / bodies[i, MASS]
         motion[i, 2] += (rx * py - ry * px) / bodies[i, INERTIA]
 
 
-def rebound(i: int, bodies: Floats) -> float:
+def restitution(i: int, bodies: Floats) -> float:
     """Return a body's coefficient of restitution; 1 for a body that cannot be pushed, so that the other's applies."""
-    return 1.0 if i < 0 or bodies[i, KIND] == LEAF else float(bodies[i, RESTITUTION])
+    return 1.0 if i < 0 or bodies[i, KIND] == KINEMATIC else float(bodies[i, RESTITUTION])
 
 
-def strike(scene: Scene, motion: Floats, hits: Floats, arms: Floats, count: int) -> None:
+def prepare_contacts(scene: Scene, motion: Floats, hits: Floats, arms: Floats, count: int) -> None:
     """Compute each contact's effective masses, opening speed and target speed."""
     bodies = scene[1]
     for n in range(count):
         hit = hits[n]
         i, j, nx, ny = int(hit[FIRST]), int(hit[SECOND]), hit[NX], hit[NY]
-        ax, ay = arm(i, hit[PX], hit[PY], scene)
+        ax, ay = lever_arm(i, hit[PX], hit[PY], scene)
         bx, by = 0.0, 0.0
         if j >= 0:
-            bx, by = arm(j, hit[PX], hit[PY], scene)
+            bx, by = lever_arm(j, hit[PX], hit[PY], scene)
         arms[n, 0], arms[n, 1], arms[n, 2], arms[n, 3] = ax, ay, bx, by
-        hit[ALONG] = 1.0 / (lightness(i, ax, ay, nx, ny, bodies) + lightness(j, bx, by, nx, ny, bodies))
-        hit[ACROSS] = 1.0 / (lightness(i, ax, ay, -ny, nx, bodies) + lightness(j, bx, by, -ny, nx, bodies))
+        hit[ALONG] = 1.0 / (inverse_mass(i, ax, ay, nx, ny, bodies) + inverse_mass(j, bx, by, nx, ny, bodies))
+        hit[ACROSS] = 1.0 / (
+            inverse_mass(i, ax, ay, -ny, nx, bodies) + inverse_mass(j, bx, by, -ny, nx, bodies)
+        )
         hit[SPEED] = speed_at(j, bx, by, nx, ny, motion) - speed_at(i, ax, ay, nx, ny, motion)
-        hit[BOUNCE] = -min(hit[SPEED], 0.0) * rebound(i, bodies) * rebound(j, bodies)
-        hit[PUSH] = hit[RUB] = 0.0
+        hit[BOUNCE] = -min(hit[SPEED], 0.0) * restitution(i, bodies) * restitution(j, bodies)
+        hit[PUSH_IMPULSE] = hit[RUB_IMPULSE] = 0.0
 
 
-def press(n: int, friction: float, scene: Scene, motion: Floats, hits: Floats, arms: Floats) -> bool:
+def solve_contact(n: int, friction: float, scene: Scene, motion: Floats, hits: Floats, arms: Floats) -> bool:
     """Correct one contact's impulses: no approach, friction within Coulomb's cone. Return True if any changed."""
     bodies, hit = scene[1], hits[n]
     i, j, nx, ny = int(hit[FIRST]), int(hit[SECOND]), hit[NX], hit[NY]
     ax, ay, bx, by = arms[n, 0], arms[n, 1], arms[n, 2], arms[n, 3]
     opens = speed_at(j, bx, by, nx, ny, motion) - speed_at(i, ax, ay, nx, ny, motion)
-    push = max(0.0, hit[PUSH] + (hit[BOUNCE] - opens) * hit[ALONG])
-    more = push - hit[PUSH]
+    push = max(0.0, hit[PUSH_IMPULSE] + (hit[BOUNCE] - opens) * hit[ALONG])
+    more = push - hit[PUSH_IMPULSE]
     slides = speed_at(j, bx, by, -ny, nx, motion) - speed_at(i, ax, ay, -ny, nx, motion)
     most = friction * push
-    rub = min(most, max(-most, hit[RUB] - slides * hit[ACROSS]))
-    aside = rub - hit[RUB]
+    rub = min(most, max(-most, hit[RUB_IMPULSE] - slides * hit[ACROSS]))
+    aside = rub - hit[RUB_IMPULSE]
     if more == 0.0 and aside == 0.0:
         return False
-    hit[PUSH], hit[RUB] = push, rub
+    hit[PUSH_IMPULSE], hit[RUB_IMPULSE] = push, rub
     px, py = more * nx - aside * ny, more * ny + aside * nx
-    impel(i, ax, ay, -px, -py, bodies, motion)
-    impel(j, bx, by, px, py, bodies, motion)
+    apply_impulse(i, ax, ay, -px, -py, bodies, motion)
+    apply_impulse(j, bx, by, px, py, bodies, motion)
     return True
 
 
-def hold(i: int, dt: float, bodies: Floats, motion: Floats, held: Floats) -> bool:
+def apply_ground_force(i: int, dt: float, bodies: Floats, motion: Floats, held: Floats) -> bool:
     """Apply ground friction to an obstacle, or wheel drive to a robot, within its limit; return True if it changed."""
     mass, inertia = bodies[i, MASS], bodies[i, INERTIA]
     x = held[i, 0] + (motion[i, 3] - motion[i, 0]) * mass
     y = held[i, 1] + (motion[i, 4] - motion[i, 1]) * mass
     turn = held[i, 2] + (motion[i, 5] - motion[i, 2]) * inertia
-    most, size = bodies[i, HOLD] * dt, math.sqrt(x * x + y * y)
+    most, size = bodies[i, GROUND_FORCE] * dt, math.sqrt(x * x + y * y)
     if size > most:
         x, y = x * most / size, y * most / size
-    most = bodies[i, TURN_HOLD] * dt
+    most = bodies[i, GROUND_TORQUE] * dt
     turn = min(most, max(-most, turn))
     dx, dy, dw = x - held[i, 0], y - held[i, 1], turn - held[i, 2]
     if dx == 0.0 and dy == 0.0 and dw == 0.0:
@@ -357,46 +373,46 @@ def slide(dt: float, friction: float, scene: Scene, motion: Floats, hits: Floats
     poses, bodies = scene[0], scene[1]
     total = bodies.shape[0]
     for i in range(total):
-        stand(i, scene)
-    count = gather(scene, hits)
+        update_corners(i, scene)
+    count = find_contacts(scene, hits)
     before, held, arms = motion.copy(), np.zeros((total, 3)), np.empty((count, 4))
-    strike(scene, motion, hits, arms, count)
+    prepare_contacts(scene, motion, hits, arms, count)
     for _ in range(ITERATIONS):
         changed = False
         for n in range(count):
-            changed |= press(n, friction, scene, motion, hits, arms)
+            changed |= solve_contact(n, friction, scene, motion, hits, arms)
         for i in range(total):
-            if bodies[i, KIND] != LEAF:
-                changed |= hold(i, dt, bodies, motion, held)
+            if bodies[i, KIND] != KINEMATIC:
+                changed |= apply_ground_force(i, dt, bodies, motion, held)
         if not changed:
             break
     late, out = np.zeros(total), np.zeros((total, 2))
-    part(dt, bodies, hits, count, late, out)
+    separate(dt, bodies, hits, count, late, out)
     for i in range(total):
         if bodies[i, KIND] == CRATE:
-            go_on(i, dt, late[i], out, poses, bodies, before, motion)
+            integrate(i, dt, late[i], out, poses, bodies, before, motion)
     return count
 
 
-def part(dt: float, bodies: Floats, hits: Floats, count: int, late: Floats, out: Floats) -> None:
+def separate(dt: float, bodies: Floats, hits: Floats, count: int, late: Floats, out: Floats) -> None:
     """Compute the time since each body's impact (-1: no impact) and the motion that undoes other overlaps."""
     for i in range(bodies.shape[0]):
         late[i] = -1.0
     for n in range(count):
         hit = hits[n]
-        i, j, deep = int(hit[FIRST]), int(hit[SECOND]), max(hit[DEPTH] - SLACK, 0.0)
+        i, j, deep = int(hit[FIRST]), int(hit[SECOND]), max(hit[DEPTH] - PUSH_DEPTH, 0.0)
         since = 0.0
         if hit[SPEED] < 0.0:
             since = min(dt, -deep / hit[SPEED])
             deep += since * hit[SPEED]
-        if hit[PUSH] > 0.0:
+        if hit[PUSH_IMPULSE] > 0.0:
             late[i] = max(late[i], since)
             if j >= 0:
                 late[j] = max(late[j], since)
         own = 1.0 / bodies[i, MASS] if bodies[i, KIND] == CRATE else 0.0
         other = 1.0 / bodies[j, MASS] if j >= 0 and bodies[j, KIND] == CRATE else 0.0
         if deep > 0.0 and own + other > 0.0:
-            back = PART * deep / (own + other)
+            back = OVERLAP_FRACTION * deep / (own + other)
             out[i, 0] -= back * own * hit[NX]
             out[i, 1] -= back * own * hit[NY]
             if j >= 0:
@@ -404,12 +420,12 @@ def part(dt: float, bodies: Floats, hits: Floats, count: int, late: Floats, out:
                 out[j, 1] += back * other * hit[NY]
 
 
-def go_on(
+def integrate(
     i: int, dt: float, late: float, out: Floats, poses: Floats, bodies: Floats, before: Floats, motion: Floats
 ) -> None:
     """Move a thing by its velocities before and after a step, with an impact `late` seconds before the step."""
     vx, vy, w = motion[i, 0], motion[i, 1], motion[i, 2]
-    if abs(vx) <= REST and abs(vy) <= REST and abs(w) <= REST:
+    if abs(vx) <= REST_SPEED and abs(vy) <= REST_SPEED and abs(w) <= REST_SPEED:
         motion[i, 0] = motion[i, 1] = motion[i, 2] = 0.0
         return
     # a freely sliding body loses its speed evenly; a pushed one has its new speed at once
@@ -427,23 +443,23 @@ def go_on(
 # -- room ------------------------------------------------------------------------------------------------------------
 
 
-def clearances(lookers: Ints, view: float, scene: Scene, rooms: Floats) -> None:
+def clearances(robots: Ints, view: float, scene: Scene, rooms: Floats) -> None:
     """Compute how far robots can move before a contact, at most `view` [m]; two movers share a gap by half."""
     _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
     for i in range(bodies.shape[0]):
-        stand(i, scene)
-    for n in range(lookers.shape[0]):
-        i = lookers[n]
+        update_corners(i, scene)
+    for n in range(robots.shape[0]):
+        i = robots[n]
         p = begin[i]
         a0, a1, ra = first[p], first[p + 1], radius[p]
         free = view
         for k in range(near_at[i], near_at[i + 1]):
             m = near[k]
-            if beside(i, m, free, bodies, boxes):
+            if may_touch_fixed(i, m, free, bodies, boxes):
                 free = min(free, gap(corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4]))
         for k in range(mate_at[i], mate_at[i + 1]):
             j = mates[k]
-            if close(i, j, view, bodies):
+            if may_touch(i, j, view, bodies):
                 away = math.inf
                 for q in range(begin[j], begin[j + 1]):
                     away = min(away, gap(corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q]))
@@ -454,7 +470,7 @@ def clearances(lookers: Ints, view: float, scene: Scene, rooms: Floats) -> None:
         rooms[i] = free
 
 
-PLAIN: dict[str, Callable[..., Any]] = {each.__name__: each for each in (make_way, slide, clearances)}
+PLAIN: dict[str, Callable[..., Any]] = {each.__name__: each for each in (resolve_overlaps, slide, clearances)}
 """The loops in plain Python."""
 
 
@@ -463,15 +479,28 @@ def compiled(name: str) -> Callable[..., Any]:
     import numba
 
     pairs = (parting, facing, height, nearest_side, contact_disc, contact, gap)
-    pushes = (give, stand, beside, close, shove, push_out)
-    blows = (arm, note, gather, lightness, speed_at, impel, rebound, strike, press, hold, part, go_on)
+    pushes = (point_correction, update_corners, may_touch_fixed, may_touch, push_along, push_out)
+    blows = (
+        lever_arm,
+        append_contact,
+        find_contacts,
+        inverse_mass,
+        speed_at,
+        apply_impulse,
+        restitution,
+        prepare_contacts,
+        solve_contact,
+        apply_ground_force,
+        separate,
+        integrate,
+    )
     number, table, ways, vector = numba.float64, numba.float64[:, ::1], numba.int64[::1], numba.float64[::1]
     types: Any = numba.types
     scene = types.Tuple(
         (table, table, table, table, ways, ways, vector, ways, ways, table, ways, table, ways, ways)
     )
     signatures = {
-        "make_way": numba.void(ways, scene, ways),
+        "resolve_overlaps": numba.void(ways, scene, ways),
         "slide": numba.int64(number, number, scene, table, table),
         "clearances": numba.void(ways, number, scene, vector),
     }

@@ -20,7 +20,7 @@ class Mover:
     def __init__(self, obstacle: Obstacle, motion: Walk | Door, instant: Instant) -> None:
         self.obstacle = obstacle
         self.reach = reach_of(obstacle.shape)
-        self.haste = motion.max_speed + self.reach * motion.max_turn
+        self.top_speed = motion.max_speed + self.reach * motion.max_turn
         """Maximum speed of any of its points [m/s]."""
         self.keep = motion.keep
         self._instant = instant
@@ -29,9 +29,9 @@ class Mover:
     def start(self) -> None:
         """Return to the initial pose."""
         self._since_ns, self._clock, self.waiting, self.pace = self._instant.ns, 0.0, False, 1
-        self.room = 0.0
-        """Distance it can move [m], measured at `room_ns`, before its clearance must be measured again."""
-        self.room_ns = self._instant.ns
+        self.clearance = 0.0
+        """Distance it can move [m], measured at `clearance_ns`, before its clearance must be measured again."""
+        self.clearance_ns = self._instant.ns
 
     @property
     def clock(self) -> float:
@@ -53,7 +53,7 @@ class Mover:
         """Its velocity in the frame map [m/s, m/s, rad/s]."""
         if self.waiting:
             return (0.0, 0.0, 0.0)
-        before, after = self.pose, self.soon(DELTA)
+        before, after = self.pose, self.predict(DELTA)
         vx, vy, w = ((b - a) / DELTA for a, b in zip(before, after, strict=True))
         return (vx, vy, w)
 
@@ -62,12 +62,12 @@ class Mover:
         if waiting != self.waiting:
             self._clock, self._since_ns, self.waiting = self.clock, self._instant.ns, waiting
 
-    def soon(self, dt: float) -> Pose:
+    def predict(self, dt: float) -> Pose:
         """Return its pose in `dt` seconds if nothing stops it."""
         return self.obstacle.at(self.clock + self.rate * dt)
 
     @property
-    def way_back(self) -> tuple[float, int] | None:
+    def return_course(self) -> tuple[float, int] | None:
         """Its clock [s] and pace if it turned back from here; None if it cannot, or has not waited long enough yet."""
         motion = self.obstacle.motion
         waited = (self._instant.ns - self._since_ns) / SECOND if self.waiting else 0.0
@@ -77,24 +77,24 @@ class Mover:
         walks = isinstance(motion, Walk) and motion.loop and waited >= motion.patience
         return (self.clock, -self.pace) if walks else None
 
-    def go_back(self, clock: float, pace: int) -> None:
+    def turn_back(self, clock: float, pace: int) -> None:
         """Continue from a clock that gives the same pose, at this pace."""
         self._clock, self._since_ns, self.waiting, self.pace = clock, self._instant.ns, False, pace
 
-    def room_left(self, ns: int) -> float:
+    def clearance_at(self, ns: int) -> float:
         """Return the distance that any of its points can still move at `ns` [m]."""
-        return self.room - self.haste * (ns - self.room_ns) / SECOND
+        return self.clearance - self.top_speed * (ns - self.clearance_ns) / SECOND
 
-    def room_to_go(self, ns: int) -> float:
+    def free_distance_at(self, ns: int) -> float:
         """Return the distance it can still move at `ns` [m] before it may have to stop for something."""
-        return self.room_left(ns) - self.keep
+        return self.clearance_at(ns) - self.keep
 
     def leg(self) -> tuple[float, Pose, float, tuple[int, int]]:
         """Return the current leg of its trail: start time [s], pose, its clock, its rate and when that began."""
         course = (self.rate, self._since_ns)
         return (self._since_ns / SECOND, self.obstacle.at(self._clock), self._clock, course)
 
-    def later(self, leg: Leg, dt: float) -> Pose:
+    def pose_on_leg(self, leg: Leg, dt: float) -> Pose:
         """Return its pose `dt` seconds after the start of a leg of its trail."""
         _, _, clock, (rate, _) = leg
         return self.obstacle.at(clock + rate * dt)
@@ -106,4 +106,4 @@ class Mover:
     def restore(self, state: tuple[int, float, bool, int]) -> None:
         """Restore what `state` returned."""
         self._since_ns, self._clock, self.waiting, self.pace = state
-        self.room = 0.0
+        self.clearance = 0.0

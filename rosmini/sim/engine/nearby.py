@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-SQUARE = 2.0
+CELL_SIZE = 2.0
 """Edge length of the grid's cells [m]; larger boxes are always tested."""
 
 
@@ -17,12 +17,12 @@ class Nearby:
 
     def __init__(self, boxes: Floats) -> None:
         self.boxes = boxes
-        small = (boxes[:, 2:] - boxes[:, :2] <= SQUARE).all(axis=1)
+        small = (boxes[:, 2:] - boxes[:, :2] <= CELL_SIZE).all(axis=1)
         which = np.flatnonzero(small)
         self._large = np.flatnonzero(~small)
         middles = (boxes[which, :2] + boxes[which, 2:]) / 2
         self._origin = middles.min(axis=0) if len(which) else np.zeros(2)
-        squares = np.floor((middles - self._origin) / SQUARE).astype(np.int64)
+        squares = np.floor((middles - self._origin) / CELL_SIZE).astype(np.int64)
         self._columns = int(squares[:, 0].max(initial=-1)) + 1
         self._rows = int(squares[:, 1].max(initial=-1)) + 1
         keys = squares[:, 1] * self._columns + squares[:, 0]
@@ -35,8 +35,8 @@ class Nearby:
         half = (
             0.5 + 1e-6
         )  # a box's centre is at most half a cell from its edge, plus an allowance for rounding errors
-        low = np.floor((np.array([x, y]) - self._origin - reach) / SQUARE - half)
-        high = np.floor((np.array([x, y]) - self._origin + reach) / SQUARE + half)
+        low = np.floor((np.array([x, y]) - self._origin - reach) / CELL_SIZE - half)
+        high = np.floor((np.array([x, y]) - self._origin + reach) / CELL_SIZE + half)
         left, bottom = np.maximum(low, 0.0).tolist()
         right, top = np.minimum(high, (self._columns - 1, self._rows - 1)).tolist()
         if left <= right and bottom <= top:

@@ -16,18 +16,18 @@ def free_pose(
     world: World,
     model: RobotModel,
     pose: Pose,
-    hindrance: Callable[[Pose], str | None],
+    obstruction: Callable[[Pose], str | None],
     taken: Callable[[Pose], str | None],
 ) -> Pose:
     """Return `pose` as floats if a robot of this model has room there.
 
-    `hindrance(pose)` describes the object in the way, and `taken(pose)` does the same for movable bodies. Raises
+    `obstruction(pose)` describes the object in the way, and `taken(pose)` does the same for movable bodies. Raises
     `WorldError`, which names the nearest free position, also for numbers that are not finite.
     """
     if not all(math.isfinite(part) for part in pose):
         raise WorldError(f"a robot cannot be placed at {pose}: x, y and heading have to be finite numbers")
     x, y, theta = map(float, pose)
-    found = hindrance(pose)
+    found = obstruction(pose)
     if found is not None:
         free = world.free_place(pose, model.footprint, model.height, taken)
         hint = "" if free is None else f". There is room at ({free[0]:.2f}, {free[1]:.2f})"

@@ -12,7 +12,7 @@ from .contacts import Contacts
 from .instant import Instant
 from .laser_view import LaserView
 from .movers import Mover
-from .robot import Robot, Thing
+from .robot import PassiveRobot, Robot
 from .trails import Trails
 
 
@@ -29,9 +29,9 @@ class Population:
         self.changed = 0
         """Number of times a body was added, removed or put elsewhere."""
 
-    def embody(self, robot: Robot) -> None:
+    def add_robot_body(self, robot: Robot) -> None:
         """Add the body of a robot."""
-        if isinstance(robot, Thing):
+        if isinstance(robot, PassiveRobot):
             model = robot.model
             mass = None if math.isinf(model.mass) else model.mass
             obstacle = Obstacle(robot.name, Polygon(model.footprint), robot.start, model.height, mass=mass)
@@ -40,14 +40,14 @@ class Population:
         else:
             self.contacts.add_robot(robot)
 
-    def take_in(self, obstacle: Obstacle) -> None:
+    def add_obstacle_body(self, obstacle: Obstacle) -> None:
         """Add the body of an obstacle."""
         if obstacle.movable:
             self.contacts.add_crate(Crate(obstacle, self.instant))
         elif obstacle.motion is not None:
             mover = self.movers[obstacle.name] = Mover(obstacle, obstacle.motion, self.instant)
             self.contacts.add_mover(mover)
-            self.note(mover)
+            self.record_leg(mover)
         else:
             self.contacts.ground.insert(obstacle)
             self.laser_view.insert(obstacle)
@@ -60,16 +60,16 @@ class Population:
     @property
     def drivers(self) -> list[Robot]:
         """The robots with a drive."""
-        return [each for each in self.robots.values() if not isinstance(each, Thing)]
+        return [each for each in self.robots.values() if not isinstance(each, PassiveRobot)]
 
     @property
     def moving(self) -> list[Robot | Mover]:
         """The robots with a drive, and the obstacles that move by themselves."""
         return [*self.drivers, *self.movers.values()]
 
-    def note(self, each: Robot | Mover) -> None:
+    def record_leg(self, each: Robot | Mover) -> None:
         """Record the current leg in the trail of a robot or mover, if trails are kept."""
         if not self.trails.span:
             return
         name = each.name if isinstance(each, Robot) else each.obstacle.name
-        self.trails.goes(name, *each.leg())
+        self.trails.set_course(name, *each.leg())

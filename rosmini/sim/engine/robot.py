@@ -1,9 +1,9 @@
 """A robot of the engine: its pose, its wheels and its motion; also models without wheels.
 
-A robot follows its `Way`, a path in closed form, from the last time at which anything about it changed (a command,
-a slip, a push). Its current pose is computed from there on request, and not stored, so a query never changes the
-last bit of it. In a physics step in which a contact keeps it from its path, it moves straight from its pose at the
-beginning to the pose at the end, and then follows a new path.
+A robot follows its `Trajectory`, a path in closed form, from the last time at which anything about it changed (a
+command, a slip, a push). Its current pose is computed from there on request, and not stored, so a query never
+changes the last bit of it. In a physics step in which a contact keeps it from its path, it moves straight from its
+pose at the beginning to the pose at the end, and then follows a new path.
 """
 
 from __future__ import annotations
@@ -23,7 +23,16 @@ from .free_motion import Speeds
 from .instant import SECOND, STEP, Instant, Placed, between_poses
 from .odometry import RealWheels, ticks
 from .trails import Leg
-from .wheel_drives import AnySide, Drive, Numbers, Spot, TwoWheels, Way, WheelState, three
+from .wheel_drives import (
+    DifferentialDrive,
+    Drive,
+    HolonomicDrive,
+    Numbers,
+    Trajectory,
+    TrajectoryPoint,
+    WheelState,
+    first_three,
+)
 
 Floats = NDArray[np.float64]
 
@@ -35,7 +44,7 @@ class Step(NamedTuple):
     begin: Pose
     end_ns: int
     end: Pose
-    following: Way
+    following: Trajectory
     """The path that it follows afterwards."""
 
 
@@ -43,7 +52,7 @@ class Robot:
     """A robot with two wheels: its pose, its wheel speeds and its commands."""
 
     drive: Drive
-    _spot: Spot
+    _point: TrajectoryPoint
 
     def __init__(
         self, name: str, model: RobotModel, pose: Pose, wheels: RealWheels, instant: Instant
@@ -52,20 +61,22 @@ class Robot:
         self.model = model
         self.start = pose
         self.wheels = wheels
-        self.drive = AnySide(model) if model.drive == "holonomic" else TwoWheels(model)
+        self.drive = HolonomicDrive(model) if model.drive == "holonomic" else DifferentialDrive(model)
         self._instant = instant
         self.stop(pose)
-        self._past: tuple[Leg | None, Way] = (None, self._way)
+        self._past: tuple[Leg | None, Trajectory] = (None, self._trajectory)
         """The leg of its trail that was last asked for, and the path on it."""
 
     def stop(self, pose: Pose) -> None:
         """Stop at a pose, with encoders at zero and no command."""
-        self._set_out(self._instant.ns, self._new_way(pose, self.drive.still, self.drive.targets))
+        self._set_trajectory(
+            self._instant.ns, self._new_trajectory(pose, self.drive.initial_state, self.drive.targets)
+        )
         self.expires_ns: float = math.inf
         """Time at which the command expires [ns]."""
         self.touching = False
         """True while a contact keeps it from its path."""
-        self.seen: Speeds = (0.0, 0.0, 0.0)
+        self.contact_velocity: Speeds = (0.0, 0.0, 0.0)
         """Its velocity (ahead, left [m/s], rate of turn [rad/s]) in the last step with a contact."""
         self.slip = (0.0, 0.0)
         """Slip velocity of its wheels over the ground in that step [m/s], in the frame map."""
@@ -73,68 +84,75 @@ class Robot:
 
     # -- its way -------------------------------------------------------------------------------------------------
 
-    def _set_out(self, ns: int, way: Way) -> None:
+    def _set_trajectory(self, ns: int, trajectory: Trajectory) -> None:
         """Follow another path from a time on."""
-        self._since_ns, self._way = ns, way
+        self._since_ns, self._trajectory = ns, trajectory
         self._step: Step | None = None
-        self._spot_ns = -1
-        self.room = 0.0
-        """Distance it can move [m], measured at `room_ns`, before its clearance must be measured again."""
-        self.room_ns = ns
-        self.haste = self.drive.haste(way.state, way.targets, way.rolling)
+        self._point_ns = -1
+        self.clearance = 0.0
+        """Distance it can move [m], measured at `clearance_ns`, before its clearance must be measured again."""
+        self.clearance_ns = ns
+        self.top_speed = self.drive.top_speed(trajectory.state, trajectory.targets, trajectory.wheel_factors)
         """Maximum speed of any of its corners [m/s]."""
 
-    def _new_way(self, pose: Pose, state: WheelState, targets: Numbers) -> Way:
-        return Way(self.drive, pose, state, targets, self.drive.rolling(self.wheels))
+    def _new_trajectory(self, pose: Pose, state: WheelState, targets: Numbers) -> Trajectory:
+        return Trajectory(self.drive, pose, state, targets, self.drive.wheel_factors(self.wheels))
 
     def _change(self, state: WheelState, targets: Numbers) -> None:
         """Change its path: now, or at the end of the step if a contact keeps it from its path."""
-        ns, pose, room = self._instant.ns, self.pose, self.room_left(self._instant.ns)
+        ns, pose, clearance = self._instant.ns, self.pose, self.clearance_at(self._instant.ns)
         step = self._step
         if step is None:
-            self._set_out(ns, self._new_way(pose, state, targets))
-            self.room = room
+            self._set_trajectory(ns, self._new_trajectory(pose, state, targets))
+            self.clearance = clearance
         else:
-            self._step = Step(*step[:4], self._new_way(step.end, state, targets))
-            self.haste = max(self.haste, self.drive.haste(state, targets, self._step.following.rolling))
+            self._step = Step(*step[:4], self._new_trajectory(step.end, state, targets))
+            self.top_speed = max(
+                self.top_speed, self.drive.top_speed(state, targets, self._step.following.wheel_factors)
+            )
 
-    def _here(self) -> Spot:
+    def _current(self) -> TrajectoryPoint:
         ns = self._instant.ns
-        if self._spot_ns != ns:
+        if self._point_ns != ns:
             step = self._step
             if step is not None and ns >= step.end_ns:
-                self._set_out(step.end_ns, step.following)
-            self._spot, self._spot_ns = self.at(ns), ns
-        return self._spot
+                self._set_trajectory(step.end_ns, step.following)
+            self._point, self._point_ns = self.at(ns), ns
+        return self._point
 
-    def at(self, ns: int) -> Spot:
+    def at(self, ns: int) -> TrajectoryPoint:
         """Return its pose and wheel state at a time, unless anything changes before."""
         step = self._step
         if step is None:
-            return self._way.at((ns - self._since_ns) / SECOND)
+            return self._trajectory.at((ns - self._since_ns) / SECOND)
         if ns >= step.end_ns:
             return step.following.at((ns - step.end_ns) / SECOND)
-        spot = self._way.at((ns - self._since_ns) / SECOND)
+        point = self._trajectory.at((ns - self._since_ns) / SECOND)
         part = (ns - step.begin_ns) / (step.end_ns - step.begin_ns)
-        return Spot(between_poses(step.begin, step.end, part), spot.state, spot.rates)
+        return TrajectoryPoint(between_poses(step.begin, step.end, part), point.state, point.rates)
 
-    def room_left(self, ns: int) -> float:
+    def clearance_at(self, ns: int) -> float:
         """Return the distance it can still move at `ns` [m]."""
-        return self.room - self.haste * (ns - self.room_ns) / SECOND
+        return self.clearance - self.top_speed * (ns - self.clearance_ns) / SECOND
 
     def leg(self) -> tuple[float, Pose, WheelState, tuple[Numbers, Numbers]]:
         """Return the current leg of its trail: start time [s], pose, wheel state, and the inputs of its path."""
         if self._step is None:
-            since, way = self._since_ns, self._way
+            since, trajectory = self._since_ns, self._trajectory
         else:
-            since, way = self._step.end_ns, self._step.following
-        return (since / SECOND, way.pose, way.state, (way.targets, way.rolling))
+            since, trajectory = self._step.end_ns, self._step.following
+        return (
+            since / SECOND,
+            trajectory.pose,
+            trajectory.state,
+            (trajectory.targets, trajectory.wheel_factors),
+        )
 
-    def later(self, leg: Leg, dt: float) -> Pose:
+    def pose_on_leg(self, leg: Leg, dt: float) -> Pose:
         """Return its pose `dt` seconds after the beginning of a leg of its trail."""
         if leg is not self._past[0]:
-            _, pose, state, (targets, rolling) = leg
-            self._past = (leg, Way(self.drive, pose, state, targets, rolling))
+            _, pose, state, (targets, wheel_factors) = leg
+            self._past = (leg, Trajectory(self.drive, pose, state, targets, wheel_factors))
         return self._past[1].at(dt).pose
 
     # -- where it is ---------------------------------------------------------------------------------------------
@@ -142,56 +160,56 @@ class Robot:
     @property
     def pose(self) -> Pose:
         """Its true pose in the frame map; the heading is not wrapped."""
-        return self._spot.pose if self._spot_ns == self._instant.ns else self._here().pose
+        return self._point.pose if self._point_ns == self._instant.ns else self._current().pose
 
     @property
     def standing(self) -> bool:
         """True if no wheel turns or is commanded to turn."""
-        state = self._here().state
-        targets = self._way.targets
+        state = self._current().state
+        targets = self._trajectory.targets
         return not any(targets) and state[: len(targets)] == targets
 
     @property
     def left(self) -> float:
         """Speed of the left wheel's rim [m/s], with the nominal radius."""
-        return self._here().state[0]
+        return self._current().state[0]
 
     @property
     def right(self) -> float:
         """Speed of the right wheel's rim [m/s], with the nominal radius."""
-        return self._here().state[1]
+        return self._current().state[1]
 
     @property
-    def left_way(self) -> float:
+    def left_distance(self) -> float:
         """Distance travelled by the left rim [m]."""
-        return self._here().state[2]
+        return self._current().state[2]
 
     @property
-    def right_way(self) -> float:
+    def right_distance(self) -> float:
         """Distance travelled by the right rim [m]."""
-        return self._here().state[3]
+        return self._current().state[3]
 
     @property
     def ticks(self) -> tuple[int, int]:
         """Counts of the left and the right wheel encoder."""
         r, n = self.model.wheel_radius, self.model.ticks_per_turn
-        _, _, left, right = self._here().state
+        _, _, left, right = self._current().state
         return (ticks(left / r, n), ticks(right / r, n))
 
     def motion(self) -> Motion:
         """Return its true current motion; for the sideways part see `velocity` and `acceleration_aside`."""
         if self.touching:
-            return Motion(self.seen[0], self.seen[2], *self._rates)
-        _, state, rates = self._here()
-        v, _, w = self.drive.velocity(state, self._way.rolling)
+            return Motion(self.contact_velocity[0], self.contact_velocity[2], *self._rates)
+        _, state, rates = self._current()
+        v, _, w = self.drive.velocity(state, self._trajectory.wheel_factors)
         if not any(rates):
             return tuple.__new__(Motion, (v, w, 0.0, 0.0))  # half the time of Motion(...)
-        dv, _, dw = self.drive.velocity(rates, self._way.rolling)
+        dv, _, dw = self.drive.velocity(rates, self._trajectory.wheel_factors)
         return Motion(v, w, dv, dw)
 
     def turning(self) -> tuple[float, Motion]:
         """Return its heading, not wrapped, and `motion`: the input of an IMU, without computing its position."""
-        cruise, ns = self._way.cruise, self._instant.ns
+        cruise, ns = self._trajectory.cruise, self._instant.ns
         if cruise is not None and self._step is None and not self.touching:
             dt = (ns - self._since_ns) / SECOND - cruise.begin
             if dt >= 0:
@@ -201,12 +219,20 @@ class Robot:
     @property
     def velocity(self) -> Speeds:
         """Its true velocity: ahead and to its left side [m/s], and rate of turn to the left [rad/s]."""
-        return self.seen if self.touching else self.drive.velocity(self._here().state, self._way.rolling)
+        return (
+            self.contact_velocity
+            if self.touching
+            else self.drive.velocity(self._current().state, self._trajectory.wheel_factors)
+        )
 
     @property
     def acceleration_aside(self) -> float:
         """Rate of change of its speed to the left side [m/s2], without the effect of turning."""
-        return 0.0 if self.touching else self.drive.velocity(self._here().rates, self._way.rolling)[1]
+        return (
+            0.0
+            if self.touching
+            else self.drive.velocity(self._current().rates, self._trajectory.wheel_factors)[1]
+        )
 
     def world_velocity(self) -> Speeds:
         """Return its current velocity: along x and y of the frame map [m/s], and rate of turn to the left [rad/s]."""
@@ -225,30 +251,32 @@ class Robot:
 
         An equal command changes nothing. During a contact, the command takes effect at the end of the step.
         """
-        pose_now = self._here()
-        way, old = (self._way, pose_now.state) if self._step is None else (self._step.following, None)
-        state, targets = self.drive.told(way.state if old is None else old, (v, vy, w))
-        if targets != way.targets:
+        pose_now = self._current()
+        trajectory, old = (
+            (self._trajectory, pose_now.state) if self._step is None else (self._step.following, None)
+        )
+        state, targets = self.drive.apply_command(trajectory.state if old is None else old, (v, vy, w))
+        if targets != trajectory.targets:
             self._change(state, targets)
 
     def launch(self, pose: Pose, velocity: Speeds) -> None:
         """Move to a pose at once with this velocity, and command a stop."""
-        spot = self._here()
-        rolling = self._way.rolling
-        moving = self.drive.launched(velocity, rolling)
-        state, targets = self.drive.told((*moving, *spot.state[len(moving) :]), (0.0, 0.0, 0.0))
-        self._set_out(self._instant.ns, self._new_way(pose, state, targets))
+        point = self._current()
+        wheel_factors = self._trajectory.wheel_factors
+        moving = self.drive.state_for_velocity(velocity, wheel_factors)
+        state, targets = self.drive.apply_command((*moving, *point.state[len(moving) :]), (0.0, 0.0, 0.0))
+        self._set_trajectory(self._instant.ns, self._new_trajectory(pose, state, targets))
         self.expires_ns = math.inf
         self.touching = False
 
     def draw_slip(self) -> None:
         """Begin the next period of slip."""
         self.wheels.slip()
-        spot = self._here()
-        if self.drive.rolling(self.wheels) != self._way.rolling:
-            self._change(spot.state, self._way.targets)
+        point = self._current()
+        if self.drive.wheel_factors(self.wheels) != self._trajectory.wheel_factors:
+            self._change(point.state, self._trajectory.targets)
 
-    def carried(self, begin_ns: int, end_ns: int, wheels: Spot, end: Pose) -> None:
+    def set_contact_step(self, begin_ns: int, end_ns: int, wheels: TrajectoryPoint, end: Pose) -> None:
         """Set the end of a step with a contact, whose wheels alone would lead to `wheels`, and record the velocity."""
         begin = self.pose
         dt = (end_ns - begin_ns) / SECOND
@@ -256,44 +284,47 @@ class Robot:
         middle = (begin[2] + end[2]) / 2
         c, s = math.cos(middle), math.sin(middle)
         dx, dy = (end[0] - begin[0]) / dt, (end[1] - begin[1]) / dt
-        self.seen = (dx * c + dy * s, dy * c - dx * s, (end[2] - begin[2]) / dt)
-        self._rates = ((self.seen[0] - before[0]) / dt, (self.seen[2] - before[2]) / dt)
+        self.contact_velocity = (dx * c + dy * s, dy * c - dx * s, (end[2] - begin[2]) / dt)
+        self._rates = (
+            (self.contact_velocity[0] - before[0]) / dt,
+            (self.contact_velocity[2] - before[2]) / dt,
+        )
         self.slip = ((wheels.pose[0] - end[0]) / dt, (wheels.pose[1] - end[1]) / dt)
-        following = self._new_way(end, wheels.state, self._way.targets)
+        following = self._new_trajectory(end, wheels.state, self._trajectory.targets)
         self._step = Step(begin_ns, begin, end_ns, end, following)
-        self._spot_ns = -1
+        self._point_ns = -1
         self.touching = True
-        self.room = 0.0
+        self.clearance = 0.0
 
-    def freed(self) -> None:
+    def end_contact(self) -> None:
         """Record that no contact keeps it from its path in a step."""
         self.touching = False
         self.slip = (0.0, 0.0)
 
     # -- the same again ------------------------------------------------------------------------------------------
 
-    kept: tuple[str, ...] = ("start", "expires_ns", "touching", "seen", "slip", "_rates", "_since_ns")
+    saved: tuple[str, ...] = ("start", "expires_ns", "touching", "contact_velocity", "slip", "_rates", "_since_ns")
 
     def state(self) -> dict[str, Any]:
         """Return everything about it except its name and model; includes its wheels."""
         step = self._step
         return {
-            **{name: getattr(self, name) for name in self.kept},
+            **{name: getattr(self, name) for name in self.saved},
             "pose": self.pose,  # for readers of a state
-            "way": self._way.plain(),
-            "step": None if step is None else (*step[:4], step.following.plain()),
+            "way": self._trajectory.inputs(),
+            "step": None if step is None else (*step[:4], step.following.inputs()),
             "wheels": self.wheels.state(),
         }
 
     def restore(self, state: dict[str, Any]) -> None:
         """Restore what `state` returned."""
         self.wheels.restore(state["wheels"])
-        self._set_out(self._instant.ns, Way(self.drive, *state["way"]))
+        self._set_trajectory(self._instant.ns, Trajectory(self.drive, *state["way"]))
         if state["step"] is not None:
             *step, following = state["step"]
             begin_ns, begin, end_ns, end = step
-            self._step = Step(begin_ns, begin, end_ns, end, Way(self.drive, *following))
-        for name in self.kept:
+            self._step = Step(begin_ns, begin, end_ns, end, Trajectory(self.drive, *following))
+        for name in self.saved:
             setattr(self, name, state[name])
 
 
@@ -303,12 +334,12 @@ class HolonomicRobot(Robot):
     @property
     def speeds(self) -> Speeds:
         """Speeds ahead and to the left side [m/s], and rate of turn to the left [rad/s]."""
-        return three(self._here().state)
+        return first_three(self._current().state)
 
     @property
     def reckoned(self) -> Pose:
         """Its estimated pose by dead reckoning from its wheels, relative to the pose at power-on."""
-        return three(self._here().state[3:])
+        return first_three(self._current().state[3:])
 
     @property
     def ticks(self) -> tuple[int, int]:
@@ -316,11 +347,11 @@ class HolonomicRobot(Robot):
         return (0, 0)
 
 
-class Thing(Robot):
+class PassiveRobot(Robot):
     """A model without a drive: it rests or is pushed. Its pose is that of its body."""
 
     body: Placed
-    kept = (*Robot.kept, "_followed_ns")
+    saved = (*Robot.saved, "_followed_ns")
 
     @property
     def pose(self) -> Pose:
@@ -330,7 +361,7 @@ class Thing(Robot):
     def motion(self) -> Motion:
         """Return its true current motion."""
         rates = self._rates if self._instant.ns <= self._followed_ns else (0.0, 0.0)
-        return Motion(self.seen[0], self.seen[2], *rates)
+        return Motion(self.contact_velocity[0], self.contact_velocity[2], *rates)
 
     def turning(self) -> tuple[float, Motion]:
         """Return its heading, not wrapped, and `motion`."""
@@ -339,7 +370,7 @@ class Thing(Robot):
     @property
     def velocity(self) -> Speeds:
         """Its true velocity: ahead and to its left side [m/s], and rate of turn to the left [rad/s]."""
-        return self.seen
+        return self.contact_velocity
 
     def command(self, v: float, vy: float, w: float) -> None:
         """Raise `RosminiError`, because it has no drive."""
@@ -352,16 +383,16 @@ class Thing(Robot):
     def follow(self, pose: Pose, velocity: Speeds, end_ns: int) -> None:
         """Record the pose and velocity at the end of a step, in the frame map [m/s, m/s, rad/s]."""
         (vx, vy, w), c, s = velocity, math.cos(pose[2]), math.sin(pose[2])
-        before, self.seen = self.seen, (c * vx + s * vy, c * vy - s * vx, w)
-        self._rates = ((self.seen[0] - before[0]) / STEP, (w - before[2]) / STEP)
+        before, self.contact_velocity = self.contact_velocity, (c * vx + s * vy, c * vy - s * vx, w)
+        self._rates = ((self.contact_velocity[0] - before[0]) / STEP, (w - before[2]) / STEP)
         self._followed_ns = end_ns
 
     def launch(self, pose: Pose, velocity: Speeds) -> None:  # noqa: ARG002 - its body is put there
         """Record its velocity."""
-        self.seen, self._rates = velocity, (0.0, 0.0)
+        self.contact_velocity, self._rates = velocity, (0.0, 0.0)
 
 
 def make_robot(name: str, model: RobotModel, pose: Pose, wheels: RealWheels, instant: Instant) -> Robot:
     """Return a robot of the class for its model's drive."""
-    kinds = {"differential": Robot, "holonomic": HolonomicRobot, None: Thing}
+    kinds = {"differential": Robot, "holonomic": HolonomicRobot, None: PassiveRobot}
     return kinds[model.drive](name, model, pose, wheels, instant)

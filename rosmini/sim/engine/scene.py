@@ -135,17 +135,17 @@ class Near:
                 found[one, other] = found.get((one, other), 0.0) + push / dt
         return [(*pair, force) for pair, force in found.items()]
 
-    def make_way(self, queue: list[int]) -> list[int]:
+    def resolve_overlaps(self, queue: list[int]) -> list[int]:
         """Resolve the overlaps of robots, these first; return the indices of those that were moved."""
         moved = np.zeros(len(self.bodies), dtype=np.int64)
-        self._loops.run("make_way", len(self.bodies), np.array(queue, dtype=np.int64), self.scene, moved)
+        self._loops.run("resolve_overlaps", len(self.bodies), np.array(queue, dtype=np.int64), self.scene, moved)
         return np.flatnonzero(moved).tolist()
 
-    def clearances(self, lookers: list[int], view: float) -> list[float]:
-        """Return how far each of `lookers` can move before a contact; for the other bodies inf, or an upper bound."""
+    def clearances(self, robots: list[int], view: float) -> list[float]:
+        """Return how far each of `robots` can move before a contact; for the other bodies inf, or an upper bound."""
         rooms = np.full(len(self.bodies), np.inf)
-        numbers = np.array(lookers, dtype=np.int64)
-        self._loops.run("clearances", len(lookers), numbers, view, self.scene, rooms)
+        numbers = np.array(robots, dtype=np.int64)
+        self._loops.run("clearances", len(robots), numbers, view, self.scene, rooms)
         return rooms.tolist()
 
 

@@ -20,7 +20,7 @@ time first passes its beginning, and only from the state at its beginning. There
 - a change of friction and gravity within a step takes effect from the next one on;
 - the solver remembers nothing from step to step, so a state consists of poses and velocities only.
 
-*Which bodies are checked* matters only for speed. Each robot and each mover has a clearance, `room`: the distance
+*Which bodies are checked* matters only for speed. Each robot and each mover has a `clearance`: the distance
 that it can move, and the others with it, before a contact is possible; two movers share the gap between
 them. Bodies without clearance left are checked: every `PLAN` steps the bodies that may touch anything, and those
 near them, are determined. Checking more robots than necessary changes nothing: a robot without a contact stays
@@ -42,9 +42,9 @@ from .kernels import CENTRE_X, CENTRE_Y
 from .movers import Mover
 from .odometry import SLIP_PERIOD
 from .population import Population
-from .robot import Robot, Thing
+from .robot import PassiveRobot, Robot
 from .scene import Near
-from .wheel_drives import Spot
+from .wheel_drives import TrajectoryPoint
 
 PLAN = 10
 """Number of steps for which the bodies that may touch anything are determined."""
@@ -68,7 +68,7 @@ class Stepper:
     """Advances the time of one engine."""
 
     def __init__(self, population: Population) -> None:
-        self._all = population
+        self._population = population
         self._instant = population.instant
         self.slips_ns = SLIP_NS
         """Time of the next change of the wheels' slip [ns]."""
@@ -79,7 +79,7 @@ class Stepper:
         self._movers: list[tuple[int, Mover]] = []
         self._crates: list[tuple[int, Crate]] = []
         self._disturbed = False
-        self._haste = 0.0
+        self._top_speed = 0.0
         self._remembers = False
         self.invalidate_clearance()
 
@@ -88,25 +88,25 @@ class Stepper:
     def advance(self, until_ns: int) -> None:
         """Advance time to `until_ns`; a time in the past has no effect."""
         instant = self._instant
-        if not self._remembers and self._all.trails.span:
+        if not self._remembers and self._population.trails.span:
             self._remembers = True
-            for each in self._all.moving:
-                self._all.note(each)
+            for each in self._population.moving:
+                self._population.record_leg(each)
         while True:
             tick_ns = self._tick * STEP_NS
             if self._change_ns is None:
                 self._change_ns = min([self.slips_ns, *(robot.expires_ns for robot in self._drivers)])
             if self._change_ns <= until_ns and self._change_ns <= tick_ns:
                 instant.ns = max(instant.ns, int(self._change_ns))
-                self._changes()
+                self._apply_changes()
             elif tick_ns < until_ns:
                 instant.ns = tick_ns
-                self._leave(self._tick)
+                self._advance_step(self._tick)
             else:
                 break
         instant.ns = max(instant.ns, until_ns)
 
-    def _changes(self) -> None:
+    def _apply_changes(self) -> None:
         """Apply the changes that are due now."""
         now = self._instant.ns
         for robot in self._drivers:
@@ -124,14 +124,14 @@ class Stepper:
     def commanded(self, robot: Robot) -> None:
         """Take notice of a new command to a robot."""
         self._change_ns = None
-        self._all.note(robot)
+        self._population.record_leg(robot)
         left = max(self._planned * STEP_NS - self._instant.ns, 0) / SECOND
-        if robot.haste > self._haste or robot.room_left(self._instant.ns) < robot.haste * left:
+        if robot.top_speed > self._top_speed or robot.clearance_at(self._instant.ns) < robot.top_speed * left:
             self._plan_next()
 
     def invalidate_clearance(self) -> None:
         """Take notice that a body was added, removed or put elsewhere."""
-        self._drivers = self._all.drivers
+        self._drivers = self._population.drivers
         self._change_ns = None
         self._plan_next()
 
@@ -139,16 +139,16 @@ class Stepper:
         """Determine at the next point of the grid which bodies may touch anything."""
         self._planned = self._tick = -(-self._instant.ns // STEP_NS)
 
-    def forget(self) -> None:
+    def discard_clearances(self) -> None:
         """Discard all clearances: everything may be elsewhere."""
         self._group = None
-        for each in self._all.moving:
-            each.room = 0.0
+        for each in self._population.moving:
+            each.clearance = 0.0
         self.invalidate_clearance()
 
     # -- planning contacts ---------------------------------------------------------------------------------------
 
-    def _leave(self, tick: int) -> None:
+    def _advance_step(self, tick: int) -> None:
         """Advance from a point of the grid."""
         if tick >= self._planned:
             self._plan(tick)
@@ -160,45 +160,57 @@ class Stepper:
 
     def _plan(self, tick: int) -> None:
         """Determine which bodies may touch anything from now on, and until when."""
-        now, drivers, movers = self._instant.ns, self._drivers, list(self._all.movers.values())
-        self._keep_apart()
-        looked: set[Robot] = set()
-        while short := [r for r in drivers if r not in looked and r.room_left(now) < r.haste * HORIZON]:
+        now, drivers, movers = self._instant.ns, self._drivers, list(self._population.movers.values())
+        self._limit_clearances_outside()
+        checked: set[Robot] = set()
+        while short := [
+            r for r in drivers if r not in checked and r.clearance_at(now) < r.top_speed * HORIZON
+        ]:
             # include those that will be short soon, to check rarely and many at once
-            short += [r for r in drivers if r not in looked and r.room_left(now) < 3 * r.haste * HORIZON]
-            looked.update(short)
-            self._look(list(dict.fromkeys(short)))
+            short += [
+                r for r in drivers if r not in checked and r.clearance_at(now) < 3 * r.top_speed * HORIZON
+            ]
+            checked.update(short)
+            self._measure_clearances(list(dict.fromkeys(short)))
         for mover in movers:
-            if mover.room_to_go(now) < mover.haste * HORIZON:
-                self._look_around(mover)
-        bodies = self._all.contacts.bodies
-        active = [bodies[r.name] for r in drivers if r.touching or r.room_left(now) < r.haste * HORIZON]
-        active += [
-            bodies[m.obstacle.name] for m in movers if m.waiting or m.room_to_go(now) < m.haste * HORIZON
+            if mover.free_distance_at(now) < mover.top_speed * HORIZON:
+                self._measure_mover_clearance(mover)
+        bodies = self._population.contacts.bodies
+        active = [
+            bodies[r.name] for r in drivers if r.touching or r.clearance_at(now) < r.top_speed * HORIZON
         ]
-        active += [bodies[c.obstacle.name] for c in self._all.contacts.crates if c.sliding]
-        moving = self._all.moving
-        self._haste = max((each.haste for each in moving), default=0.0)
+        active += [
+            bodies[m.obstacle.name]
+            for m in movers
+            if m.waiting or m.free_distance_at(now) < m.top_speed * HORIZON
+        ]
+        active += [bodies[c.obstacle.name] for c in self._population.contacts.crates if c.sliding]
+        moving = self._population.moving
+        self._top_speed = max((each.top_speed for each in moving), default=0.0)
         self._disturbed = False
         if active:
-            self._gather(active)
+            self._make_group(active)
             self._planned = tick + PLAN
         else:
             self._group = None
-            steps = [each.room_left(now) / (each.haste * STEP) for each in drivers if each.haste > 0]
-            steps += [each.room_to_go(now) / (each.haste * STEP) for each in movers if each.haste > 0]
+            steps = [
+                each.clearance_at(now) / (each.top_speed * STEP) for each in drivers if each.top_speed > 0
+            ]
+            steps += [
+                each.free_distance_at(now) / (each.top_speed * STEP) for each in movers if each.top_speed > 0
+            ]
             self._planned = tick + max(int(min(steps, default=1e9)), PLAN)
 
-    def _gather(self, active: list[Body]) -> None:
+    def _make_group(self, active: list[Body]) -> None:
         """Make tables of the bodies that may touch anything, and of those near them."""
-        contacts = self._all.contacts
+        contacts = self._population.contacts
         speeds = [math.hypot(*c.velocity[:2]) + c.reach * abs(c.velocity[2]) for c in contacts.crates]
-        farthest = max([self._haste, *speeds]) * HORIZON
+        farthest = max([self._top_speed, *speeds]) * HORIZON
         margin = farthest + NEAR / 2
         members = dict.fromkeys(active)
         fresh = active
         while fresh:
-            fresh = [body for body in contacts.around(fresh, 2 * margin) if body not in members]
+            fresh = [body for body in contacts.neighbours(fresh, 2 * margin) if body not in members]
             members.update(dict.fromkeys(fresh))
         group = self._group = contacts.scene(members, margin)
         self._robots, self._movers, self._crates = [], [], []
@@ -210,7 +222,7 @@ class Stepper:
             elif isinstance(body.owner, Crate) and body.owner.obstacle.movable:
                 self._crates.append((i, body.owner))
 
-    def _keep_apart(self) -> None:
+    def _limit_clearances_outside(self) -> None:
         """Update the clearances of robots and movers outside the group, using bounding circles around the members."""
         if self._group is None:
             return
@@ -219,7 +231,9 @@ class Stepper:
         outside: list[tuple[Robot | Mover, float]] = [
             (each, each.model.reach) for each in self._drivers if each.name not in inside
         ]
-        outside += [(each, each.reach) for name, each in self._all.movers.items() if name not in inside]
+        outside += [
+            (each, each.reach) for name, each in self._population.movers.items() if name not in inside
+        ]
         if outside:
             mine = np.array([(*body.owner.pose[:2], body.reach) for body in members])
             table = np.array([(*each.pose[:2], reach) for each, reach in outside])
@@ -227,28 +241,28 @@ class Stepper:
                 table[:, 2:] + mine[:, 2]
             )
             for (each, _), gap in zip(outside, apart.min(axis=1).tolist(), strict=True):
-                if gap - SAFE < each.room_left(now):
-                    each.room, each.room_ns = max(gap - SAFE, 0.0), now
+                if gap - SAFE < each.clearance_at(now):
+                    each.clearance, each.clearance_ns = max(gap - SAFE, 0.0), now
 
-    def _look(self, robots: list[Robot]) -> None:
+    def _measure_clearances(self, robots: list[Robot]) -> None:
         """Measure how far robots can move without a contact; two moving bodies share a gap by half."""
-        now, contacts = self._instant.ns, self._all.contacts
-        lookers = [contacts.bodies[robot.name] for robot in robots]
-        scene = contacts.scene(dict.fromkeys([*lookers, *contacts.around(lookers, VIEW)]), VIEW)
-        index = [scene.index[body.name] for body in lookers]
-        rooms = scene.clearances(index, VIEW)
+        now, contacts = self._instant.ns, self._population.contacts
+        bodies = [contacts.bodies[robot.name] for robot in robots]
+        scene = contacts.scene(dict.fromkeys([*bodies, *contacts.neighbours(bodies, VIEW)]), VIEW)
+        index = [scene.index[body.name] for body in bodies]
+        clearances = scene.clearances(index, VIEW)
         fresh = set(index)
         for i, body in enumerate(scene.bodies):
-            owner, room = body.owner, rooms[i] - SAFE
-            if isinstance(owner, (Robot, Mover)) and (i in fresh or room < owner.room_left(now)):
-                owner.room, owner.room_ns = room, now
+            owner, clearance = body.owner, clearances[i] - SAFE
+            if isinstance(owner, (Robot, Mover)) and (i in fresh or clearance < owner.clearance_at(now)):
+                owner.clearance, owner.clearance_ns = clearance, now
 
-    def _look_around(self, mover: Mover) -> None:
+    def _measure_mover_clearance(self, mover: Mover) -> None:
         """Measure how far a mover can move without coming near anything, by bounding circles."""
-        now, contacts = self._instant.ns, self._all.contacts
+        now, contacts = self._instant.ns, self._population.contacts
         own = contacts.bodies[mover.obstacle.name]
         x, y, _ = mover.pose
-        room = VIEW
+        clearance = VIEW
         for body in contacts.near(x, y, mover.reach + VIEW):
             if body is own:
                 continue
@@ -256,10 +270,10 @@ class Stepper:
             gap = math.hypot(px - x, py - y) - body.reach - mover.reach
             if isinstance(body.owner, (Robot, Mover)):
                 gap /= 2
-                if gap < body.owner.room_left(now):
-                    body.owner.room, body.owner.room_ns = max(gap, 0.0), now
-            room = min(room, gap)
-        mover.room, mover.room_ns = room - SAFE, now
+                if gap < body.owner.clearance_at(now):
+                    body.owner.clearance, body.owner.clearance_ns = max(gap, 0.0), now
+            clearance = min(clearance, gap)
+        mover.clearance, mover.clearance_ns = clearance - SAFE, now
 
     # -- a step --------------------------------------------------------------------------------------------------
 
@@ -267,13 +281,13 @@ class Stepper:
         """Advance the members of the group by a step."""
         now = self._instant.ns
         for _, mover in self._movers:
-            self._let_go(mover)
+            self._advance_mover(mover)
         sliding = any(crate.sliding for _, crate in self._crates)
         restless = self._disturbed or sliding or bool(self._movers)
         watched = [
             i
             for i, robot in self._robots
-            if restless or robot.touching or robot.room_left(now) < robot.haste * STEP
+            if restless or robot.touching or robot.clearance_at(now) < robot.top_speed * STEP
         ]
         if not watched and not sliding:
             return
@@ -281,45 +295,45 @@ class Stepper:
         ahead = [robot.at(end_ns) for _, robot in self._robots]
         if self._crates:
             self._slide(group, ahead, end_ns)
-        for (i, _), spot in zip(self._robots, ahead, strict=True):
-            group.poses[i] = spot.pose
+        for (i, _), point in zip(self._robots, ahead, strict=True):
+            group.poses[i] = point.pose
         for i, mover in self._movers:
-            group.poses[i] = mover.soon(STEP)
-        moved = set(group.make_way(watched))
+            group.poses[i] = mover.predict(STEP)
+        moved = set(group.resolve_overlaps(watched))
         self._disturbed = bool(moved)
-        for (i, robot), spot in zip(self._robots, ahead, strict=True):
+        for (i, robot), point in zip(self._robots, ahead, strict=True):
             if i in moved:
                 x, y, theta = group.poses[i].tolist()
                 if self._remembers:
-                    self._all.trails.carried(robot.name, now / SECOND, robot.pose)
-                robot.carried(now, end_ns, spot, (x, y, theta))
+                    self._population.trails.add_pose(robot.name, now / SECOND, robot.pose)
+                robot.set_contact_step(now, end_ns, point, (x, y, theta))
             elif robot.touching:
-                robot.freed()
-                self._all.note(robot)
+                robot.end_contact()
+                self._population.record_leg(robot)
 
-    def _let_go(self, mover: Mover) -> None:
+    def _advance_mover(self, mover: Mover) -> None:
         """Let a mover continue unless a body that can give way is in its path; then let it turn back if it can."""
         mover.wait(waiting=self._is_stuck(mover, mover.clock, mover.pace))
         if mover.waiting:
-            back = mover.way_back
+            back = mover.return_course
             if back is not None and not self._is_stuck(mover, *back):
-                mover.go_back(*back)
-        self._all.note(mover)
+                mover.turn_back(*back)
+        self._population.record_leg(mover)
 
     def _is_stuck(self, mover: Mover, clock: float, pace: int) -> bool:
         """Return True if a mover would come too near to a body that can give way, from this clock [s] on."""
-        return self._all.contacts.stuck(
+        return self._population.contacts.is_blocked(
             mover.obstacle.name, mover.obstacle.at(clock + pace * STEP), mover.keep
         )
 
-    def _slide(self, group: Near, ahead: list[Spot], end_ns: int) -> None:
+    def _slide(self, group: Near, ahead: list[TrajectoryPoint], end_ns: int) -> None:
         """Let obstacles slide, collide and be pushed for a step."""
-        contacts = self._all.contacts
+        contacts = self._population.contacts
         motion = np.zeros((len(group.bodies), 6))
         for i, body in enumerate(group.bodies):
             group.poses[i] = body.owner.pose
-        for (i, robot), spot in zip(self._robots, ahead, strict=True):
-            (x, y, theta), (u, v, turned) = robot.pose, spot.pose
+        for (i, robot), point in zip(self._robots, ahead, strict=True):
+            (x, y, theta), (u, v, turned) = robot.pose, point.pose
             motion[i] = (*robot.world_velocity(), (u - x) / STEP, (v - y) / STEP, (turned - theta) / STEP)
         for i, crate in self._crates:
             if crate.sliding:
@@ -331,7 +345,7 @@ class Stepper:
             if crate.sliding or (vx, vy, w) != AT_REST:
                 dx, dy = self._lever(group, i)
                 x, y, theta = group.poses[i].tolist()
-                self._carry(crate, end_ns, (x, y, theta), (vx + w * dy, vy - w * dx, w))
+                self._move_crate(crate, end_ns, (x, y, theta), (vx + w * dy, vy - w * dx, w))
 
     @staticmethod
     def _lever(group: Near, i: int) -> tuple[float, float]:
@@ -340,29 +354,29 @@ class Stepper:
         c, s = math.cos(theta), math.sin(theta)
         return c * x - s * y, s * x + c * y
 
-    def _carry(self, crate: Crate, end_ns: int, end: Pose, velocity: tuple[float, float, float]) -> None:
-        everything, now, name = self._all, self._instant.ns, crate.obstacle.name
+    def _move_crate(self, crate: Crate, end_ns: int, end: Pose, velocity: tuple[float, float, float]) -> None:
+        everything, now, name = self._population, self._instant.ns, crate.obstacle.name
         if self._remembers:
-            everything.trails.carried(name, now / SECOND, crate.pose)
-            everything.trails.carried(name, end_ns / SECOND, end)
+            everything.trails.add_pose(name, now / SECOND, crate.pose)
+            everything.trails.add_pose(name, end_ns / SECOND, end)
         crate.carry(now, end_ns, end, velocity)
-        everything.contacts.settle(crate)
+        everything.contacts.update_cells(crate)
         thing = everything.robots.get(name)
-        if isinstance(thing, Thing):
+        if isinstance(thing, PassiveRobot):
             thing.follow(end, velocity, end_ns)
 
     # -- looking ahead -------------------------------------------------------------------------------------------
 
-    def peek(self, robot: Robot, when_ns: int) -> Pose:
+    def predict_pose(self, robot: Robot, when_ns: int) -> Pose:
         """Return a robot's pose at a time if nothing can be in its way by then; otherwise its current pose."""
         now = self._instant.ns
         if when_ns <= now or (self._change_ns is not None and when_ns > self._change_ns):
             return robot.pose
-        return robot.at(when_ns).pose if robot.room_left(when_ns) >= 0 else robot.pose
+        return robot.at(when_ns).pose if robot.clearance_at(when_ns) >= 0 else robot.pose
 
-    def lift(self, bodies: Iterable[Body]) -> None:
+    def reset_clearances(self, bodies: Iterable[Body]) -> None:
         """Reset the clearances of these bodies, because something was added or moved near them."""
         for body in bodies:
             if isinstance(body.owner, (Robot, Mover)):
-                body.owner.room = 0.0
+                body.owner.clearance = 0.0
         self.invalidate_clearance()

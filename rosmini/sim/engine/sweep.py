@@ -4,7 +4,7 @@ Exact poses are computed at `GRID` + 1 times of a revolution, and moving objects
 between them. So beams start exactly where they should while speeds are constant; while they change, the error is
 at most a T^2 / (8 GRID^2), with a the acceleration and T the time of a revolution: a Burger that begins to turn with
 12.5 rad/s^2, its maximum, is off by 0.6 milliradians for a moment. Other moving objects are placed, for each
-`TOGETHER` beams, at their pose in the middle of them: an error of 2.2 ms of their motion, half a millimetre for a
+`BEAMS_PER_POSE` beams, at their pose in the middle of them: an error of 2.2 ms of their motion, half a millimetre for a
 Burger, and 3 mm for a walker at 1.4 m/s.
 
 Where machine code pays off, one function does all of it, `rosmini.sim.engine.sweep_kernel.sweep`; otherwise numpy,
@@ -28,8 +28,8 @@ from rosmini.sim.sensors.lidar import measured
 
 from . import sweep_kernel
 from .cross_sections import CrossSection, at_each_pose, obstacle_section, stack
-from .sweep_kernel import TOGETHER
-from .trails import Later, between
+from .sweep_kernel import BEAMS_PER_POSE
+from .trails import PoseOnLeg, between
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -71,7 +71,7 @@ class Sweeps:
         The first beam is measured now, each further one `beam_time` [s] earlier.
         """
         count = lidar.beams
-        self._look_back(beam_time * count)
+        self._update_tracks(beam_time * count)
         seen_from = np.empty((count, 3))
         if viewer.name not in self._numbers:
             seen_from[:] = viewer.pose
@@ -94,7 +94,7 @@ class Sweeps:
             self._poses,
             *self._outlines(height),
             self._around,
-            *self._still(viewer, lidar),
+            *self._stationary_section(viewer, lidar),
             NO_NOISE if noise is None else noise,
             seen_from,
             ranges,
@@ -125,11 +125,11 @@ class Sweeps:
         places -= middle  # everything is relative to it, as in `sweep`
         moved = float(np.hypot(*places.T).max())
         away = np.hypot(*(self._around[:, :2] - middle).T) - self._around[:, 2]
-        begins = np.arange(0, count, TOGETHER)
-        spans = np.column_stack([begins, np.minimum(begins + TOGETHER, count)])
+        begins = np.arange(0, count, BEAMS_PER_POSE)
+        spans = np.column_stack([begins, np.minimum(begins + BEAMS_PER_POSE, count)])
         middles = now - beam_time * (spans.sum(axis=1) - 1) / 2
         sides, segments, discs = self._outlines(height)
-        walls, pillars = self._still(viewer, lidar)
+        walls, pillars = self._stationary_section(viewer, lidar)
         cuts = [(walls - (*middle, *middle), pillars - (*middle, 0.0))]
         rays = [tuple(np.tile((0, count), (len(part), 1)) for part in cuts[0])]
         for k in np.flatnonzero(away < reach + moved).tolist():
@@ -150,7 +150,7 @@ class Sweeps:
         rows = slice(self._starts[number], self._starts[number + 1])
         return self._times[rows], self._poses[rows]
 
-    def _look_back(self, duration: float) -> None:
+    def _update_tracks(self, duration: float) -> None:
         """Compute the tracks of all bodies during the last `duration` seconds."""
         everything = self._population
         moment = (everything.now, everything.changed, duration)
@@ -164,8 +164,8 @@ class Sweeps:
         times: list[float] = []
         poses: list[Pose] = []
         around: list[tuple[float, float, float]] = []
-        for name, pose, reach, later in self._all():
-            track = everything.trails.track(name, grid, pose, later)
+        for name, pose, reach, pose_on_leg in self._moving_bodies():
+            track = everything.trails.track(name, grid, pose, pose_on_leg)
             if track is not None:
                 self._numbers[name] = len(self._numbers)
                 times += track[0]
@@ -175,7 +175,7 @@ class Sweeps:
         self._starts, self._times = np.array(starts), np.array(times)
         self._poses, self._around = np.array(poses).reshape(-1, 3), np.array(around).reshape(-1, 3)
         moving = self._numbers
-        self._standing = [each for each in everything.robots.values() if each.name not in moving]
+        self._stationary_robots = [each for each in everything.robots.values() if each.name not in moving]
         self._crates: list[Crate] = [
             each for each in everything.contacts.crates if each.shown and each.obstacle.name not in moving
         ]
@@ -183,20 +183,20 @@ class Sweeps:
             each for each in everything.movers.values() if each.obstacle.name not in moving
         ]
 
-    def _all(self) -> Iterator[tuple[str, Pose, float, Later | None]]:
+    def _moving_bodies(self) -> Iterator[tuple[str, Pose, float, PoseOnLeg | None]]:
         """Yield each body that may move: its name, pose, reach [m], and a function for its former poses."""
         everything = self._population
         for robot in everything.robots.values():
-            yield robot.name, robot.pose, robot.model.extent, robot.later
+            yield robot.name, robot.pose, robot.model.extent, robot.pose_on_leg
         for mover in everything.movers.values():
-            yield mover.obstacle.name, mover.pose, mover.reach, mover.later
+            yield mover.obstacle.name, mover.pose, mover.reach, mover.pose_on_leg
         for crate in everything.contacts.crates:
             if crate.shown:
                 yield crate.obstacle.name, crate.pose, crate.reach, None
 
-    def _still(self, viewer: Robot, lidar: LidarModel) -> CrossSection:
+    def _stationary_section(self, viewer: Robot, lidar: LidarModel) -> CrossSection:
         """Return the objects that did not move, as far as the laser can see them."""
-        robots, moved, moment = self._standing, 0.0, (self._moment, "")
+        robots, moved, moment = self._stationary_robots, 0.0, (self._moment, "")
         own = self._numbers.get(viewer.name)
         if own is not None:
             robots, moment = [viewer, *robots], (self._moment, viewer.name)

@@ -24,7 +24,7 @@ from .trails import arc
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-TOGETHER = 8
+BEAMS_PER_POSE = 8
 """Number of consecutive beams for which other moving bodies are treated as standing still."""
 
 
@@ -98,8 +98,8 @@ def sweep(  # noqa: C901, PLR0912 - one function, for each that is compiled cost
         if far > size + 2 * NEAR:
             half = math.asin(size / far) + spread + 2 * MARGIN
             lowest, width = before(math.atan2(ay, ax) - half, angle), 2 * half + 2 * MARGIN
-        for begin in range(0, count, TOGETHER):
-            end = min(begin + TOGETHER, count)
+        for begin in range(0, count, BEAMS_PER_POSE):
+            end = min(begin + BEAMS_PER_POSE, count)
             low, high = (count - end, count - begin) if back else (begin, end)
             if not overlap(step * low, step * (high - 1), lowest, width):
                 continue

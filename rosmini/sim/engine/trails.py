@@ -31,7 +31,7 @@ WIDE = 1.0
 SAME = 1e-11
 """Poses that differ by less [m, rad] count as equal."""
 
-Later = Callable[[Leg, float], Pose]
+PoseOnLeg = Callable[[Leg, float], Pose]
 """Returns the pose so many seconds after the beginning of a leg with a course."""
 
 
@@ -50,13 +50,13 @@ class Trails:
         """Keep at least this duration [s]."""
         self.span = max(self.span, seconds)
 
-    def goes(self, name: str, now: float, pose: Pose, state: Any, course: Any) -> None:
+    def set_course(self, name: str, now: float, pose: Pose, state: Any, course: Any) -> None:
         """Record that a body is on a course from here, unless it was on it before."""
         legs = self._legs.setdefault(name, [])
         if not legs or legs[-1][3] != course:
             self._add(legs, (now, pose, state, course))
 
-    def carried(self, name: str, now: float, pose: Pose) -> None:
+    def add_pose(self, name: str, now: float, pose: Pose) -> None:
         """Record the pose of a body in contact."""
         self._add(self._legs.setdefault(name, []), (now, pose, None, None))
 
@@ -74,7 +74,7 @@ class Trails:
         self._legs.clear()
 
     def track(
-        self, name: str, times: Sequence[float], pose: Pose, later: Later | None
+        self, name: str, times: Sequence[float], pose: Pose, pose_on_leg: PoseOnLeg | None
     ) -> tuple[Sequence[float], list[Pose]] | None:
         """Return poses at enough of the ascending `times` to describe a body's path by arcs.
 
@@ -85,9 +85,9 @@ class Trails:
         if not legs:
             return None
         begin, now = times[0], times[-1]
-        if legs[-1][0] <= begin and legs[-1][3] is not None and later is not None:
+        if legs[-1][0] <= begin and legs[-1][3] is not None and pose_on_leg is not None:
             leg = legs[-1]
-            start, middle = (later(leg, time - leg[0]) for time in (begin, (begin + now) / 2))
+            start, middle = (pose_on_leg(leg, time - leg[0]) for time in (begin, (begin + now) / 2))
             if start == middle == pose:
                 return None
             if abs(pose[2] - start[2]) < WIDE:
@@ -103,8 +103,8 @@ class Trails:
             since, place, _, course = legs[which]
             if time <= since:
                 found.append(place)
-            elif course is not None and later is not None:
-                found.append(later(legs[which], time - since))
+            elif course is not None and pose_on_leg is not None:
+                found.append(pose_on_leg(legs[which], time - since))
             else:
                 until, end = ends[which]
                 part = (time - since) / (until - since) if until > since else 1.0

@@ -30,7 +30,7 @@ WheelState = tuple[float, ...]
 Numbers = tuple[float, ...]
 
 
-class Spot(NamedTuple):
+class TrajectoryPoint(NamedTuple):
     """A point on a robot's path: its pose, its wheel state, and the rates of its wheel speeds."""
 
     pose: Pose
@@ -46,48 +46,48 @@ class Cruise(NamedTuple):
     motion: Motion
 
 
-class Way:
+class Trajectory:
     """A robot's path from a pose and a wheel state to its targets and beyond: phases with constant rates."""
 
     def __init__(
-        self, robot: Drive, pose: Pose, state: WheelState, targets: Numbers, rolling: Numbers
+        self, robot: Drive, pose: Pose, state: WheelState, targets: Numbers, wheel_factors: Numbers
     ) -> None:
-        self.pose, self.state, self.targets, self.rolling = pose, state, targets, rolling
+        self.pose, self.state, self.targets, self.wheel_factors = pose, state, targets, wheel_factors
         self._robot = robot
         (self._end, rates), *self._later = robot.phases(state, targets)
-        self._phases = [(0.0, Spot(pose, state, rates))]
+        self._phases = [(0.0, TrajectoryPoint(pose, state, rates))]
         self._last: Cruise | None = None
 
-    def at(self, dt: float) -> Spot:
+    def at(self, dt: float) -> TrajectoryPoint:
         """Return the point after `dt` seconds."""
         while dt >= self._end:
             begin, (pose, state, rates) = self._phases[-1]
-            pose, state = self._robot.after(pose, state, rates, self._end - begin, self.rolling)
+            pose, state = self._robot.after(pose, state, rates, self._end - begin, self.wheel_factors)
             (length, rates), *self._later = self._later
-            state = self._robot.settled(state, self.targets)
-            self._phases.append((self._end, Spot(pose, state, rates)))
+            state = self._robot.snap_to_targets(state, self.targets)
+            self._phases.append((self._end, TrajectoryPoint(pose, state, rates)))
             self._end += length
-        begin, spot = self._phases[-1]
+        begin, point = self._phases[-1]
         if dt < begin:
-            begin, spot = next(each for each in reversed(self._phases) if dt >= each[0])
+            begin, point = next(each for each in reversed(self._phases) if dt >= each[0])
         if dt == begin:
-            return spot
-        pose, state, rates = spot
-        pose, state = self._robot.after(pose, state, rates, dt - begin, self.rolling)
-        return tuple.__new__(Spot, (pose, state, rates))  # half the time of Spot(...)
+            return point
+        pose, state, rates = point
+        pose, state = self._robot.after(pose, state, rates, dt - begin, self.wheel_factors)
+        return tuple.__new__(TrajectoryPoint, (pose, state, rates))  # half the time of Spot(...)
 
     @property
     def cruise(self) -> Cruise | None:
         """Its last phase; None until a point in it has been computed."""
         if self._last is None and self._end == math.inf:
             begin, (pose, state, _) = self._phases[-1]
-            v, _, w = self._robot.velocity(state, self.rolling)
+            v, _, w = self._robot.velocity(state, self.wheel_factors)
             self._last = Cruise(begin, pose[2], Motion(v, w, 0.0, 0.0))
         return self._last
 
-    def plain(self) -> tuple[Pose, WheelState, Numbers, Numbers]:
+    def inputs(self) -> tuple[Pose, WheelState, Numbers, Numbers]:
         """Return all inputs of the path."""
-        return (self.pose, self.state, self.targets, self.rolling)
+        return (self.pose, self.state, self.targets, self.wheel_factors)
 
 
 class Drive(ABC):
@@ -96,7 +96,7 @@ class Drive(ABC):
     def __init__(self, model: RobotModel) -> None:
         self.model = model
 
-    still: WheelState
+    initial_state: WheelState
     """State of wheels that have not turned yet."""
     targets: Numbers
     """Initial targets: zero speeds."""
@@ -107,42 +107,42 @@ class Drive(ABC):
 
     @abstractmethod
     def after(
-        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, rolling: Numbers
+        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, wheel_factors: Numbers
     ) -> tuple[Pose, WheelState]:
         """Return the pose and state after `dt` seconds with these rates."""
 
     @abstractmethod
-    def settled(self, state: WheelState, targets: Numbers) -> WheelState:
+    def snap_to_targets(self, state: WheelState, targets: Numbers) -> WheelState:
         """Return the state with speeds set to their targets where they differ only by rounding."""
 
     @abstractmethod
-    def told(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
+    def apply_command(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
         """Return the state and targets after a command (ahead, left, turn); speeds without a limit change at once."""
 
     @abstractmethod
-    def launched(self, velocity: Speeds, rolling: Numbers) -> WheelState:
+    def state_for_velocity(self, velocity: Speeds, wheel_factors: Numbers) -> WheelState:
         """Return the state of wheels that roll with a velocity."""
 
     @abstractmethod
-    def rolling(self, wheels: RealWheels) -> Numbers:
+    def wheel_factors(self, wheels: RealWheels) -> Numbers:
         """Return the real wheels' factors for the motion."""
 
     @abstractmethod
-    def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
+    def velocity(self, state: Numbers, wheel_factors: Numbers) -> Speeds:
         """Return the true velocity (ahead, left, turn) for wheel speeds, or the acceleration for their rates."""
 
     @abstractmethod
-    def haste(self, state: WheelState, targets: Numbers, rolling: Numbers) -> float:
+    def top_speed(self, state: WheelState, targets: Numbers, wheel_factors: Numbers) -> float:
         """Return the maximum speed of any corner between these speeds and their targets [m/s]."""
 
     def _speed(self, velocity: Speeds) -> float:
         return math.hypot(velocity[0], velocity[1]) + self.model.reach * abs(velocity[2])
 
 
-class TwoWheels(Drive):
+class DifferentialDrive(Drive):
     """Two wheels: nominal speeds of the left and right rim [m/s], and their distances [m]."""
 
-    still = (0.0, 0.0, 0.0, 0.0)
+    initial_state = (0.0, 0.0, 0.0, 0.0)
     targets = (0.0, 0.0)
 
     def phases(self, state: WheelState, targets: Numbers) -> list[tuple[float, Numbers]]:
@@ -159,12 +159,12 @@ class TwoWheels(Drive):
         return [(h, (al, ar)) for h, al, ar in found]
 
     def after(
-        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, rolling: Numbers
+        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, wheel_factors: Numbers
     ) -> tuple[Pose, WheelState]:
         """See `Drive.after`."""
-        left, right, left_way, right_way = state
+        left, right, left_distance, right_distance = state
         al, ar = rates
-        kl, kr, b = rolling
+        kl, kr, b = wheel_factors
         v, w = (left * kl + right * kr) / 2, (right * kr - left * kl) / b
         if al or ar:
             pose = unicycle(pose, v, w, (al * kl + ar * kr) / 2, (ar * kr - al * kl) / b, dt)
@@ -172,8 +172,8 @@ class TwoWheels(Drive):
             return pose, (
                 u_left,
                 u_right,
-                left_way + (left + u_left) / 2 * dt,
-                right_way + (right + u_right) / 2 * dt,
+                left_distance + (left + u_left) / 2 * dt,
+                right_distance + (right + u_right) / 2 * dt,
             )
         if left == right == 0.0:
             return pose, state
@@ -184,15 +184,15 @@ class TwoWheels(Drive):
         towards = theta + half
         return (
             (x + chord * math.cos(towards), y + chord * math.sin(towards), theta + w * dt),
-            (left, right, left_way + left * dt, right_way + right * dt),
+            (left, right, left_distance + left * dt, right_distance + right * dt),
         )
 
-    def settled(self, state: WheelState, targets: Numbers) -> WheelState:
-        """See `Drive.settled`."""
-        return (*_settled(state[:2], targets), *state[2:])
+    def snap_to_targets(self, state: WheelState, targets: Numbers) -> WheelState:
+        """See `Drive.snap_to_targets`."""
+        return (*_snap_to_targets(state[:2], targets), *state[2:])
 
-    def told(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
-        """See `Drive.told`."""
+    def apply_command(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
+        """See `Drive.apply_command`."""
         model, b = self.model, self.model.wheel_separation
         v, w = limited(velocity[0], velocity[2], model.max_linear, model.max_angular)
         targets = rim_speeds(v, w, b)
@@ -205,32 +205,32 @@ class TwoWheels(Drive):
                 state = (*rim_speeds(v if free_v else old_v, w if free_w else old_w, b), *state[2:])
         return state, targets
 
-    def launched(self, velocity: Speeds, rolling: Numbers) -> WheelState:
-        """See `Drive.launched`; a robot on two wheels ignores a sideways velocity."""
-        left, right = rim_speeds(velocity[0], velocity[2], rolling[2])
-        return (left / rolling[0], right / rolling[1])
+    def state_for_velocity(self, velocity: Speeds, wheel_factors: Numbers) -> WheelState:
+        """See `Drive.state_for_velocity`; a robot on two wheels ignores a sideways velocity."""
+        left, right = rim_speeds(velocity[0], velocity[2], wheel_factors[2])
+        return (left / wheel_factors[0], right / wheel_factors[1])
 
-    def rolling(self, wheels: RealWheels) -> Numbers:
+    def wheel_factors(self, wheels: RealWheels) -> Numbers:
         """Return metres on the ground per metre of each rim, and the wheel separation [m]."""
         return (wheels.left, wheels.right, wheels.separation)
 
-    def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
+    def velocity(self, state: Numbers, wheel_factors: Numbers) -> Speeds:
         """See `Drive.velocity`."""
-        left, right = state[0] * rolling[0], state[1] * rolling[1]
-        return ((left + right) / 2, 0.0, (right - left) / rolling[2])
+        left, right = state[0] * wheel_factors[0], state[1] * wheel_factors[1]
+        return ((left + right) / 2, 0.0, (right - left) / wheel_factors[2])
 
-    def haste(self, state: WheelState, targets: Numbers, rolling: Numbers) -> float:
-        """See `Drive.haste`."""
+    def top_speed(self, state: WheelState, targets: Numbers, wheel_factors: Numbers) -> float:
+        """See `Drive.top_speed`."""
         if state[:2] == targets:
-            return self._speed(self.velocity(targets, rolling))
+            return self._speed(self.velocity(targets, wheel_factors))
         lefts, rights = (state[0], targets[0]), (state[1], targets[1])
-        return max(self._speed(self.velocity((a, b), rolling)) for a in lefts for b in rights)
+        return max(self._speed(self.velocity((a, b), wheel_factors)) for a in lefts for b in rights)
 
 
-class AnySide(Drive):
+class HolonomicDrive(Drive):
     """A holonomic drive: nominal speeds ahead, to the left and of the turn, and the pose reckoned from them."""
 
-    still = (0.0,) * 6
+    initial_state = (0.0,) * 6
     targets = (0.0, 0.0, 0.0)
 
     def phases(self, state: WheelState, targets: Numbers) -> list[tuple[float, Numbers]]:
@@ -240,27 +240,27 @@ class AnySide(Drive):
             return [(math.inf, (0.0, 0.0, 0.0))]
         model = self.model
         limits = (model.linear_acceleration, model.linear_acceleration, model.angular_acceleration)
-        return list(ramps(three(speeds), three(targets), limits, math.inf))
+        return list(ramps(first_three(speeds), first_three(targets), limits, math.inf))
 
     def after(
-        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, rolling: Numbers
+        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, wheel_factors: Numbers
     ) -> tuple[Pose, WheelState]:
         """See `Drive.after`."""
-        speeds = three(state)
+        speeds = first_three(state)
         if speeds == rates == (0.0, 0.0, 0.0):
             return pose, state
-        changes = three(rates)
+        changes = first_three(rates)
         v, vy, w = (speed + rate * dt for speed, rate in zip(speeds, changes, strict=True))
-        believed = glide(three(state[3:]), speeds, changes, dt)
-        real = glide(pose, self.velocity(speeds, rolling), self.velocity(changes, rolling), dt)
+        believed = glide(first_three(state[3:]), speeds, changes, dt)
+        real = glide(pose, self.velocity(speeds, wheel_factors), self.velocity(changes, wheel_factors), dt)
         return real, (v, vy, w, *believed)
 
-    def settled(self, state: WheelState, targets: Numbers) -> WheelState:
-        """See `Drive.settled`."""
-        return (*_settled(state[:3], targets), *state[3:])
+    def snap_to_targets(self, state: WheelState, targets: Numbers) -> WheelState:
+        """See `Drive.snap_to_targets`."""
+        return (*_snap_to_targets(state[:3], targets), *state[3:])
 
-    def told(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
-        """See `Drive.told`."""
+    def apply_command(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
+        """See `Drive.apply_command`."""
         model = self.model
         v, w = limited(velocity[0], velocity[2], model.max_linear, model.max_angular)
         aside = model.max_linear if model.max_lateral is None else model.max_lateral
@@ -272,31 +272,31 @@ class AnySide(Drive):
         )
         return (*speeds, *state[3:]), targets
 
-    def launched(self, velocity: Speeds, rolling: Numbers) -> WheelState:
-        """See `Drive.launched`."""
-        return tuple(speed / factor for speed, factor in zip(velocity, rolling, strict=True))
+    def state_for_velocity(self, velocity: Speeds, wheel_factors: Numbers) -> WheelState:
+        """See `Drive.state_for_velocity`."""
+        return tuple(speed / factor for speed, factor in zip(velocity, wheel_factors, strict=True))
 
-    def rolling(self, wheels: RealWheels) -> Numbers:
+    def wheel_factors(self, wheels: RealWheels) -> Numbers:
         """Return the ratios of real to nominal motion ahead, to the side, and in turns."""
         return (wheels.left, wheels.right, self.model.wheel_separation / wheels.separation)
 
-    def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
+    def velocity(self, state: Numbers, wheel_factors: Numbers) -> Speeds:
         """See `Drive.velocity`."""
-        return (state[0] * rolling[0], state[1] * rolling[1], state[2] * rolling[2])
+        return (state[0] * wheel_factors[0], state[1] * wheel_factors[1], state[2] * wheel_factors[2])
 
-    def haste(self, state: WheelState, targets: Numbers, rolling: Numbers) -> float:
-        """See `Drive.haste`."""
+    def top_speed(self, state: WheelState, targets: Numbers, wheel_factors: Numbers) -> float:
+        """See `Drive.top_speed`."""
         v, vy, w = (max(abs(a), abs(b)) for a, b in zip(state[:3], targets, strict=True))
-        return self._speed(self.velocity((v, vy, w), rolling))
+        return self._speed(self.velocity((v, vy, w), wheel_factors))
 
 
-def _settled(speeds: Numbers, targets: Numbers) -> Numbers:
+def _snap_to_targets(speeds: Numbers, targets: Numbers) -> Numbers:
     return tuple(
         target if abs(speed - target) < ROUNDING else speed
         for speed, target in zip(speeds, targets, strict=True)
     )
 
 
-def three(numbers: Numbers) -> tuple[float, float, float]:
+def first_three(numbers: Numbers) -> tuple[float, float, float]:
     """Return the first three numbers."""
     return (numbers[0], numbers[1], numbers[2])

@@ -287,7 +287,7 @@ class Model:
             return (0.0, 0.0)
         radius = self.body.wheel_radius
         right = self.body.sides[name]
-        way, speed = (robot.right_way, robot.right) if right else (robot.left_way, robot.left)
+        way, speed = (robot.right_distance, robot.right) if right else (robot.left_distance, robot.left)
         return (way / radius, speed / radius)
 
 

@@ -186,7 +186,7 @@ class RunningWorld(GazeboWorld):
         self.host.catch_up()
         self.physics = physics
         self.host.speed = physics.speed
-        self.engine.tune(gravity=max(0.0, -physics.gravity[2]))
+        self.engine.set_surface(gravity=max(0.0, -physics.gravity[2]))
 
     # -- saving --------------------------------------------------------------------------------------------------
 
@@ -354,7 +354,7 @@ class RunningWorld(GazeboWorld):
         if model.body is not None:
             self.engine.remove(model.name)
         for obstacle in model.obstacles:
-            self.engine.take_away(obstacle)
+            self.engine.remove_obstacle(obstacle)
         del self.models[model.name]
 
     def move(self, model: Model, pose: Pose6, velocity: Velocity = STILL) -> None:
@@ -381,7 +381,7 @@ class RunningWorld(GazeboWorld):
         old = tuple(each for each in self.engine.world.obstacles if each.name in model.obstacles)
         found = obstacles_at(pose, replace(model.sdf, name=model.name), old)
         for name in model.obstacles:
-            self.engine.take_away(name)
+            self.engine.remove_obstacle(name)
         try:
             model.obstacles = self._insert_all(found)
         except RosminiError:
@@ -400,7 +400,7 @@ class RunningWorld(GazeboWorld):
                 added.append(obstacle.name)
         except RosminiError:
             for name in added:
-                self.engine.take_away(name)
+                self.engine.remove_obstacle(name)
             raise
         return tuple(added)
 

@@ -146,7 +146,9 @@ class Watch:
         """Return its current pose: x [m], y [m], heading [rad]."""
         engine = self.engine
         pose = (
-            engine.peek(body.name, self.host.engine_now) if body.kind == "robot" else engine.pose(body.name)
+            engine.predict_pose(body.name, self.host.engine_now)
+            if body.kind == "robot"
+            else engine.pose(body.name)
         )
         return pose if body.axle == HERE else compose(pose, inverse(body.axle))
 

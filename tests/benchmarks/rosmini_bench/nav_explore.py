@@ -23,7 +23,7 @@ from rosmini.sim.worlds import world as world_called
 
 from . import nav_quality
 from .nav_goals import DISC, Terrain, wilson
-from .nav_trial import LOOK, Watch, place, take_away
+from .nav_trial import LOOK, Watch, place, remove_obstacle
 
 WORLDS = ("house", "maze", "office")
 FRONTIER, LITE = "frontier_exploration", "explore_lite"
@@ -134,7 +134,7 @@ def _explore(graph: Graph, world: str, method: str, seed: int, longest: float, w
     )
     graph.run(3.0)
     simulator = graph.nodes["/simulator"].program
-    take_away(simulator.engine, without)
+    remove_obstacle(simulator.engine, without)
     watch = Watch(simulator.engine, simulator.name)
     node.timer(LOOK, watch.look)
     start = world_called(world).starts[0]

@@ -205,11 +205,11 @@ def across(count: int, seed: int) -> Iterator[Errand]:
         yield Errand(number, start, goal, math.dist(*way), turning(way, start, goal))
 
 
-def take_away(engine: Any, without: str) -> None:
+def remove_obstacle(engine: Any, without: str) -> None:
     """Take away what has a name that begins so; nothing if it is empty."""
     for obstacle in engine.obstacles():
         if without and obstacle.name.startswith(without):
-            engine.take_away(obstacle.name)
+            engine.remove_obstacle(obstacle.name)
 
 
 @dataclass
@@ -286,7 +286,7 @@ def _run(graph: Graph, setup: Setup, errand: Errand, file: Path, *, watched: boo
     simulator = graph.nodes["/simulator"].program
     for obstacle in () if setup.gap is None else cylinders(setup.gap * width(setup.model)):
         simulator.engine.insert(obstacle)
-    take_away(simulator.engine, setup.without)
+    remove_obstacle(simulator.engine, setup.without)
     node = graph.node("tester")
     watch = Watch(simulator.engine, simulator.name)
     results: list[Any] = []

@@ -432,5 +432,5 @@ def test_a_robot_that_is_walled_in_says_so_and_goes_on_when_it_is_freed(graph):
     assert re.search(r"rotate_recovery \(planning\): ", said)
     assert math.dist(rig.sim.truth()[:2], (0.0, 0.0)) < 0.1, "it turned, and went nowhere"
     for name in names:
-        rig.sim.engine.take_away(name)
+        rig.sim.engine.remove_obstacle(name)
     assert go(rig, target)[0] is Status.SUCCEEDED

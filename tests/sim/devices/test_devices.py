@@ -324,7 +324,7 @@ def test_a_camera_sees_other_robots_and_what_comes(graph):
     before = camera.look()[1]
     stand.engine.insert(Obstacle("new", Box(0.2, 2.0), (1.6, 0.0, 0.0), height=1.0))
     there = camera.look()[1]
-    stand.engine.take_away("new")
+    stand.engine.remove_obstacle("new")
     stand.engine.add("other", WAFFLE_PI, (0.8, 0.0, 0.0))
     assert before[24, 32] != pytest.approx(1.5, abs=0.01)
     assert there[24, 32] == pytest.approx(1.5, abs=1e-4)

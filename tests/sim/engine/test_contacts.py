@@ -63,7 +63,7 @@ def drive(engine: Engine, rng: np.random.Generator, seconds: float) -> None:
     engine.advance(engine.now + seconds)
 
 
-# -- room and hindrances ---------------------------------------------------------------------------------------------
+# -- room and obstructions -------------------------------------------------------------------------------------------
 
 
 def there(*obstacles: Obstacle, walls: tuple = ()) -> Engine:
@@ -110,9 +110,9 @@ def test_an_outline_with_an_inner_corner_keeps_its_shape_and_its_mass():
     assert body.mass.mass == 2.0
     assert sum(polygons.area(piece.corners) for piece in body.pieces) == pytest.approx(0.07)
     assert (body.mass.x, body.mass.y) == pytest.approx((0.19 / 1.4, 0.19 / 1.4))
-    hindrance = made.contacts.hindrance
-    assert hindrance(BURGER, (0.8, 1.25, 0.0)) is None  # in the open corner
-    assert hindrance(BURGER, (0.95, 1.05, 0.0)) == "the obstacle 'angle'"
+    obstruction = made.contacts.obstruction
+    assert obstruction(BURGER, (0.8, 1.25, 0.0)) is None  # in the open corner
+    assert obstruction(BURGER, (0.95, 1.05, 0.0)) == "the obstacle 'angle'"
     assert made.obstacles()[0].pose == pytest.approx((1.0, 1.0, math.pi / 2))
 
 
@@ -133,10 +133,10 @@ def test_a_thing_without_symmetry_slides_and_turns_about_its_centre_of_mass():
 def test_a_removed_robot_is_in_nobodys_way():
     made = there()
     made.add("one", BURGER, (0.0, 0.0, 0.0))
-    assert made.hindrance(BURGER, (0.0, 0.0, 0.0)) == "the robot 'one'"
-    assert made.hindrance(BURGER, (0.0, 0.0, 0.0), "one") is None
+    assert made.obstruction(BURGER, (0.0, 0.0, 0.0)) == "the robot 'one'"
+    assert made.obstruction(BURGER, (0.0, 0.0, 0.0), "one") is None
     made.remove("one")
-    assert made.hindrance(BURGER, (0.0, 0.0, 0.0)) is None
+    assert made.obstruction(BURGER, (0.0, 0.0, 0.0)) is None
 
 
 # -- what comes and goes ---------------------------------------------------------------------------------------------
@@ -175,7 +175,7 @@ def test_two_thousand_spawns_and_deletions_leave_nothing_behind():
         if number % 10 == 0:
             engine.advance(engine.now + 0.011)
             engine.scan("burger")
-        (engine.remove if number % 4 == 3 else engine.take_away)(name)
+        (engine.remove if number % 4 == 3 else engine.remove_obstacle)(name)
 
     for number in range(100):
         come_and_go(number)
@@ -254,7 +254,7 @@ def test_things_that_come_and_go_are_in_a_crowds_way_while_they_are_there():
     front = {name: max(x for x, _ in robot.model.footprint) for name, robot in engine.robots.items()}
     for taken, limit in ((False, 0.45 + 1e-4), (True, 3.0)):
         if taken:
-            engine.take_away("bar")
+            engine.remove_obstacle("bar")
         for name in engine.robots:
             engine.command(name, 0.2, 0.0)
         engine.advance(engine.now + 5.0)

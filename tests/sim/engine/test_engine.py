@@ -229,7 +229,7 @@ def test_a_heavy_crate_stays_and_the_wheels_slip():
     engine.advance(20.0)
     assert engine.obstacles()[0].pose == pytest.approx((0.5, 0.0, 0.0), abs=2e-3)
     assert robot.pose[0] == pytest.approx(0.4 - FRONT, abs=2e-3)
-    assert robot.left_way == pytest.approx(0.2 * 20 - RAMP)
+    assert robot.left_distance == pytest.approx(0.2 * 20 - RAMP)
 
 
 def test_a_crate_against_a_wall_stops_the_robot():
@@ -317,7 +317,7 @@ def test_a_peek_tells_the_future_and_changes_nothing():
     for each in (engine, other):
         each.command("burger", 0.2, 0.4)
         each.advance(1.5)
-    seen = engine.peek("burger", 1.52)
+    seen = engine.predict_pose("burger", 1.52)
     engine.advance(1.52)
     assert engine.robots["burger"].pose == seen
     other.advance(1.52)

@@ -88,8 +88,8 @@ def test_robots_and_things_that_came_and_went_since_go_and_come_back():
     state, seen = engine.state(), picture(engine)
     engine.remove("two")
     engine.add("four", BURGER, (1.2, 1.2, 0.0))
-    engine.take_away("pillar")
-    engine.take_away("walker")
+    engine.remove_obstacle("pillar")
+    engine.remove_obstacle("walker")
     engine.insert(Obstacle("new", Box(0.1, 0.1), (-1.3, -1.3, 0.0), mass=0.1))
     drive(engine, 6, 1.0)
     engine.restore(state)
@@ -102,11 +102,11 @@ def test_robots_and_things_that_came_and_went_since_go_and_come_back():
 
 def test_errors_and_settings_come_back_too():
     engine = make()
-    engine.tune(gravity=3.7)
+    engine.set_surface(gravity=3.7)
     state = engine.state()
     wheels = [engine.robots["one"].wheels.left for _ in range(1)]
     engine.advance(5.0)  # the slips of five seconds are drawn
-    engine.tune(gravity=9.8)
+    engine.set_surface(gravity=9.8)
     drawn = engine.robots["one"].wheels.left
     engine.restore(state)
     assert engine.surface.gravity == 3.7

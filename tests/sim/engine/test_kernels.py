@@ -146,7 +146,7 @@ levers = st.floats(-0.2, 0.2)
 
 @given(depths, levers)
 def test_one_point_of_contact_just_touches_afterwards(depth, lever):
-    along, turn = kernels.give(1, depth, 0.0, lever, 0.0, 1.0, 0.0025)
+    along, turn = kernels.point_correction(1, depth, 0.0, lever, 0.0, 1.0, 0.0025)
     assert along + turn * lever == pytest.approx(depth, abs=1e-12)
     assert along > 0
     assert turn * lever >= 0
@@ -155,7 +155,7 @@ def test_one_point_of_contact_just_touches_afterwards(depth, lever):
 @given(depths, depths, levers, levers)
 def test_of_two_points_one_just_touches_afterwards_and_none_is_deeper_than_before(first, second, r, q):
     assume(abs(r - q) > 1e-3)
-    along, turn = kernels.give(2, first, second, r, q, 1.0, 0.0025)
+    along, turn = kernels.point_correction(2, first, second, r, q, 1.0, 0.0025)
     left = [first - along - turn * r, second - along - turn * q]
     assert min(abs(left[0]), abs(left[1])) < 1e-9
     assert max(left) < max(first, second)
@@ -164,4 +164,6 @@ def test_of_two_points_one_just_touches_afterwards_and_none_is_deeper_than_befor
 
 
 def test_flat_against_a_wall_a_body_does_not_turn():
-    assert kernels.give(2, 0.001, 0.001, 0.105, -0.105, 1.0, 0.0025) == pytest.approx((0.001, 0.0))
+    assert kernels.point_correction(2, 0.001, 0.001, 0.105, -0.105, 1.0, 0.0025) == pytest.approx(
+        (0.001, 0.0)
+    )

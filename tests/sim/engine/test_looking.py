@@ -148,9 +148,9 @@ def glance(engine: Engine, rng: np.random.Generator) -> None:
         engine.trails.remember(0.2)
         engine.sweep(name, 0.2 / 360)
     elif what == 2:
-        engine.peek(name, engine.now + 0.03)
+        engine.predict_pose(name, engine.now + 0.03)
     elif what == 3:
-        engine.hindrance(BURGER, (float(rng.uniform(-1, 1)), 0.0, 0.0))
+        engine.obstruction(BURGER, (float(rng.uniform(-1, 1)), 0.0, 0.0))
     else:
         engine.scan(name)
 
@@ -216,9 +216,9 @@ def test_a_command_within_a_step_counts_from_the_end_of_the_step_for_who_is_kept
     assert robot.touching
     engine.advance(2.002)
     engine.command("one", -0.2, 0.0)
-    turned = robot.left_way
+    turned = robot.left_distance
     engine.advance(2.005)
-    assert robot.left_way == pytest.approx(turned + 0.003 * robot.left)
+    assert robot.left_distance == pytest.approx(turned + 0.003 * robot.left)
     assert robot.left > 0.199
     engine.advance(2.105)  # it brakes from 2.005 on
     assert robot.left == pytest.approx(0.2 - 0.1, abs=1e-9)

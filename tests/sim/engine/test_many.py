@@ -249,7 +249,7 @@ def test_equal_discs_that_collide_aslant_part_at_a_right_angle():
         for name, x, y in (("a", 0.0, 0.0), ("b", 0.5, 0.1))
     )
     engine = Engine(World("table", things), generator)
-    engine.tune(friction=0.0)
+    engine.set_surface(friction=0.0)
     engine.put("a", (0.0, 0.0, 0.0), (0.4, 0.0, 0.0))
     engine.advance(2.0)
     u, v = (np.array(engine.velocity(name)[:2]) for name in "ab")
@@ -263,7 +263,7 @@ def test_a_thing_slides_v_squared_by_two_mu_g_far():
     for drag, gravity in ((0.5, 9.80665), (0.2, 9.80665), (0.5, 1.62)):
         thing = Obstacle("puck", Cylinder(0.05), mass=0.2, drag=drag)
         engine = Engine(World("ice", (thing,)), generator)
-        engine.tune(gravity=gravity)
+        engine.set_surface(gravity=gravity)
         engine.put("puck", (0.0, 0.0, 0.0), (0.6, 0.0, 0.0))
         engine.advance(5.0)
         assert engine.pose("puck")[0] == pytest.approx(0.6**2 / 2 / drag / gravity, abs=2e-3)
@@ -279,7 +279,7 @@ def test_wheels_push_no_harder_than_their_grip(mass, moves):
     engine.command("burger", 0.2, 0.0)
     engine.advance(6.0)
     assert (engine.pose("crate")[0] > 0.8) == moves
-    slipped = engine.robots["burger"].left_way - engine.pose("burger")[0]
+    slipped = engine.robots["burger"].left_distance - engine.pose("burger")[0]
     assert slipped > (-0.01 if moves else 0.5)
 
 
@@ -325,10 +325,10 @@ def test_names_are_taken_once_and_places_too():
     with pytest.raises(WorldError, match="finite"):
         engine.put("box", (0.0, math.nan, 0.0))
     with pytest.raises(RobotGone, match="nothing 'bocks'"):
-        engine.take_away("bocks")
+        engine.remove_obstacle("bocks")
     engine.put("box", (-1.0, 0.0, 0.5))
     assert engine.pose("box") == pytest.approx((-1.0, 0.0, 0.5))
-    engine.take_away("box")
+    engine.remove_obstacle("box")
     assert engine.world.obstacles == ()
     engine.insert(Obstacle("block", Box(0.2, 0.2), (0.5, 0.0, 0.0)))
     engine.command("burger", 0.2, 0.0)
@@ -337,5 +337,5 @@ def test_names_are_taken_once_and_places_too():
     engine.put("block", (-0.5, 0.0, 0.0))  # a fixed one is not pushed, but it can be put elsewhere
     engine.advance(6.0)
     assert engine.pose("burger")[0] > 0.45
-    engine.take_away("block")
+    engine.remove_obstacle("block")
     assert np.isfinite(engine.scan("burger")).all()
