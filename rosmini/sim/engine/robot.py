@@ -303,7 +303,15 @@ class Robot:
 
     # -- the same again ------------------------------------------------------------------------------------------
 
-    saved: tuple[str, ...] = ("start", "expires_ns", "touching", "contact_velocity", "slip", "_rates", "_since_ns")
+    saved: tuple[str, ...] = (
+        "start",
+        "expires_ns",
+        "touching",
+        "contact_velocity",
+        "slip",
+        "_rates",
+        "_since_ns",
+    )
 
     def state(self) -> dict[str, Any]:
         """Return everything about it except its name and model; includes its wheels."""

@@ -138,7 +138,9 @@ class Near:
     def resolve_overlaps(self, queue: list[int]) -> list[int]:
         """Resolve the overlaps of robots, these first; return the indices of those that were moved."""
         moved = np.zeros(len(self.bodies), dtype=np.int64)
-        self._loops.run("resolve_overlaps", len(self.bodies), np.array(queue, dtype=np.int64), self.scene, moved)
+        self._loops.run(
+            "resolve_overlaps", len(self.bodies), np.array(queue, dtype=np.int64), self.scene, moved
+        )
         return np.flatnonzero(moved).tolist()
 
     def clearances(self, robots: list[int], view: float) -> list[float]:
