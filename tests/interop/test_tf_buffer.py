@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 
 from rosmini.core.tf import BufferCore, FrameTree, TransformException
 from rosmini.core.tf.messages import to_stamped
@@ -124,4 +123,3 @@ def test_the_same_answers(seed: int, wander: bool) -> None:
             target,
             source,
         )
-    assert yaml.safe_load(core.all_frames_as_yaml()) == yaml.safe_load(real["yaml"])

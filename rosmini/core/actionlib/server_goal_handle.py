@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rosmini.msgs import message_class
 
@@ -11,36 +11,10 @@ from .server_machine import GoalEvent, next_status
 from .states import Status
 
 if TYPE_CHECKING:
-    from rosmini.core.graph import Node
-
+    from .server import ActionServer
     from .status_tracker import StatusTracker
 
-__all__ = ["GoalServer", "ServerGoalHandle"]
-
-
-class GoalServer(Protocol):
-    """The part of a server that its handles use."""
-
-    node: Node
-    ns: str
-
-    def complain(self, error: ActionException) -> None:
-        """Raise an error of the server's user, or log it."""
-
-    def get_default_result(self) -> Any:
-        """Return an empty result."""
-
-    def publish_change(self) -> None:
-        """Publish the list of goals after a change."""
-
-    def end(self, tracker: StatusTracker) -> None:
-        """Record the time at which a goal ended."""
-
-    def publish_result(self, status: Any, result: Any) -> None:
-        """Publish a result."""
-
-    def publish_feedback(self, status: Any, feedback: Any) -> None:
-        """Publish feedback."""
+__all__ = ["ServerGoalHandle"]
 
 
 class ServerGoalHandle:
@@ -54,7 +28,7 @@ class ServerGoalHandle:
     def __init__(
         self,
         status_tracker: StatusTracker | None = None,
-        action_server: GoalServer | None = None,
+        action_server: ActionServer | None = None,
         handle_tracker: Any = None,
     ) -> None:
         self.status_tracker = status_tracker
@@ -172,7 +146,7 @@ class ServerGoalHandle:
         else:
             server.publish_change()
 
-    def _server(self) -> GoalServer:
+    def _server(self) -> ActionServer:
         if self.action_server is None:
             raise ActionException("this goal handle has no server: it was not made by one")
         return self.action_server

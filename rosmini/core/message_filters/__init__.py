@@ -11,7 +11,6 @@ from .cache import Cache
 from .errors import MessageFilterError
 from .filters import SimpleFilter, Subscriber
 from .policies import ApproximateTime, ExactTime
-from .sequencer import TimeSequencer
 from .synchronizers import ApproximateTimeSynchronizer, TimeSynchronizer
 
 __all__ = [
@@ -22,6 +21,5 @@ __all__ = [
     "MessageFilterError",
     "SimpleFilter",
     "Subscriber",
-    "TimeSequencer",
     "TimeSynchronizer",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ParameterNotSet, nearest
 from rosmini.core.names import canonicalize, join, resolve
@@ -11,16 +11,11 @@ from rosmini.core.names import canonicalize, join, resolve
 from .errors import RosParamException
 
 if TYPE_CHECKING:
+    from rosmini.core.peers import Peers
+
     from .documents import Document
 
 # YAML is imported where it is used: `rosparam list` does not need it, and should be fast.
-
-
-class Peers(Protocol):
-    """Access to a Master; a :class:`~rosmini.Graph` is one."""
-
-    def ask_as(self, caller_id: str) -> Any:
-        """Return the Master as seen by a caller of this name."""
 
 
 class ParamClient:

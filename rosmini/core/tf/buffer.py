@@ -121,18 +121,6 @@ class BufferCore:
             for frame, edge in self.tree.edges.items()
         )
 
-    def all_frames_as_yaml(self) -> str:
-        """Return each edge with its broadcaster, rate and buffered time, as the service `~tf2_frames` does."""
-        return (
-            "".join(
-                f"{frame}: \n  parent: '{edge.newest.parent}'\n  broadcaster: '{edge.newest.authority}'\n"
-                f"  rate: {edge.rate:.3f}\n  most_recent_transform: {edge.newest_ns / 1e9:.3f}\n"
-                f"  oldest_transform: {edge.oldest_ns / 1e9:.3f}\n  buffer_length: {edge.span_ns / 1e9:.3f}\n"
-                for frame, edge in self.tree.edges.items()
-            )
-            or "[]"
-        )
-
     def all_frames_as_dot(self) -> str:
         """Return the tree for graphviz, in the format of `view_frames`."""
         edges = "".join(

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from rosmini.core.errors import nearest
 
-from .history import History
-from .kernel import Rigid
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .history import History
+    from .kernel import Rigid
+    from .tree import FrameTree
 
 NEAR_PERIODS = 5
 """A transform that is missing by fewer periods than this is expected to arrive."""
@@ -31,24 +34,10 @@ def seconds(time_ns: int) -> str:
     return f"{'-' if time_ns < 0 else ''}{whole}.{decimals:0<3}"
 
 
-class Frames(Protocol):
-    """The part of a `FrameTree` that the texts use."""
-
-    cache_ns: int
-    edges: dict[str, History]
-
-    def __iter__(self) -> Iterator[str]: ...
-    def root(self, frame: str) -> str:
-        """Return the root of the tree that contains a frame."""
-
-    def children(self) -> dict[str, list[str]]:
-        """Return the children of each frame."""
-
-
 class Words:
     """Error messages of one tree."""
 
-    def __init__(self, tree: Frames, now_ns: Callable[[], int] | None) -> None:
+    def __init__(self, tree: FrameTree, now_ns: Callable[[], int] | None) -> None:
         self._tree = tree
         self._now_ns = now_ns
 
@@ -167,7 +156,7 @@ def _count(number: int) -> str:
     return "1 transform" if number == 1 else f"{number} transforms"
 
 
-def draw(tree: Frames) -> str:
+def draw(tree: FrameTree) -> str:
     """Return the frames as text, each below its parent.
 
     Branches are drawn as in a file tree; a tree that consists of a loop is not drawn.

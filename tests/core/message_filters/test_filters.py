@@ -12,7 +12,6 @@ from rosmini.core.message_filters import (
     MessageFilterError,
     SimpleFilter,
     Subscriber,
-    TimeSequencer,
     TimeSynchronizer,
 )
 from rosmini.core.time import Time
@@ -192,27 +191,6 @@ def test_filters_of_filters(sim):
     assert synchroniser.node is node
     with pytest.raises(MessageFilterError, match="made for 2 filters"):
         synchroniser.connectInput([first])
-
-
-def test_a_sequencer_puts_messages_in_order_and_drops_what_is_too_late(graph):
-    node = graph.node("n")
-    source = SimpleFilter()
-    sequencer = TimeSequencer(source, 1.0, 0.1, 3, node=node)
-    found = []
-    sequencer.registerCallback(
-        lambda message: found.append((message.header.frame_id, (node.now() - message.header.stamp).to_sec()))
-    )
-    start = node.now().to_sec() + 10
-    for offset in (0.3, 0.1, 0.2, 0.0):  # four wait, and the oldest of them is dropped
-        source.signalMessage(at(start + offset, str(offset)))
-    graph.run(100.0, until=lambda: len(found) == 3)
-    source.signalMessage(at(start, "too late"))
-    graph.run(2.0)
-    assert [name for name, _ in found] == ["0.1", "0.2", "0.3"]
-    assert all(delay >= 0.999999 for _, delay in found)
-    for arguments, problem in (((source, 0, 1, 1), "positive"), ((source, 1, 1, 1), "belongs to no node")):
-        with pytest.raises(MessageFilterError, match=problem):
-            TimeSequencer(*arguments)
 
 
 def test_queues_are_there_to_look_into_and_to_empty():

@@ -2,7 +2,8 @@
 
 Names, arguments and conventions are those of ROS's module
 (http://docs.ros.org/en/jade/api/tf/html/python/transformations.html); the code follows textbook formulas.
-Angles are in radians; a matrix is multiplied by a column vector on its right.
+Angles are in radians; a matrix is multiplied by a column vector on its right. Of the rarely used functions (shears,
+projections, Arcball ...) there are none.
 """
 
 from __future__ import annotations
@@ -19,25 +20,16 @@ from .matrices import (
     concatenate_matrices,
     identity_matrix,
     is_same_transform,
-    reflection_from_matrix,
-    reflection_matrix,
     rotation_from_matrix,
     rotation_matrix,
-    scale_from_matrix,
-    scale_matrix,
-    shear_matrix,
-    superimposition_matrix,
     translation_from_matrix,
     translation_matrix,
     unit_vector,
     vector_norm,
 )
 from .parts import (
-    clip_matrix,
     compose_matrix,
     decompose_matrix,
-    orthogonalization_matrix,
-    projection_matrix,
 )
 from .quaternions import (
     quaternion_about_axis,
@@ -53,7 +45,6 @@ from .quaternions import (
 )
 
 __all__ = [
-    "clip_matrix",
     "compose_matrix",
     "concatenate_matrices",
     "decompose_matrix",
@@ -63,8 +54,6 @@ __all__ = [
     "identity_matrix",
     "inverse_matrix",
     "is_same_transform",
-    "orthogonalization_matrix",
-    "projection_matrix",
     "quaternion_about_axis",
     "quaternion_conjugate",
     "quaternion_from_euler",
@@ -76,14 +65,8 @@ __all__ = [
     "random_quaternion",
     "random_rotation_matrix",
     "random_vector",
-    "reflection_from_matrix",
-    "reflection_matrix",
     "rotation_from_matrix",
     "rotation_matrix",
-    "scale_from_matrix",
-    "scale_matrix",
-    "shear_matrix",
-    "superimposition_matrix",
     "translation_from_matrix",
     "translation_matrix",
     "unit_vector",

@@ -1,4 +1,4 @@
-"""Homogeneous matrices (4, 4) of translations, rotations, scalings, reflections and shears, and their parameters."""
+"""Homogeneous matrices (4, 4) of translations and rotations, and their parameters."""
 
 from __future__ import annotations
 
@@ -134,111 +134,6 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats]:
     turns = linear[2, 1] - linear[1, 2], linear[0, 2] - linear[2, 0], linear[1, 0] - linear[0, 1]
     sine = 0.5 * scalar_product(axis, turns)
     return math.atan2(sine, cosine), axis, point
-
-
-def scale_matrix(
-    factor: float, origin: ArrayLike | None = None, direction: ArrayLike | None = None
-) -> Floats:
-    """Return a scaling by `factor` about `origin`, in all directions or along `direction` only.
-
-    A factor of -1 is a point reflection.
-    """
-    if direction is None:
-        return about(factor * np.identity(3), origin)
-    axis = unit(direction)
-    return about(np.identity(3) - (1.0 - factor) * axis[:, None] * axis, origin)
-
-
-def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats | None]:
-    """Return factor, fixed point (4) and direction (3; None: all) of a scaling.
-
-    Raises `ValueError` if the matrix is not a scaling.
-    """
-    whole = np.asarray(matrix, dtype=np.float64)
-    linear = whole[:3, :3]
-    along = float(np.trace(linear)) - 2.0
-    try:
-        direction: Floats | None = eigenvector(linear, along)
-        factor = along
-    except ValueError:
-        factor, direction = (along + 2.0) / 3.0, None
-    return factor, fixed_point(whole), direction
-
-
-def reflection_matrix(point: ArrayLike, normal: ArrayLike) -> Floats:
-    """Return the reflection at the plane through `point` with this normal (Householder)."""
-    axis = unit(normal)
-    return about(np.identity(3) - 2.0 * axis[:, None] * axis, point)
-
-
-def reflection_from_matrix(matrix: ArrayLike) -> tuple[Floats, Floats]:
-    """Return a point (4) on the mirror plane and its normal (3). Raises `ValueError` if it is not a reflection."""
-    whole = np.asarray(matrix, dtype=np.float64)
-    return fixed_point(whole), eigenvector(whole[:3, :3], -1.0)
-
-
-def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: ArrayLike) -> Floats:
-    """Return a shear by an angle [rad] along `direction`, in the plane through `point` with this normal.
-
-    Raises `ValueError` if the direction is not in the plane.
-    """
-    axis, across = unit(direction), unit(normal)
-    if abs(scalar_product(axis, across)) > 1e-6:
-        raise ValueError(
-            f"direction and normal vectors are not orthogonal: their product is {scalar_product(axis, across):.3g}"
-        )
-    return about(np.identity(3) + math.tan(angle) * axis[:, None] * across, point)
-
-
-def superimposition_matrix(
-    v0: ArrayLike, v1: ArrayLike, scaling: bool = False, usesvd: bool = True
-) -> Floats:
-    """Return the motion that brings the points `v0` (3, n) closest to `v1` (3, n), by least squares.
-
-    With `scaling`, also scale. Always uses quaternions (Horn, 1987), whatever `usesvd` is. Raises
-    `ValueError` for fewer than three points.
-    """
-    del usesvd
-    first = np.array(v0, dtype=np.float64)[:3]
-    second = np.array(v1, dtype=np.float64)[:3]
-    if first.shape != second.shape or first.shape[1] < 3:
-        raise ValueError(
-            f"two sets of the same three or more points are needed, not {first.shape} and {second.shape}"
-        )
-    middle, target = first.mean(axis=1), second.mean(axis=1)
-    centred, wanted = first - middle[:, None], second - target[:, None]
-    linear = _nearest_rotation(matrix_product(centred, wanted.T))
-    if scaling:
-        linear = linear * math.sqrt(float(np.sum(wanted**2) / np.sum(centred**2)))
-    result = np.identity(4)
-    result[:3, :3] = linear
-    result[:3, 3] = target - matrix_product(linear, middle)
-    return result
-
-
-def _nearest_rotation(spread: Floats) -> Floats:
-    """Return the best rotation (3, 3) between two sets of points, from the sums (3, 3) of products of coordinates.
-
-    It is the eigenvector of the largest eigenvalue (Horn, Closed-form solution of absolute orientation using
-    unit quaternions, 1987).
-    """
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = spread.tolist()
-    _, axes = eigen(
-        [
-            [xx + yy + zz, yz - zy, zx - xz, xy - yx],
-            [yz - zy, xx - yy - zz, xy + yx, zx + xz],
-            [zx - xz, xy + yx, yy - xx - zz, yz + zy],
-            [xy - yx, zx + xz, yz + zy, zz - xx - yy],
-        ]
-    )
-    w, x, y, z = axes[:, -1].tolist()
-    return np.array(
-        [
-            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
-        ]
-    )
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Floats:

@@ -42,32 +42,13 @@ def test_a_quarter_turn():
     assert point[:2] == pytest.approx([1, 2])
 
 
-def test_what_matrices_say_of_themselves():
-    factor, origin, direction = t.scale_from_matrix(t.scale_matrix(3, [1, 2, 3]))
-    assert (factor, direction) == (pytest.approx(3), None)
-    assert origin == pytest.approx([1, 2, 3, 1])
-    factor, _, direction = t.scale_from_matrix(t.scale_matrix(3, [1, 2, 3], [0, 5, 0]))
-    assert (factor, abs(direction[1])) == (pytest.approx(3), pytest.approx(1))
-    point, normal = t.reflection_from_matrix(t.reflection_matrix([0, 0, 2], [0, 0, 1]))
-    assert point[2] == pytest.approx(2)
-    assert abs(normal[2]) == pytest.approx(1)
-    points = np.array([[0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], dtype=float)
-    motion = t.rotation_matrix(0.7, [1, 1, 0]) @ t.translation_matrix([1, 2, 3])
-    moved = motion[:3, :3] @ points + motion[:3, 3:]
-    assert np.allclose(t.superimposition_matrix(points, moved), motion)
-
-
 @pytest.mark.parametrize(
     ("call", "error"),
     [
         (lambda: t.rotation_from_matrix(np.diag([2, 3, 4, 1.0])), "eigenvalue 1"),
         (lambda: t.rotation_from_matrix(t.translation_matrix([1, 0, 0])), "leaves no point"),
-        (lambda: t.shear_matrix(1, [1, 0, 0], [0, 0, 0], [1, 0, 0]), "not orthogonal"),
-        (lambda: t.clip_matrix(1, 0, 0, 1, 0, 1), "invalid frustum"),
-        (lambda: t.clip_matrix(0, 1, 0, 1, 0, 1, perspective=True), "near = 0"),
         (lambda: t.decompose_matrix(np.zeros((4, 4))), "zero"),
         (lambda: t.decompose_matrix(np.diag([0, 1, 1, 1.0])), "singular"),
-        (lambda: t.superimposition_matrix(np.eye(3)[:, :2], np.eye(3)[:, :2]), "three or more"),
     ],
 )
 def test_what_cannot_be_done(call, error):
