@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.overlaps import Outline, Overlaps
 from rosmini.core.geometry.polygons import inside
 from rosmini.core.geometry.poses import Pose, transform_points
+from rosmini.sim.geometry.overlaps import Outline, Overlaps
 
 from .shapes import ROUND, Simple, outline_at
 

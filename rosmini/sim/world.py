@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry import polygons
 from rosmini.core.geometry.poses import Pose
-from rosmini.core.geometry.raycast import raycast
 from rosmini.core.graph.show import show
+from rosmini.sim.geometry.raycast import raycast
 
 from .fixtures import Fixtures, Footprint
 from .motion import Door, Motion, Walk

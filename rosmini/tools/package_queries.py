@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 from rosmini.core.errors import DefinitionError, RosminiError, UnknownPackage, UsageError, nearest
 from rosmini.core.packages import PackageIndex, crawl
-from rosmini.core.packages.dependencies import Dependencies
 from rosmini.core.verbs import ArgumentParser, Call, Lines, Result, Tool, VerbError
+from rosmini.tools.dependencies import Dependencies
 
 from .terminal import Terminal
 

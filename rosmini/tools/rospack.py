@@ -11,7 +11,7 @@ from .package_queries import Queries
 from .terminal import Terminal
 
 if TYPE_CHECKING:
-    from rosmini.core.packages.dependencies import Dependencies
+    from rosmini.tools.dependencies import Dependencies
 
 TOOL = Tool(
     "rospack", "packages: where they are, what they need, what they export", usage_status=1, needs_graph=False

@@ -20,7 +20,6 @@ import pytest
 from PIL import Image
 
 from rosmini.core import rosparam
-from rosmini.core.dynamic_reconfigure.cfg_file import read_cfg
 from rosmini.core.dynamic_reconfigure.description import Description
 from rosmini.core.errors import RosminiError
 from rosmini.core.maps import load_map
@@ -28,6 +27,7 @@ from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.navigation.costmap_2d.footprint import footprint_from_text
 from rosmini.navigation.nav_core import plugin_files
 from rosmini.ros import launch
+from rosmini.ros.catkin.cfg_file import read_cfg
 from rosmini.ros.catkin.project import read_project
 from rosmini.sim import sdf, stage, urdf
 from rosmini.sim.urdf import meshes

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from rosmini.core.dynamic_reconfigure.cfg_file import read_cfg
+from rosmini.ros.catkin.cfg_file import read_cfg
 
-from ..core.dynamic_reconfigure.test_cfg_file import CAMERA, PLANNER
 from ..processes import run
+from ..ros.catkin.test_cfg_file import CAMERA, PLANNER
 from .conftest import SYSTEM_PYTHON, need_ros
 
 need_ros(modules="dynamic_reconfigure.parameter_generator_catkin")

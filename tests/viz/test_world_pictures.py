@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from rosmini.core.geometry.poses import arc
-from rosmini.core.geometry.raycast import raycast
 from rosmini.msgs import message_class
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, Walk, World
 from rosmini.sim.worlds import world as built_in

@@ -11,8 +11,8 @@ import numpy as np
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
 from rosmini.core.geometry.poses import arc
-from rosmini.core.geometry.raycast import raycast
 from rosmini.msgs.sensor_msgs.msg import LaserScan
+from rosmini.sim.geometry.raycast import raycast
 
 if TYPE_CHECKING:
     from rosmini.sim.stage import StageRobot, StageWorld

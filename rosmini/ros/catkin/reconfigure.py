@@ -25,7 +25,7 @@ def check_reconfigurable(project: Project) -> Iterator[Finding]:
     """Yield the problems of the ``.cfg`` files of a package."""
     if not project.reconfigurable:
         return
-    from rosmini.core.dynamic_reconfigure.cfg_file import read_cfg
+    from rosmini.ros.catkin.cfg_file import read_cfg
 
     words = project.reconfigurable
     if PACKAGE not in {word.text for word in project.components}:
@@ -59,8 +59,8 @@ def check_reconfigurable(project: Project) -> Iterator[Finding]:
 
 def module(path: Path) -> tuple[str, str]:
     """Return the name and text of the module for a valid ``.cfg`` file."""
-    from rosmini.core.dynamic_reconfigure.cfg_file import read_cfg
     from rosmini.core.dynamic_reconfigure.description import Description
+    from rosmini.ros.catkin.cfg_file import read_cfg
 
     found = read_cfg(path)
     parameters = Description.of(found.tree).parameters

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry import raycast
 from rosmini.core.geometry.poses import Pose
+from rosmini.sim.geometry import raycast
 from rosmini.sim.host import Host, Stamp
 from rosmini.sim.models import LidarModel
 from rosmini.sim.sensors.lidar import unmeasured

@@ -1,6 +1,6 @@
 """Cross-sections of obstacles and robots at one height, for lasers mounted there.
 
-Straight edges are segments (n, 4), round shapes discs (m, 3), as expected by `rosmini.core.geometry.raycast`.
+Straight edges are segments (n, 4), round shapes discs (m, 3), as expected by `rosmini.sim.geometry.raycast`.
 """
 
 from __future__ import annotations

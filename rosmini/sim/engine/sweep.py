@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry import raycast
 from rosmini.core.geometry.angles import cos_sin
+from rosmini.sim.geometry import raycast
 from rosmini.sim.models import LidarModel
 from rosmini.sim.sensors.lidar import measured
 

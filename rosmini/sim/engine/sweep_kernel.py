@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.machine_code import machine_code
-from rosmini.core.geometry.raycast_numba import HELPERS, MARGIN, NEAR, TURN, before, cast_disc, cast_segment
+from rosmini.sim.geometry.raycast_numba import HELPERS, MARGIN, NEAR, TURN, before, cast_disc, cast_segment
 
 from .trails import arc
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rosmini.core.geometry import polygons
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.geometry.products import matrix_product, norm
-from rosmini.core.geometry.slices import convex_hull, cut, loops, pieces, thinned
+from rosmini.sim.geometry.slices import convex_hull, cut, loops, pieces, thinned
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Simple, Sphere
 from rosmini.sim.urdf.meshes import MeshError, read
 

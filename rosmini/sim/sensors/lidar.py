@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose
-from rosmini.core.geometry.raycast import raycast
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import LidarModel
 
 Floats = NDArray[np.float64]

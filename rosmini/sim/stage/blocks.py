@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core import images
-from rosmini.core.geometry.contours import outlines
 from rosmini.core.geometry.polygons import area, crossing_sides
+from rosmini.sim.geometry.contours import outlines
 from rosmini.sim.models import hull
 
 from .errors import Place, StageError

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rosmini.core.geometry.contours import trace
 from rosmini.core.geometry.poses import inverse, transform_points
 from rosmini.core.maps import GridMap, load_map
+from rosmini.sim.geometry.contours import trace
 from rosmini.sim.world import Pose, World
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry import polygons
-from rosmini.core.geometry.slices import within
 from rosmini.core.maps import GridMap
+from rosmini.sim.geometry.slices import within
 from rosmini.sim.shapes import ROUND, Simple, outline_at
 from rosmini.sim.world import Pose, World, WorldError
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.raycast import raycast
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Pose, World
 from rosmini.viz import style

@@ -13,7 +13,7 @@ from itertools import groupby
 import numpy as np
 
 from rosmini.core.geometry.products import matrix_product, norms
-from rosmini.core.geometry.slices import convex_hull
+from rosmini.sim.geometry.slices import convex_hull
 from rosmini.viz.rounding import snap
 from rosmini.viz.style import LABEL_SIZE, variable
 from rosmini.viz.svg import document, element, escape

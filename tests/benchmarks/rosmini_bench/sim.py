@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.geometry.raycast import VARIABLE, raycast
+from rosmini.sim.geometry.raycast import VARIABLE, raycast
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import World
 
@@ -45,7 +45,7 @@ def scans(cast: Cast, count: int) -> float:
 
 
 def rosmini_scan(backend: str) -> Cast:
-    """Rays of `rosmini.core.geometry.raycast`."""
+    """Rays of `rosmini.sim.geometry.raycast`."""
     lidar = BURGER.laser
 
     def cast(world: World, x: float, y: float) -> NDArray[np.float64]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.core.geometry.poses import Pose, compose, inverse
-from rosmini.core.geometry.raycast import raycast_each
+from rosmini.sim.geometry.raycast import raycast_each
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Cylinder, World
 

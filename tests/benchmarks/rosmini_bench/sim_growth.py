@@ -13,8 +13,8 @@ from functools import cache, partial
 import numpy as np
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.geometry.raycast import raycast
 from rosmini.core.graph import Graph
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER
 
 from . import Measure, sim_room

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.geometry.raycast import raycast
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER
 
 from . import sim_room

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from rosmini.core.geometry import polygons
-from rosmini.core.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.stepper import VIEW
+from rosmini.sim.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.motion import Walk
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.core.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.engine.scene import Near
+from rosmini.sim.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from rosmini.core.geometry.poses import arc
-from rosmini.core.geometry.raycast import raycast
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.cross_sections import robot_section
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER
 from rosmini.sim.motion import Walk
 from rosmini.sim.world import Box, Cylinder, Obstacle, World

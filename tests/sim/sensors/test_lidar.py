@@ -9,8 +9,8 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from rosmini.core.geometry.raycast import raycast
 from rosmini.sim.engine import Engine
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER
 from rosmini.sim.sensors import lidar
 from rosmini.sim.world import Box, Cylinder, Obstacle, World

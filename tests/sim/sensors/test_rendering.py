@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.geometry.poses import compose
-from rosmini.core.geometry.raycast import raycast
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import CameraModel
 from rosmini.sim.sensors.rendering import (
     CameraError,

@@ -14,9 +14,9 @@ from PIL import Image
 from assets.generate.worlds import floor
 from rosmini.core.errors import RosminiError, UnknownPackage
 from rosmini.core.geometry import polygons
-from rosmini.core.geometry.contours import edge_loops
-from rosmini.core.geometry.raycast import raycast
 from rosmini.core.maps import MapError, load_map
+from rosmini.sim.geometry.contours import edge_loops
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.world import Cylinder, World, WorldError, edges
 from rosmini.sim.worlds import names, source, world, world_from_map
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rosmini.core.geometry import polygons
-from rosmini.core.geometry.overlaps import Outline, Overlaps
+from rosmini.sim.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.sdf import SdfError, load
 from rosmini.sim.shapes import ROUND, outline_at
 from rosmini.sim.world import Door, Walk

@@ -20,7 +20,7 @@ pytest.importorskip("meshcat")
 import umsgpack
 
 from rosmini import Graph
-from rosmini.core.geometry.raycast import raycast
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recording import Moved, Recording
 from rosmini.sim.simulator import Simulator

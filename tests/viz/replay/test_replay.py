@@ -17,8 +17,8 @@ from hypothesis.extra.numpy import arrays
 
 from book.tools.pages import page_problems
 from rosmini.core.geometry.poses import arc
-from rosmini.core.geometry.raycast import raycast
 from rosmini.msgs import message_class
+from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recording import Moved, Recording, RecordingError
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World

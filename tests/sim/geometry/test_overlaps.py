@@ -9,10 +9,11 @@ import pytest
 from hypothesis import assume, given
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.geometry import overlaps, polygons
-from rosmini.core.geometry.overlaps import Outline, Overlaps
+from rosmini.core.geometry import polygons
+from rosmini.sim.geometry import overlaps
+from rosmini.sim.geometry.overlaps import Outline, Overlaps
 
-from .test_polygons import ELL, SQUARE, stars
+from ...core.geometry.test_polygons import ELL, SQUARE, stars
 
 
 def overlap(a: np.ndarray, b: np.ndarray) -> bool:

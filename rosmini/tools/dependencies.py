@@ -10,9 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rosmini.core.errors import DefinitionError, RosminiError, UnknownPackage, nearest
-
-from .index import BUILT_IN, PackageIndex
-from .manifest import Package, Stack
+from rosmini.core.packages import BUILT_IN, Package, PackageIndex, Stack
 
 LONGEST_ANSWER = 10_000
 """Maximum number of lines of an answer that can grow exponentially with the number of packages."""

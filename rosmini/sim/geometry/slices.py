@@ -7,8 +7,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from . import polygons
-from .errors import GeometryError
+from rosmini.core.geometry import polygons
+from rosmini.core.geometry.errors import GeometryError
+
 from .overlaps import Outline, Overlaps
 
 Floats = NDArray[np.float64]

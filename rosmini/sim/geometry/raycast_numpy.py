@@ -1,7 +1,7 @@
 """Raycasting with numpy: find candidate pairs of ray and object, then test all pairs at once.
 
 Seen from the sensor, a segment or disc covers a sector of directions. Only the rays in its sector are tested,
-some thousand pairs instead of segments times rays. `rosmini.core.geometry.raycast_numba` does the same with loops;
+some thousand pairs instead of segments times rays. `rosmini.sim.geometry.raycast_numba` does the same with loops;
 the comments on geometry here apply to both.
 """
 

@@ -13,11 +13,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.geometry import raycast as module
-from rosmini.core.geometry import raycast_numba, raycast_numpy
 from rosmini.core.geometry.errors import GeometryError
 from rosmini.core.geometry.machine_code import LOADING, Deferral
-from rosmini.core.geometry.raycast import BACKENDS, backend, raycast, raycast_each
+from rosmini.sim.geometry import raycast as module
+from rosmini.sim.geometry import raycast_numba, raycast_numpy
+from rosmini.sim.geometry.raycast import BACKENDS, backend, raycast, raycast_each
 
 HAS_NUMBA = importlib.util.find_spec("numba") is not None
 TURN = 2 * math.pi

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.geometry import polygons
-from rosmini.core.geometry.slices import convex_hull, cut, loops, pieces, thinned, within
+from rosmini.sim.geometry.slices import convex_hull, cut, loops, pieces, thinned, within
 
 number = st.integers(-40, 40).map(lambda v: v / 8)
 points = st.lists(st.tuples(number, number), min_size=3, max_size=30).map(np.array)

@@ -11,9 +11,8 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.dynamic_reconfigure.description import KINDS, cast_value, filled_parameter
 from rosmini.core.expressions import Budget, Function, Namespace
-
-from .description import KINDS, cast_value, filled_parameter
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.dynamic_reconfigure import Description
-from rosmini.core.dynamic_reconfigure.cfg_file import LARGEST, CfgFile, read_cfg
 from rosmini.core.errors import DefinitionError
+from rosmini.ros.catkin.cfg_file import LARGEST, CfgFile, read_cfg
 
 HEAD = """#!/usr/bin/env python3
 PACKAGE = "robot"

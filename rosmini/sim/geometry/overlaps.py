@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.errors import RosminiError
-
-from .polygons import TOUCH, convex_parts, distances, sides_of
+from rosmini.core.geometry.polygons import TOUCH, convex_parts, distances, sides_of
 
 Floats = NDArray[np.float64]
 

@@ -13,8 +13,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import GeometryError
-from .poses import Pose, transform_points
+from rosmini.core.geometry.errors import GeometryError
+from rosmini.core.geometry.poses import Pose, transform_points
+
 from .staircases import straightened
 
 Floats = NDArray[np.float64]

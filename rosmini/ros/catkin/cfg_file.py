@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from rosmini.core import files
+from rosmini.core.dynamic_reconfigure.description import KINDS, Description
 from rosmini.core.errors import DefinitionError, RosminiError
 from rosmini.core.expressions import (
     FUNCTIONS,
@@ -27,7 +28,6 @@ from rosmini.core.expressions import (
 )
 
 from .cfg_generator import Generator
-from .description import KINDS, Description
 
 LARGEST = 1_000_000
 """Maximum size of a ``.cfg`` file [bytes]."""

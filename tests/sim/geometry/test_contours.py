@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from rosmini.core.geometry.contours import edge_loops, outlines, trace
 from rosmini.core.geometry.errors import GeometryError
+from rosmini.sim.geometry.contours import edge_loops, outlines, trace
 
 images = arrays(bool, array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=12))
 tolerances = st.sampled_from([0.0, 0.2, 0.36, 0.45, 0.49, 0.4999])

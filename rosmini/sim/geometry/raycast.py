@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rosmini.core.errors import RosminiError, nearest
+from rosmini.core.geometry.angles import cos_sin, normalize_angle
+from rosmini.core.geometry.errors import GeometryError
+from rosmini.core.geometry.machine_code import Deferral
 
 from . import raycast_numpy
-from .angles import cos_sin, normalize_angle
-from .errors import GeometryError
-from .machine_code import Deferral
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

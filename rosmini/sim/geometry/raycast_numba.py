@@ -1,4 +1,4 @@
-"""Raycasting with numba: the loops of `rosmini.core.geometry.raycast_numpy`, which explains the geometry.
+"""Raycasting with numba: the loops of `rosmini.sim.geometry.raycast_numpy`, which explains the geometry.
 
 The functions here are plain Python. `compiled` compiles them, the first time in about a second, later
 from numba's cache. Only scalars, explicit types and no slices keep that second from becoming ten.
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .machine_code import machine_code
+from rosmini.core.geometry.machine_code import machine_code
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -53,7 +53,7 @@ def cast(
     segment_rays: Ints,
     disc_rays: Ints,
 ) -> None:
-    """Do the same as `rosmini.core.geometry.raycast_numpy.cast`."""
+    """Do the same as `rosmini.sim.geometry.raycast_numpy.cast`."""
     low, high = 0, len(ranges)
     for n in range(segments.shape[0]):
         if segment_rays.shape[0]:

@@ -1,0 +1,1 @@
+"""Geometry of worlds: what a laser sees, outlines of maps, sections of meshes, overlaps."""
