@@ -10,13 +10,16 @@
 
 A direct subclass of `Plugin` is an interface; a named subclass of an interface is a plugin.
 Other distributions declare theirs as entry points of the group `rosmini.plugins`
-(`"my_pkg/MyPlanner" = "my_pkg.planner:MyPlanner"`), which are imported on demand.
+(`"my_pkg/MyPlanner" = "my_pkg.planner:MyPlanner"`), which are imported on demand. A Python package with one plugin in
+each module needs one entry point for all (`"my_pkg/*" = "my_pkg.planners"`).
 """
 
 from __future__ import annotations
 
 from contextlib import suppress
+from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
+from pkgutil import iter_modules
 from typing import Any, ClassVar, Self
 
 from rosmini.core.errors import RosminiError, nearest
@@ -59,8 +62,9 @@ class Plugin:
         """
         wanted = _canonical(name)
         if wanted not in cls._plugins:
+            whole_package = f"{wanted.partition('/')[0]}/*"
             for entry in entry_points(group=GROUP):
-                if _canonical(entry.name) == wanted:
+                if _canonical(entry.name) in (wanted, whole_package):
                     _load(entry)
         found = cls._plugins.get(wanted)
         if found is None or not issubclass(found, cls):
@@ -94,6 +98,8 @@ def _where(cls: type) -> str:
 
 def _load(entry: EntryPoint) -> None:
     try:
-        entry.load()
+        found = entry.load()
+        for module in iter_modules(found.__path__, f"{entry.value}.") if entry.name.endswith("/*") else ():
+            import_module(module.name)
     except Exception as error:
         raise PluginError(f"the plugin {entry.name} ({entry.value}) cannot be loaded: {error}") from error

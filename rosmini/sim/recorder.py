@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.core.graph import running_graph
+from rosmini.core.graph.show import find_extension
 from rosmini.msgs import message_class
 
 from .markers import first_poses, obstacles_of
@@ -27,13 +28,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 TRUTH, ODOM, SCAN, COMMANDS = "base_pose_ground_truth", "odom", "scan", "cmd_vel"
-SEEN = (
-    "nav_msgs/OccupancyGrid", "map_msgs/OccupancyGridUpdate", "nav_msgs/Path", "nav_msgs/GridCells",
-    "geometry_msgs/PoseArray", "geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped",
-    "geometry_msgs/PolygonStamped", "geometry_msgs/PointStamped", "visualization_msgs/Marker",
-    "visualization_msgs/MarkerArray", "sensor_msgs/Image", "tf2_msgs/TFMessage",
-)  # fmt: skip
-"""Types recorded with `layers=True`: everything visible from above, and transforms."""
+RECORDED = "rosmini.recorded_types"
+"""Group of the entry points that name the types of messages that a replay shows."""
 LOOK_AGAIN = 0.5
 """Interval between checks for new topics [s]."""
 
@@ -315,6 +311,7 @@ class _Layers:
 
     def __init__(self, recorder: Recorder, things: str | None) -> None:
         self._node = recorder.node
+        self._types: frozenset[str] = find_extension(RECORDED, "layers")()
         self._left_out = {self._node.resolve(things)} if things else set()
         self._subscribed: set[str] = set()
         self.kept: list[tuple[int, str, Any]] = []
@@ -324,7 +321,7 @@ class _Layers:
     def _look(self) -> None:
         """Subscribe to new topics."""
         for topic, kind in sorted(self._node.master.ask("getTopicTypes")):
-            if kind in SEEN and topic not in self._subscribed | self._left_out:
+            if kind in self._types and topic not in self._subscribed | self._left_out:
                 self._subscribed.add(topic)
                 self._node.subscriber(topic, message_class(kind), self._keep, arguments=(topic,))
 

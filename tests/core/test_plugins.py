@@ -142,6 +142,28 @@ def test_other_distributions_bring_theirs(monkeypatch, tmp_path):
     del Planner._plugins["their_pkg/TheirPlanner"]
 
 
+def test_one_entry_point_may_name_a_package_with_a_plugin_in_each_module(monkeypatch, tmp_path):
+    package = tmp_path / "their_planners"
+    package.mkdir()
+    (package / "__init__.py").write_text("", encoding="utf-8")
+    for name in ("First", "Second"):
+        (package / f"{name.lower()}.py").write_text(
+            f"from tests.test_plugins import Planner\nclass {name}(Planner, plugin='their_pkg/{name}'):\n    pass\n",
+            encoding="utf-8",
+        )
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setitem(sys.modules, "tests.test_plugins", sys.modules[__name__])
+    for name in ("", ".first", ".second"):
+        monkeypatch.setitem(sys.modules, f"their_planners{name}", None)  # so that it is gone afterwards
+        monkeypatch.delitem(sys.modules, f"their_planners{name}")
+    entry = EntryPoint("their_pkg/*", "their_planners", plugins.GROUP)
+    monkeypatch.setattr(plugins, "entry_points", lambda group: [entry] if group == "rosmini.plugins" else [])
+    assert Planner.named("their_pkg/Second").__name__ == "Second"
+    assert {"their_pkg/First", "their_pkg/Second"} <= {*Planner.names()}
+    for name in ("First", "Second"):
+        del Planner._plugins[f"their_pkg/{name}"]
+
+
 def test_the_type_of_what_is_created_is_the_interface(tmp_path):
     script = tmp_path / "typed.py"
     script.write_text(

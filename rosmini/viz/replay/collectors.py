@@ -25,14 +25,28 @@ MOST_LINES = 200
 COLOURS = ("green", "purple", "sky", "orange", "vermilion")
 
 
+COLLECTORS: dict[str, type[Collector]] = {}
+"""The collectors by the type of the messages: each class adds itself."""
+UPDATE = "map_msgs/OccupancyGridUpdate"
+TRANSFORMS = ("tf2_msgs/TFMessage", "tf/tfMessage")
+
+
 class Collector(ABC):
     """What came on a topic. `take` gets what the driver does not leave out: at most one message each `period` [s].
 
     Those that remember (`every`) get all of them, and are asked for a `snapshot` each period.
     """
 
+    types: ClassVar[tuple[str, ...]] = ()
+    """Types of the messages that it shows."""
+    of_robot: ClassVar[bool] = False
+    """True for what every recorder of a robot records, also without `layers`."""
     period: ClassVar[float] = 0.5
     every: bool = False
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        COLLECTORS.update(dict.fromkeys(cls.types, cls))
 
     def __init__(self, topic: str, standing: Standing, number: int) -> None:
         self.topic = topic
@@ -105,6 +119,8 @@ class ShapeCollector(Collector):
 class PathCollector(ShapeCollector):
     """`nav_msgs/Path`: a plan."""
 
+    types = ("nav_msgs/Path",)
+
     def shapes(self, message: Any) -> list[Shape]:
         """A line."""
         points = [(each.pose.position.x, each.pose.position.y) for each in message.poses]
@@ -113,6 +129,8 @@ class PathCollector(ShapeCollector):
 
 class PosesCollector(ShapeCollector):
     """`geometry_msgs/PoseArray`: particles."""
+
+    types = ("geometry_msgs/PoseArray",)
 
     def shapes(self, message: Any) -> list[Shape]:
         """Arrows."""
@@ -124,6 +142,8 @@ class PosesCollector(ShapeCollector):
 class PoseCollector(ShapeCollector):
     """`geometry_msgs/PoseStamped` or `PoseWithCovarianceStamped`: a goal, an estimate."""
 
+    types = ("geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped")
+
     def shapes(self, message: Any) -> list[Shape]:
         """An arrow."""
         pose = getattr(message.pose, "pose", message.pose)
@@ -132,6 +152,8 @@ class PoseCollector(ShapeCollector):
 
 class PolygonCollector(ShapeCollector):
     """`geometry_msgs/PolygonStamped`: a footprint."""
+
+    types = ("geometry_msgs/PolygonStamped",)
 
     def shapes(self, message: Any) -> list[Shape]:
         """A closed line."""
@@ -142,6 +164,8 @@ class PolygonCollector(ShapeCollector):
 class PointCollector(ShapeCollector):
     """`geometry_msgs/PointStamped`: a point that somebody clicked."""
 
+    types = ("geometry_msgs/PointStamped",)
+
     def shapes(self, message: Any) -> list[Shape]:
         """A point."""
         return [self.shape(message.header, [(message.point.x, message.point.y)], "points")]
@@ -149,6 +173,8 @@ class PointCollector(ShapeCollector):
 
 class CellsCollector(ShapeCollector):
     """`nav_msgs/GridCells`."""
+
+    types = ("nav_msgs/GridCells",)
 
     def shapes(self, message: Any) -> list[Shape]:
         """Points."""
@@ -159,6 +185,7 @@ class CellsCollector(ShapeCollector):
 class MarkerCollector(ShapeCollector):
     """`visualization_msgs/Marker` and `MarkerArray`: frontiers, goals, footprints, until they are deleted or expire."""
 
+    types = ("visualization_msgs/Marker", "visualization_msgs/MarkerArray")
     every = True
     ADD, DELETE, DELETE_ALL = 0, 2, 3
     ARROW, LINE_STRIP, LINE_LIST, LISTS = 0, 4, 5, (6, 7, 8, 11)
@@ -215,6 +242,8 @@ def _hex(colour: Any) -> str:
 
 class GridCollector(Collector):
     """`nav_msgs/OccupancyGrid`, and the `map_msgs/OccupancyGridUpdate`s of its second topic."""
+
+    types = ("nav_msgs/OccupancyGrid",)
 
     def __init__(self, topic: str, standing: Standing, number: int) -> None:
         super().__init__(topic, standing, number)
@@ -276,6 +305,9 @@ def _cells(data: Any, width: int, height: int) -> NDArray[np.uint8]:
 class ScanCollector(Collector):
     """`sensor_msgs/LaserScan`."""
 
+    types = ("sensor_msgs/LaserScan",)
+    of_robot = True
+
     def __init__(self, topic: str, standing: Standing, number: int) -> None:
         super().__init__(topic, standing, number)
         self._rows: list[tuple[float, Pose, Floats]] = []
@@ -315,6 +347,7 @@ class ScanCollector(Collector):
 class ImageCollector(Collector):
     """`sensor_msgs/Image`: small, and one a second."""
 
+    types = ("sensor_msgs/Image",)
     period = 1.0
 
     def __init__(self, topic: str, standing: Standing, number: int) -> None:
@@ -340,6 +373,8 @@ class ImageCollector(Collector):
 class TrackCollector(Collector):
     """`nav_msgs/Odometry` and `turtlesim/Pose`: where something was."""
 
+    types = ("nav_msgs/Odometry", "turtlesim/Pose")
+    of_robot = True
     period = 1 / 30
 
     def __init__(self, topic: str, standing: Standing, number: int) -> None:
@@ -385,22 +420,6 @@ def laid_on(body: Body, start: Pose) -> Body:
     return Body(body.name, body.times, np.asarray(poses), colour=body.colour)
 
 
-COLLECTORS: dict[str, type[Collector]] = {
-    "nav_msgs/OccupancyGrid": GridCollector,
-    "nav_msgs/Path": PathCollector,
-    "nav_msgs/GridCells": CellsCollector,
-    "nav_msgs/Odometry": TrackCollector,
-    "geometry_msgs/PoseArray": PosesCollector,
-    "geometry_msgs/PoseStamped": PoseCollector,
-    "geometry_msgs/PoseWithCovarianceStamped": PoseCollector,
-    "geometry_msgs/PolygonStamped": PolygonCollector,
-    "geometry_msgs/PointStamped": PointCollector,
-    "visualization_msgs/Marker": MarkerCollector,
-    "visualization_msgs/MarkerArray": MarkerCollector,
-    "sensor_msgs/LaserScan": ScanCollector,
-    "sensor_msgs/Image": ImageCollector,
-    "turtlesim/Pose": TrackCollector,
-}
-"""What can be seen, by the type of the messages."""
-UPDATE = "map_msgs/OccupancyGridUpdate"
-TRANSFORMS = ("tf2_msgs/TFMessage", "tf/tfMessage")
+def recorded_types() -> frozenset[str]:
+    """Return the types that a recorder records with `layers=True`: everything visible from above, and transforms."""
+    return frozenset({*(name for name, cls in COLLECTORS.items() if not cls.of_robot), UPDATE, TRANSFORMS[0]})

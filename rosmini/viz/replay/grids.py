@@ -64,6 +64,7 @@ class Grids(Frames):
     """Maps or costmaps over time."""
 
     kind: ClassVar[str] = "grid"
+    depth: ClassVar[int] = 0
     worth: ClassVar[float] = 2.0
 
     grids: tuple[Grid, ...]

@@ -46,6 +46,7 @@ class Images(Frames):
     """Pictures (h, w), all of one size, made by `small`."""
 
     kind: ClassVar[str] = "images"
+    depth: ClassVar[int] = 1
 
     images: tuple[Pixels, ...]
 

@@ -39,6 +39,8 @@ class Layer(ABC):
     """Something over time, under a name (mostly a topic). Raises `ViewError` where its parts do not fit together."""
 
     kind: ClassVar[str]
+    depth: ClassVar[int]
+    """Layers of a larger depth are drawn over others."""
     worth: ClassVar[float] = 1.0
     """How much heavier than others it may be before it is thinned."""
 
@@ -122,6 +124,7 @@ class Shapes(Frames):
     """Plans, particles, markers, polygons: at each moment some shapes, which replace those before."""
 
     kind: ClassVar[str] = "shapes"
+    depth: ClassVar[int] = 3
 
     items: tuple[tuple[Shape, ...], ...]
 
@@ -179,6 +182,7 @@ class Scans(Frames):
     """What a laser measured, and from where: poses (k, 3) and ranges (k, beams), inf where nothing was hit."""
 
     kind: ClassVar[str] = "scans"
+    depth: ClassVar[int] = 2
 
     poses: Floats
     ranges: Floats
@@ -257,6 +261,7 @@ class Strokes(Layer):
     """Coloured lines that grow, as a turtle's pen leaves them."""
 
     kind: ClassVar[str] = "strokes"
+    depth: ClassVar[int] = 4
 
     strokes: tuple[Stroke, ...]
     tolerance: float = 0.002

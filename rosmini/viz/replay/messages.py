@@ -22,7 +22,6 @@ MOST_MOMENTS = 240
 """A layer keeps no more: 2 Hz for two minutes."""
 SAME = 1e-6
 """[m, rad]"""
-ORDER = ("grid", "images", "scans", "shapes", "strokes")
 
 
 class NothingToSee(ViewError):
@@ -138,7 +137,7 @@ def run_of(
         ]
     if not bodies and not layers:
         raise NothingToSee(_nothing(log, notes))
-    layers.sort(key=lambda layer: (ORDER.index(layer.kind), "local" in layer.name, layer.name))
+    layers.sort(key=lambda layer: (layer.depth, "local" in layer.name, layer.name))
     return Run(
         log.name, log.start, log.end, tuple(bodies), tuple(layers), frame=standing.fixed, notes=tuple(notes)
     )

@@ -1,1 +1,1 @@
-"""The displays, one file each, found by their names (`rviz/LaserScan`) through the entry points `rosmini.plugins`."""
+"""The displays, one module each: the entry point `rviz/*` of the group `rosmini.plugins` finds them by their names."""
