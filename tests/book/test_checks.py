@@ -235,7 +235,7 @@ def mistakes_of(number):
     return importlib.import_module(name, __package__).MISTAKES[number]
 
 
-each_exercise = pytest.mark.parametrize("found", all_exercises(), ids=lambda found: found.number)
+each_exercise = pytest.mark.parametrize("found", list(all_exercises()), ids=lambda found: found.number)
 
 
 @each_exercise
