@@ -27,7 +27,7 @@ from .doors import door_of
 from .errors import SdfError
 from .material_colours import HOUSE
 from .poses import compose, placed_links
-from .solids import FLAT, Solid, solids
+from .solids import FLAT, Meshes, Solid, solids
 
 WALKER = Cylinder(0.2)
 """Shape of an actor on the ground [m]; in Gazebo actors have no body."""
@@ -56,7 +56,8 @@ def to_world(world: SdfWorld, *, title: str = "") -> World:
 def converted(world: SdfWorld, *, title: str = "") -> tuple[World, tuple[Note, ...]]:
     """Return the flat world of an SDF world, and notes on what was left out or simplified. Raises `SdfError`."""
     notes: list[Note] = []
-    obstacles = [each for model in world.models for each in _obstacles(model, model.pose, notes)]
+    meshes = Meshes()
+    obstacles = [each for model in world.models for each in _obstacles(model, model.pose, notes, meshes)]
     obstacles += [to_walker(actor) for actor in world.actors]
     starts = tuple(
         (pose[0], pose[1], pose[5]) for name, pose in world.frames if name.lower().startswith(START)
@@ -81,7 +82,7 @@ def to_obstacles(model: SdfModel, pose: Pose | Pose6 | None = None) -> tuple[Obs
         place = (pose[0], pose[1], model.pose[2], *model.pose[3:5], pose[2])
     else:
         place = pose
-    return tuple(_obstacles(model, place, []))
+    return tuple(_obstacles(model, place, [], Meshes()))
 
 
 def to_walker(actor: SdfActor) -> Obstacle:
@@ -116,14 +117,14 @@ def to_walker(actor: SdfActor) -> Obstacle:
         raise SdfError(f"the actor {actor.name!r}: {error}", actor.path, actor.line) from error
 
 
-def _obstacles(model: SdfModel, pose: Pose6, notes: list[Note]) -> list[Obstacle]:
+def _obstacles(model: SdfModel, pose: Pose6, notes: list[Note], meshes: Meshes) -> list[Obstacle]:
     motion = door_of(model)
     fixed = model.static and motion is None
     try:
         if fixed:
-            return _fixed(model, list(_pieces(model, pose, notes, sliced=True)))
+            return _fixed(model, list(_pieces(model, pose, notes, meshes, sliced=True)))
         lifted: Pose6 = (0.0, 0.0, *pose[2:5], 0.0)
-        found = list(_pieces(model, lifted, notes, sliced=False))
+        found = list(_pieces(model, lifted, notes, meshes, sliced=False))
         if not found:
             notes.append(
                 Note(
@@ -194,12 +195,15 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
 # ---- the solid parts of a model ----
 
 
-def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], *, sliced: bool) -> Iterator[_Piece]:
+def _pieces(
+    model: SdfModel, pose: Pose6, notes: list[Note], meshes: Meshes, *, sliced: bool
+) -> Iterator[_Piece]:
     """Yield the solid parts of a model and its nested models, above the ground, at a pose."""
     for name, link, place in placed_links(model, pose):
         for collision in link.collisions:
             try:
-                found, remark = solids(collision.geometry, compose(place, collision.pose), sliced=sliced)
+                at = compose(place, collision.pose)
+                found, remark = solids(collision.geometry, at, meshes, sliced=sliced)
             except (MeshError, GeometryError) as error:
                 raise SdfError(str(error), model.path, collision.line) from error
             if remark:

@@ -8,14 +8,14 @@ of the mesh.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, field, replace
+from itertools import pairwise, product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry import polygons
-from rosmini.core.geometry.poses import Pose
+from rosmini.core.geometry.poses import Pose, compose
 from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.sim.geometry.slices import convex_hull, cut, loops, pieces, thinned
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Simple, Sphere
@@ -39,6 +39,10 @@ GRAIN = 0.002
 CORNERS = 60
 ROUND = 64
 """Number of vertices that replace a slanted circle."""
+MOST_CUT = 10_000_000
+"""Maximum number of triangles that are cut for one world, counted once for each height and with `OF_A_CUT` added."""
+OF_A_CUT = 5_000
+"""The cost of one cut through a mesh, in triangles, in addition to its own."""
 
 
 @dataclass(frozen=True)
@@ -51,17 +55,53 @@ class Solid:
     top: float
 
 
-def solids(geometry: SdfGeometry, pose: Pose6, *, sliced: bool = True) -> tuple[list[Solid], str]:
-    """Return the solids of a shape at a pose in a flat world, and a remark ("" if there is none).
+Found = tuple[list[Solid], str]
+"""Solids, and what a reader should know about them ("" if nothing)."""
+
+
+@dataclass
+class Meshes:
+    """The meshes of one world, each cut once for all its places on the ground."""
+
+    work: int = 0
+    """Number of triangles cut so far, as `MOST_CUT` counts them."""
+    _found: dict[tuple[object, ...], Found] = field(default_factory=dict)
+
+    def solids(self, geometry: SdfGeometry, pose: Pose6, *, sliced: bool) -> Found:
+        """Return the solids of a mesh at a pose. Raises `MeshError`."""
+        x, y, z, roll, pitch, yaw = pose
+        key = (geometry.mesh, geometry.submesh, geometry.scale, z, roll, pitch, sliced)
+        if key not in self._found:
+            self._found[key] = self._cut(geometry, (0.0, 0.0, z, roll, pitch, 0.0), sliced=sliced)
+        found, note = self._found[key]
+        placed = [replace(each, pose=compose((x, y, yaw), each.pose)) for each in found]
+        return placed, note
+
+    def _cut(self, geometry: SdfGeometry, pose: Pose6, *, sliced: bool) -> Found:
+        if geometry.mesh is None:
+            raise MeshError("a mesh has no file")
+        surfaces = read(geometry.mesh, geometry.submesh)
+        if self.work > MOST_CUT:
+            ends = np.array([end for each in surfaces for end in each.bounds])
+            box = np.array(list(product(*zip(ends.min(axis=0), ends.max(axis=0), strict=True))))
+            note = "is one of too many different meshes: it is taken as the box around it"
+            return _shadow(_moved(box * geometry.scale, pose)), note
+        triangles = np.concatenate([each.triangles for each in surfaces])
+        triangles = _moved((triangles * geometry.scale).reshape(-1, 3), pose).reshape(-1, 3, 3)
+        heights = _heights(triangles[..., 2]) if sliced else []
+        self.work += max(1, len(heights)) * (len(triangles) + OF_A_CUT)
+        return _sliced(triangles, heights) if sliced else (_shadow(triangles.reshape(-1, 3)), "")
+
+
+def solids(geometry: SdfGeometry, pose: Pose6, meshes: Meshes, *, sliced: bool = True) -> Found:
+    """Return the solids of a shape at a pose in a flat world.
 
     With `sliced=False` a mesh is one solid: the convex hull of its shadow. Raises `MeshError`.
     """
+    if geometry.kind == "mesh":
+        return meshes.solids(geometry, pose, sliced=sliced)
     maker = _MAKERS.get(geometry.kind)
-    if maker is None:
-        return [], ""
-    if geometry.kind == "mesh" and not sliced:
-        return _shadow(_triangles(geometry, pose).reshape(-1, 3)), ""
-    return maker(geometry, pose)
+    return maker(geometry, pose) if maker else ([], "")
 
 
 def _standing(shape: Simple, pose: Pose6, bottom: float, top: float) -> list[Solid]:
@@ -94,7 +134,7 @@ def _aslant(pose: Pose6) -> str:
     return "stands aslant; it is taken as its shadow, from its lowest to its highest point"
 
 
-def _box(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+def _box(geometry: SdfGeometry, pose: Pose6) -> Found:
     x, y, z = geometry.size
     if upright(pose):
         return _standing(Box(x, y), pose, pose[2] - z / 2, pose[2] + z / 2), ""
@@ -102,7 +142,7 @@ def _box(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
     return _shadow(_moved(corners, pose)), _aslant(pose)
 
 
-def _cylinder(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+def _cylinder(geometry: SdfGeometry, pose: Pose6) -> Found:
     r, half = geometry.radius, geometry.length / 2
     if upright(pose):
         return _standing(Cylinder(r), pose, pose[2] - half, pose[2] + half), ""
@@ -114,12 +154,12 @@ def _cylinder(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
     return _shadow(_moved(ends, pose)), note
 
 
-def _sphere(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+def _sphere(geometry: SdfGeometry, pose: Pose6) -> Found:
     r = geometry.radius
     return _standing(Sphere(r), pose, pose[2] - r, pose[2] + r), ""
 
 
-def _plane(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+def _plane(geometry: SdfGeometry, pose: Pose6) -> Found:
     up = matrix_product(matrix(pose)[:3, :3], geometry.normal)
     if up[2] < (1 - 1e-6) * norm(up):
         return [], "a plane that is not level is left out"
@@ -128,7 +168,7 @@ def _plane(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
     ) > 1e-3 else ""
 
 
-def _polyline(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+def _polyline(geometry: SdfGeometry, pose: Pose6) -> Found:
     outlines = [np.array(outline) for outline in geometry.outlines]
     if not upright(pose):
         flat = np.vstack(outlines)
@@ -145,16 +185,8 @@ def _polyline(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
 # ---- meshes ----
 
 
-def _triangles(geometry: SdfGeometry, pose: Pose6) -> Triangles:
-    if geometry.mesh is None:
-        raise MeshError("a mesh has no file")
-    triangles = np.concatenate([each.triangles for each in read(geometry.mesh, geometry.submesh)])
-    return _moved((triangles * geometry.scale).reshape(-1, 3), pose).reshape(-1, 3, 3)
-
-
-def _mesh(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
-    triangles = _triangles(geometry, pose)
-    heights = _heights(triangles[..., 2])
+def _sliced(triangles: Triangles, heights: list[float]) -> Found:
+    """Return the solids of a mesh that is cut between each two heights."""
     bands: list[tuple[list[Floats], float, float]] = []
     open_somewhere = False
     for low, high in pairwise(heights):
@@ -169,9 +201,9 @@ def _mesh(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
         elif outlines:
             bands.append((outlines, low, high))
     found = [
-        Solid(shape, place, low, high)
+        Solid(_polygon(piece), (0.0, 0.0, 0.0), low, high)
         for outlines, low, high in bands
-        for shape, place in _cover(outlines, pose)
+        for piece in pieces(outlines)
     ]
     note = (
         "is a mesh with holes in its surface: where a cut does not close, it is taken as the hull around it"
@@ -211,16 +243,10 @@ def _same(a: list[Floats], b: list[Floats]) -> bool:
     )
 
 
-def _cover(outlines: list[Floats], pose: Pose6) -> list[tuple[Simple, Pose]]:
-    centre = (pose[0], pose[1])
-    return [(_polygon(piece - centre), (*centre, 0.0)) for piece in pieces(outlines)]
-
-
 _MAKERS = {
     "box": _box,
     "cylinder": _cylinder,
     "sphere": _sphere,
     "plane": _plane,
     "polyline": _polyline,
-    "mesh": _mesh,
 }
