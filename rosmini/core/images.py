@@ -14,13 +14,19 @@ from rosmini.core.errors import RosminiError
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-__all__ = ["LARGEST", "ImageError", "opened"]
+__all__ = ["LARGEST", "ImageError", "opened", "strips"]
 
 LARGEST = 100_000_000
 """Maximum number of pixels: a map of 10,000 x 10,000 cells."""
 
+IN_COLOUR = 50_000_000
+"""Maximum number of pixels of an image that takes more than one byte for each in memory."""
+
 BYTES = 5
 """Maximum file size per pixel [bytes]."""
+
+AT_ONCE = 1_000_000
+"""Maximum number of pixels of a strip."""
 
 FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TGA", "TIFF", "WEBP")
 """The formats that SDL_image reads in ROS, by Pillow's names. Some of Pillow's other formats run programs."""
@@ -40,8 +46,10 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # our limit replaces it
             with Image.open(path, formats=FORMATS) as image:
-                if image.width * image.height > LARGEST:
-                    raise ImageError(f"it has {image.width} x {image.height} pixels; {LARGEST} are allowed")
+                most = LARGEST if image.mode in ("1", "L", "P") else IN_COLOUR
+                if image.width * image.height > most:
+                    size = f"{image.width} x {image.height} pixels in mode {image.mode}"
+                    raise ImageError(f"it has {size}; {most} are allowed")
                 yield image
     except FileNotFoundError:
         raise
@@ -62,3 +70,13 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
         KeyError,
     ) as error:
         raise ImageError(getattr(error, "strerror", None) or str(error) or type(error).__name__) from error
+
+
+def strips(image: Image) -> Iterator[tuple[int, Image]]:
+    """Yield the rows of an image from the top, a strip at a time, each with the number of its first row.
+
+    Converting an image needs several times its memory; converting its strips does not.
+    """
+    rows = max(1, AT_ONCE // max(1, image.width))
+    for top in range(0, image.height, rows):
+        yield top, image.crop((0, top, image.width, min(top + rows, image.height)))

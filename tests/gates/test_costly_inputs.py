@@ -7,14 +7,18 @@ twice as many calls. Where the cost would be inside one call, n is so large that
 from __future__ import annotations
 
 import bz2
+import math
 import struct
 import sys
 import warnings
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from rosmini.core import rosparam
 from rosmini.core.errors import RosminiError
@@ -43,6 +47,8 @@ class Family(NamedTuple):
     make: Callable[[int], str | bytes]
     n: int
     refused: bool = False
+    beside: Callable[[Path], object] = lambda _folder: None
+    """Writes the files that the made file refers to."""
 
 
 def _launch(*parts: str) -> str:
@@ -79,6 +85,29 @@ def _one_chunk(infos: int) -> bytes:
     }
     info = pack_record({**fields, "start_time": bytes(8), "end_time": bytes(8)})
     return MAGIC + bag_header(start + len(chunk), 0, infos) + chunk + info * infos
+
+
+def _chunks(n: int) -> bytes:
+    """A bag of n chunks of 16 MiB of zeros."""
+    size = 2**24
+    chunk = pack_record({"compression": b"bz2", "op": bytes([OP_CHUNK]), "size": u32.pack(size)}, _ZEROS)
+    start = len(MAGIC) + len(bag_header(0, 0, 0))
+    fields = {"count": u32.pack(0), "op": bytes([OP_CHUNK_INFO]), "ver": u32.pack(1)}
+    infos = [
+        pack_record(
+            {
+                **fields,
+                "chunk_pos": u64.pack(start + i * len(chunk)),
+                "start_time": bytes(8),
+                "end_time": bytes(8),
+            }
+        )
+        for i in range(n)
+    ]
+    return MAGIC + bag_header(start + n * len(chunk), 0, n) + chunk * n + b"".join(infos)
+
+
+_ZEROS = bz2.compress(bytes(2**24))
 
 
 def _read_bag(path: Path) -> None:
@@ -118,6 +147,47 @@ def _collada(points: int, pieces: int, shown: int) -> str:
 
 def _world(text: str) -> str:
     return f'<sdf version="1.6"><world name="w">{text}</world></sdf>'
+
+
+def _sphere(folder: Path) -> None:
+    """A mesh of 800 triangles."""
+    rings = [(math.sin(i * math.pi / 20), math.cos(i * math.pi / 20)) for i in range(21)]
+    turns = [(math.cos(i * math.pi / 10), math.sin(i * math.pi / 10)) for i in range(21)]
+    points = [[(r * c, r * s, z) for c, s in turns] for r, z in rings]
+    corners: list[tuple[float, float, float]] = []
+    for above, below in pairwise(points):
+        for (a, b), (c, d) in zip(pairwise(above), pairwise(below), strict=True):
+            corners += [a, c, d, a, d, b]
+    data = "".join(f"vertex {x} {y} {z}\n" for x, y, z in corners)
+    (folder / "m.stl").write_text(f"solid\n{data}", encoding="utf-8")
+
+
+def _meshes(n: int) -> str:
+    """Models with the same mesh, each at another place."""
+    mesh = "<geometry><mesh><uri>m.stl</uri></mesh></geometry>"
+    return _world(
+        _each(
+            f'<model name="m#"><static>1</static><pose>2 # 0 0 0 #</pose><link name="l"><collision name="c">{mesh}'
+            "</collision></link></model>",
+            n,
+        )
+    )
+
+
+def _dots(side: int) -> Callable[[Path], object]:
+    """A picture in which one of four pixels is dark."""
+
+    def write(folder: Path) -> None:
+        pixels = np.full((side, side), 255, dtype=np.uint8)
+        pixels[::2, ::2] = 0
+        Image.fromarray(pixels).save(folder / "m.png")
+
+    return write
+
+
+def _white(folder: Path) -> None:
+    (folder / "a").mkdir()
+    Image.new("1", (5000, 5000), 1).save(folder / "m.png")
 
 
 TALKER = '<node name="n#" pkg="rospy_tutorials" type="talker.py"/>'
@@ -172,6 +242,7 @@ FAMILIES = {
     "a length beyond the end of an MCAP file": Family(
         "a.mcap", lambda n: b"\x89MCAP0\r\n\x01" + struct.pack("<QI", 8, n) + bytes(4), 2**31, refused=True
     ),
+    "many chunks of zeros": Family("a.bag", _chunks, 200, refused=True),
     # launch files
     "dollar signs": Family("a.launch", lambda n: _value("$" * n), 500_000),
     "brackets that stay open": Family("a.launch", lambda n: _value("$(" * n), 250_000),
@@ -235,6 +306,29 @@ FAMILIES = {
         1500,
         refused=True,
     ),
+    "a mesh at many places": Family("a.world", _meshes, 100, beside=_sphere),
+    "a picture that is used many times": Family(
+        "a.world", lambda n: 'model ( bitmap "m.png" )' * n, 1000, refused=True, beside=_dots(16)
+    ),
+    "a picture of many spots": Family(
+        "a.world", lambda _: 'model ( bitmap "m.png" )', 4, refused=True, beside=_dots(1000)
+    ),
+    "a picture under many names": Family(
+        "a.world",
+        lambda n: "".join(f'model ( bitmap "{"a/../" * i}m.png" )' for i in range(n)),
+        100,
+        refused=True,
+        beside=_white,
+    ),
+    "a map of many spots": Family(
+        "m.yaml",
+        lambda _: (
+            "image: m.png\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\nfree_thresh: 0.1\noccupied_thresh: 0.9"
+        ),
+        4,
+        refused=True,
+        beside=_dots(1000),
+    ),
     "dependencies": Family(
         "package.xml",
         lambda n: f"<package format='2'><name>a</name>{_each('<depend>a#</depend>', n)}</package>",
@@ -268,6 +362,8 @@ def _read(path: Path) -> object:
             return read_project(path.parent)
         case ".txt":
             return Expression(path.read_text("utf-8")).evaluate({})
+        case ".yaml" if path.name == "m.yaml":
+            return worlds.world(path)
         case ".yaml":
             return rosparam.load_file(path)
         case ".xacro":
@@ -315,7 +411,8 @@ def _calls(path: Path, data: str | bytes) -> tuple[int, bool]:
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_costly_file_costs_in_proportion_to_its_length_or_is_refused(family, tmp_path):
-    name, make, n, refused = FAMILIES[family]
+    name, make, n, refused, beside = FAMILIES[family]
+    beside(tmp_path)
     _calls(tmp_path / name, make(2))  # what is loaded and cached once
     (half, _), (whole, was_refused) = (_calls(tmp_path / name, make(count)) for count in (n // 2, n))
     assert whole <= max(AT_LEAST, 2.5 * half)

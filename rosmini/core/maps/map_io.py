@@ -15,7 +15,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,13 +30,11 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 Mode = Literal["trinary", "scale", "raw"]
+_Cell = TypeVar("_Cell", np.uint8, np.int8)
 
 MODES: tuple[Mode, ...] = ("trinary", "scale", "raw")
 REQUIRED = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate")
 OPTIONAL = ("mode",)
-
-AT_ONCE = 1_000_000
-"""Number of pixels processed at once, as each takes many bytes."""
 
 LARGEST_TEXT = 1_000_000
 """Maximum size of a YAML file [bytes]."""
@@ -86,7 +84,29 @@ class MapFile:
 
     def pixels(self) -> NDArray[np.uint8]:
         """Return the pixels (h, w, channels) of the image, row 0 at the bottom. Raises `MapDataError` if unreadable."""
-        return _channels(self.image, self.document.place("image"))
+        return self._rows(lambda pixels: pixels)
+
+    def _rows(self, convert: Callable[[NDArray[np.uint8]], NDArray[_Cell]]) -> NDArray[_Cell]:
+        """Return the image's pixels as converted by a function of pixels (h, w, channels), row 0 at the bottom."""
+        place, image = self.document.place("image"), self.image
+        found: NDArray[_Cell] | None = None
+        try:
+            with images.opened(image) as opened:
+                for top, strip in images.strips(opened):
+                    part: NDArray[_Cell] = convert(_eight_bits(strip))
+                    if found is None:
+                        found = np.empty((opened.height, *part.shape[1:]), dtype=part.dtype)
+                    bottom = opened.height - top
+                    found[bottom - len(part) : bottom] = part[::-1]
+        except FileNotFoundError as error:
+            raise MapDataError(f"{place}: the field 'image' names {image}, which is not there") from error
+        except images.ImageError as error:
+            raise MapDataError(
+                f"{place}: the field 'image' names {image}, which cannot be read: {error}"
+            ) from error
+        if found is None or not found.size:
+            raise MapDataError(f"{place}: the image {image} has no pixels")
+        return found
 
     def show(self, **options: Any) -> Any:
         """Show the image and the resulting map for several thresholds: see `rosmini.viz.stepped_pictures.map_steps`."""
@@ -95,7 +115,7 @@ class MapFile:
     def load(self, warn: Callable[[str], object] = warnings.warn) -> GridMap:
         """Load the map. Raises `MapError` as `load_map` does; `warn` is called for a map that is probably a mistake."""
         document, fields = self.document, self.fields
-        occupancy = occupancy_of(self.pixels(), fields)
+        occupancy = self._rows(lambda pixels: occupancy_of(pixels, fields))
         most = max(occupancy.shape)
         if not SMALLEST <= fields.resolution <= most * fields.resolution <= LARGEST:
             bounds = f"{SMALLEST:g} or more, and with {most} of them no more than {LARGEST:g}"
@@ -261,22 +281,6 @@ def _nearest_file(path: Path) -> str:
 # ---- the image ----
 
 
-def _channels(image: Path, place: str) -> NDArray[np.uint8]:
-    """Return the pixels (h, w, channels), row 0 at the bottom."""
-    try:
-        with images.opened(image) as opened:
-            pixels = _eight_bits(opened)
-    except FileNotFoundError as error:
-        raise MapDataError(f"{place}: the field 'image' names {image}, which is not there") from error
-    except images.ImageError as error:
-        raise MapDataError(
-            f"{place}: the field 'image' names {image}, which cannot be read: {error}"
-        ) from error
-    if not pixels.size:
-        raise MapDataError(f"{place}: the image {image} has no pixels")
-    return pixels[::-1]
-
-
 def _eight_bits(image: Image) -> NDArray[np.uint8]:
     """Return the pixels (h, w, channels) with 8 bits per channel: grey, or colours, with alpha if there is any."""
     if image.mode.startswith("I"):  # 16 bits: drop the lower ones
@@ -299,7 +303,7 @@ def occupancy_of(pixels: NDArray[np.uint8], fields: Fields) -> NDArray[np.int8]:
         found: NDArray[np.int8] = table[pixels[..., 0]]
         return found
     cells: NDArray[np.int8] = np.empty(pixels.shape[:2], dtype=np.int8)
-    rows = max(1, AT_ONCE // pixels.shape[1])
+    rows = max(1, images.AT_ONCE // pixels.shape[1])
     for first in range(0, len(pixels), rows):
         cells[first : first + rows] = _cells(pixels[first : first + rows], fields)
     return cells

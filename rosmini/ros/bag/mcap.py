@@ -20,7 +20,7 @@ from rosmini.msgs.full_text import class_from
 
 from .bag import Bag
 from .errors import ROSBagException, ROSBagFormatException
-from .records import PIECE, Compression, check_unpacked, decompress
+from .records import PIECE, Allowance, Compression, check_unpacked, decompress
 from .tools import Copied, two_files
 
 if TYPE_CHECKING:
@@ -157,9 +157,11 @@ def _records(file: IO[bytes]) -> Iterator[Any]:
     from mcap.stream_reader import StreamReader
 
     bounded: Any = _Bounded(file)
+    allowance = Allowance()
     for record in StreamReader(bounded, emit_chunks=True, validate_crcs=True).records:
         if isinstance(record, Chunk):
             position = file.tell() - len(record.data)
+            allowance.charge(record.uncompressed_size, len(record.data))
             data = _unpacked(record.data, record.compression, record.uncompressed_size, position)
             yield from _in_chunk(replace(record, compression="", data=data))
         else:

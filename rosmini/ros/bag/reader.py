@@ -21,6 +21,7 @@ from .records import (
     OP_CONNECTION,
     OP_INDEX,
     OP_MESSAGE,
+    Allowance,
     Compression,
     Record,
     Truncated,
@@ -120,6 +121,9 @@ def _index(file: BinaryIO, name: str) -> Index:
         index.chunks.append(_chunk_of(file, record))
         position = record.end
     _check_apart(index.chunks)
+    allowance = Allowance()
+    for chunk in index.chunks:
+        allowance.charge(chunk.size, chunk.compressed)
     return index
 
 

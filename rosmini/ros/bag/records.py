@@ -44,6 +44,9 @@ LONGEST_CHUNK = 2**27
 TRUSTED_CHUNK = 2**24
 """Length from which a chunk may be at most `RATIO` times as long as its compressed form [bytes]."""
 RATIO = 2000
+"""Ratio of a chunk's length to its compressed length that no chunk of useful data exceeds."""
+MOST_TRUSTED = 2**26
+"""Maximum total that all chunks of a file may hold beyond `RATIO` times their compressed lengths [bytes]."""
 FAR = 2**32
 """Position from which the end of the file is checked first [bytes]; systems refuse to seek too far past it."""
 PIECE = 1024 * 1024
@@ -255,6 +258,22 @@ def check_unpacked(size: int, packed: int, compression: str, position: int) -> N
             f"the {compression} chunk at byte {position} has {packed:,} bytes and claims to hold {size:,}; at most "
             f"{most_unpacked(packed):,} are unpacked: the file is damaged, or made to harm"
         )
+
+
+class Allowance:
+    """Counts what the chunks of one file hold beyond `RATIO`: many small chunks may claim as much as a large one."""
+
+    def __init__(self) -> None:
+        self._left = MOST_TRUSTED
+
+    def charge(self, size: int, packed: int) -> None:
+        """Count a chunk before it is decompressed. Raises ``ROSBagFormatException`` beyond `MOST_TRUSTED`."""
+        self._left -= max(0, min(size, most_unpacked(packed)) - RATIO * packed)
+        if self._left < 0:
+            raise ROSBagFormatException(
+                f"its chunks claim to hold {MOST_TRUSTED:,} bytes more than {RATIO} times their compressed lengths: "
+                "the file is damaged, or made to harm"
+            )
 
 
 def decompress(data: bytes, compression: str, size: int, position: int) -> bytes:

@@ -21,6 +21,7 @@ from .records import (
     OP_INDEX,
     OP_MESSAGE,
     PIECE,
+    Allowance,
     Record,
     check_magic,
     decompress,
@@ -61,6 +62,7 @@ class Scan:
     """End of the last whole chunk and its index data."""
     room: int = MOST_RESCUED
     """Number of bytes of truncated chunks that may still be kept."""
+    allowance: Allowance = field(default_factory=Allowance)
     bare: Chunk | None = None
     """The last whole chunk, if its index data is incomplete: then ``end`` is before that data."""
 
@@ -158,6 +160,7 @@ def _take_chunk(file: BinaryIO, record: Record, found: Scan) -> Chunk | None:
         record.data_length,
         number_of(record, "size", u32),
     )
+    found.allowance.charge(chunk.size, chunk.compressed)
     packed = read_data(file, record, f"the chunk at byte {record.position}")
     try:
         data = decompress(packed, compression, chunk.size, record.position)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core import images
+from rosmini.core.geometry.errors import GeometryError
 from rosmini.core.geometry.polygons import area, crossing_sides
 from rosmini.sim.geometry.contours import outlines
 from rosmini.sim.models import hull
@@ -23,6 +24,13 @@ from .errors import Place, StageError
 
 Floats = NDArray[np.float64]
 Size = tuple[float, float, float]
+
+MOST_PIXELS = 32_000_000
+"""Maximum number of pixels of all bitmaps of a world."""
+
+MOST_OUTLINES = 5_000
+"""Maximum number of outlines of all bitmaps of a world but the first, each as often as it is used."""
+TOO_MANY = f"the bitmaps after a world's first have more than {MOST_OUTLINES} outlines"
 
 THRESHOLD = 127
 EDGE = 0.01
@@ -78,17 +86,37 @@ def block(points: Floats, bottom: float, top: float) -> tuple[Block | None, str]
     return Block(points if size > 0 else points[::-1], bottom, top), odd
 
 
-def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
-    """Return the outlines of the dark pixels, y up; their bounding box (x0, y0, x1, y1); and a remark."""
+@dataclass(frozen=True)
+class Picture:
+    """The dark parts of a bitmap, in pixels, y up."""
+
+    blocks: tuple[Block, ...]
+    box: tuple[float, float, float, float]
+    """Around all of them: x0, y0, x1, y1."""
+    pixels: int
+    odd: str = ""
+    """Unusual features, for a note."""
+
+
+def picture(path: Path, place: Place, room: int) -> Picture:
+    """Read a bitmap of at most `room` pixels. Raises `StageError`."""
     try:
         with images.opened(path) as found:
-            first = np.asarray(found.convert("RGB"))[:, :, 0]
+            pixels = found.width * found.height
+            if pixels > room:
+                raise images.ImageError(
+                    f"with it the bitmaps of this world have more than {MOST_PIXELS} pixels"
+                )
+            dark = np.empty((found.height, found.width), dtype=bool)
+            for top, strip in images.strips(found):
+                below = np.asarray(strip.convert("RGB"))[:, :, 0] <= THRESHOLD
+                dark[found.height - top - len(below) : found.height - top] = below[::-1]
     except (images.ImageError, OSError) as error:
-        raise StageError(place, f"the bitmap {path} cannot be read: {error}") from error
-    dark = first[::-1] <= THRESHOLD
+        what = f"cannot be read: {error}"
+        raise StageError(place, f"the bitmap {path} {what}", f"the bitmap {what}") from error
     if not dark.any():
         odd = f"nothing in the bitmap {path} is dark (first channel up to {THRESHOLD}), so it has no body"
-        return (), (0.0, 0.0, 1.0, 1.0), odd
+        return Picture((), (0.0, 0.0, 1.0, 1.0), pixels, odd)
     columns, rows = np.flatnonzero(dark.any(axis=0)), np.flatnonzero(dark.any(axis=1))
     box = (float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1))
     height, width = dark.shape
@@ -98,7 +126,11 @@ def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, flo
             f"of the bitmap's {width} x {height} pixels the {box[2] - box[0]:.0f} x {box[3] - box[1]:.0f} that are not "
             "white margin are stretched to the model's size"
         )
-    return tuple(Block(loop) for loop in outlines(dark)), box, odd
+    try:
+        loops = outlines(dark)
+    except GeometryError as error:
+        raise StageError(place, f"the bitmap {path} is too detailed: {error}", str(error)) from error
+    return Picture(tuple(Block(loop) for loop in loops), box, pixels, odd)
 
 
 def stretched(

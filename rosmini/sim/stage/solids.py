@@ -11,23 +11,28 @@ from rosmini.core.geometry.polygons import area, inside, sides_of
 from rosmini.core.geometry.poses import Pose, compose, inverse, transform_points
 from rosmini.sim.shapes import Box, Polygon, Shape
 
-from .blocks import Block
+from .blocks import MOST_OUTLINES, TOO_MANY, Block
+from .errors import StageError
 from .things import Pose4, Thing
 
 
 def filled(thing: Thing) -> tuple[tuple[Block, ...], int]:
-    """Return the blocks of a model's body without hollow parts, and the number of hollow parts."""
+    """Return the blocks of a model's body without hollow parts, and their number. Raises `StageError`."""
     if thing.body is None or not thing.body.traced:
         return (() if thing.body is None else thing.body.blocks), 0
+    if len(thing.body.blocks) > MOST_OUTLINES:
+        raise StageError(thing.place, TOO_MANY, TOO_MANY)
     outer = [each for each in thing.body.blocks if area(each.outline) > 0]
-    alone = [
-        each
-        for each in outer
-        if not any(
-            other is not each and inside(each.outline[:1], sides_of(other.outline))[0] for other in outer
-        )
-    ]
-    return tuple(alone), len(thing.body.blocks) - len(outer)
+    firsts = np.array([each.outline[0] for each in outer])
+    alone = np.ones(len(outer), dtype=bool)
+    for i, other in enumerate(outer):
+        low, high = other.outline.min(axis=0), other.outline.max(axis=0)
+        near = np.flatnonzero(alone & ((low <= firsts) & (firsts <= high)).all(axis=1))
+        near = near[near != i]
+        if len(near):
+            alone[near] = ~inside(firsts[near], sides_of(other.outline))
+    holes = len(thing.body.blocks) - len(outer)
+    return tuple(each for each, is_alone in zip(outer, alone, strict=True) if is_alone), holes
 
 
 @dataclass(frozen=True)

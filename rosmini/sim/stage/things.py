@@ -15,7 +15,20 @@ import numpy as np
 
 from rosmini.sim.shapes import colour_problem
 
-from .blocks import EDGE, Block, Body, block, frame, image, square, stretched
+from .blocks import (
+    EDGE,
+    MOST_OUTLINES,
+    MOST_PIXELS,
+    TOO_MANY,
+    Block,
+    Body,
+    Picture,
+    block,
+    frame,
+    picture,
+    square,
+    stretched,
+)
 from .errors import Place, StageError
 from .parse import Entity, Parsed, unknown_kind
 from .tokens import find_file, searched
@@ -114,7 +127,9 @@ class Maker:
         self.parsed = parsed
         self.units = units
         self._counts: Counter[str] = Counter()
-        self._images: dict[Path, tuple[tuple[Block, ...], tuple[float, float, float, float], str]] = {}
+        self._pictures: dict[Path, Picture] = {}
+        self._traced: int | None = None
+        """Number of outlines of the bitmaps so far, without the first, which is usually the floor plan."""
 
     def things(self) -> list[Thing]:
         """Return the models of the world, with their children. Raises `StageError`."""
@@ -216,10 +231,10 @@ class Maker:
         bitmap = reader.text("bitmap", "")
         boundary = frame(size) if reader.flag("boundary", default=False) else ()
         if bitmap:
-            traced, box, odd = self._image(bitmap, reader.place("bitmap"))
-            if odd and not boundary:
-                self.units.note(reader.place("bitmap"), odd)
-            plan = stretched(traced, size, box)
+            shown = self._picture(bitmap, reader.place("bitmap"))
+            if shown.odd and not boundary:
+                self.units.note(reader.place("bitmap"), shown.odd)
+            plan = stretched(shown.blocks, size, shown.box)
             if own:
                 every = stretched((*plan, *own), size)
                 plan, boundary = every[: len(plan)], (*boundary, *every[len(plan) :])
@@ -249,18 +264,21 @@ class Maker:
             self.units.note(entity.place, odd, left_out="" if found else "a block that encloses nothing")
         return found
 
-    def _image(
-        self, name: str, place: Place
-    ) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
+    def _picture(self, name: str, place: Place) -> Picture:
         path = find_file(name, self.parsed.path, place.path)
         if path is None:
             where = searched(self.parsed.path, place.path)
             raise StageError(
                 place, f'there is no bitmap "{name}" {where}', f"there is no such bitmap {where}"
             )
-        if path not in self._images:
-            self._images[path] = image(path, place)
-        return self._images[path]
+        if path not in self._pictures:
+            room = MOST_PIXELS - sum(each.pixels for each in self._pictures.values())
+            self._pictures[path] = picture(path, place, room)
+        found = self._pictures[path]
+        self._traced = 0 if self._traced is None else self._traced + len(found.blocks)
+        if self._traced > MOST_OUTLINES:
+            raise StageError(place, TOO_MANY, TOO_MANY)
+        return found
 
 
 def _pose(reader: Reader, name: str) -> Pose4:

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rosmini.core.geometry.errors import GeometryError
 from rosmini.core.geometry.poses import inverse, transform_points
 from rosmini.core.maps import GridMap, load_map
 from rosmini.sim.geometry.contours import trace
-from rosmini.sim.world import Pose, World
+from rosmini.sim.world import Pose, World, WorldError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -28,12 +29,17 @@ def world_from_map(
     """Return the world of a map: its walls are the outlines of the occupied cells, in the frame of the map.
 
     Unknown cells count as free. Without `starts` a robot starts at the origin of the map's frame, usually the start of
-    the robot that made the map, or in the largest free space if the origin is not free. Raises `load_map`'s errors.
+    the robot that made the map, or in the largest free space if the origin is not free. Raises `load_map`'s errors, and
+    `WorldError` for too many outlines.
     """
     grid = load_map(yaml_path)
+    try:
+        walls = trace(grid.occupied, grid.resolution, grid.origin)
+    except GeometryError as error:
+        raise WorldError(f"{yaml_path}: {error}") from error
     return World(
         Path(yaml_path).stem,
-        walls=trace(grid.occupied, grid.resolution, grid.origin),
+        walls=walls,
         starts=starts or (_start(grid),),
         title=title or f"The map {Path(yaml_path).name}",
         solid=True,

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import re
+import struct
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,7 @@ import pytest
 from PIL import Image
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.maps import GridMap, MapError, load_map
+from rosmini.core.maps import GridMap, MapDataError, MapError, load_map
 
 FIELDS = {
     "image": "map.png",
@@ -377,3 +379,27 @@ def test_a_comment_in_another_encoding_does_no_harm(write):
     path = write([[0, 150, 255]])
     path.write_bytes(b"\xef\xbb\xbf# Pr\xfcfstand\n" + path.read_bytes())
     assert load_map(path).occupancy.tolist() == [[100, -1, 0]]
+
+
+def test_a_large_image_is_converted_a_strip_at_a_time(write, tmp_path):
+    path = write([[0]], file="map.png")
+    grey = np.full((3000, 4000), 255, dtype=np.uint8)
+    grey[100:1500, 5] = 0
+    Image.fromarray(grey).convert("RGBA").save(tmp_path / "map.png")
+    load_map(path)
+    tracemalloc.start()
+    try:
+        found = load_map(path)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert np.array_equal(found.occupied, (grey == 0)[::-1])
+    assert most < 4 * grey.size
+
+
+def test_a_picture_in_colour_may_have_fewer_pixels(write, tmp_path):
+    path = write([[0]], file="map.bmp")
+    header = b"BM" + struct.pack("<IIIIiiHHIIiiII", 54, 0, 54, 40, 9000, 9000, 1, 24, 0, 0, 0, 0, 0, 0)
+    (tmp_path / "map.bmp").write_bytes(header)
+    with pytest.raises(MapDataError, match="9000 x 9000 pixels"):
+        load_map(path)

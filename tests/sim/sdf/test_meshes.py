@@ -8,7 +8,7 @@ import struct
 import numpy as np
 import pytest
 
-from rosmini.sim.sdf import load, to_obstacles, to_world
+from rosmini.sim.sdf import converted, load, to_obstacles, to_world
 from rosmini.sim.urdf.meshes import MeshError, read
 from rosmini.sim.world import World
 
@@ -195,6 +195,22 @@ def test_a_mesh_is_scaled_and_turned(tmp_path):
     ).obstacles
     assert np.ptp(top.outline(), axis=0) == pytest.approx((0.6, 2), abs=1e-6)
     assert top.height == pytest.approx(0.375)
+
+
+def test_meshes_beyond_a_limit_are_boxes(tmp_path, monkeypatch):
+    (tmp_path / "m.stl").write_bytes(binary_stl(TABLE))
+    model = (
+        "<model name='m{0}'><static>1</static><pose>{0} 0 0 0 0 0</pose><link name='l'><collision name='c'><geometry>"
+        "<mesh><uri>file://{1}</uri><scale>1 1 {2}</scale></mesh></geometry></collision></link></model>"
+    )
+    models = "".join(model.format(i, tmp_path / "m.stl", scale) for i, scale in enumerate((1, 1, 2)))
+    document = load(f"<sdf version='1.7'><world name='w'>{models}</world></sdf>")
+    monkeypatch.setattr("rosmini.sim.sdf.solids.MOST_CUT", 1)
+    world, notes = converted(document.worlds[0])
+    assert [each.name.partition("::")[0] for each in world.obstacles] == ["m0", "m0", "m1", "m1", "m2"]
+    assert np.ptp(world.obstacles[-1].outline(), axis=0) == pytest.approx((1, 0.6), abs=1e-6)
+    assert world.obstacles[-1].height == pytest.approx(1.5)
+    assert ["m2" in note.text for note in notes] == [True]
 
 
 def test_a_mesh_that_can_be_pushed_is_the_hull_of_its_shadow(tmp_path):
