@@ -1,4 +1,4 @@
-"""`rqt_bag`: what is in a bag over time, a row for each topic (http://wiki.ros.org/rqt_bag)."""
+"""`rqt_bag`: the messages of a bag over time, a row for each topic (http://wiki.ros.org/rqt_bag)."""
 
 from __future__ import annotations
 
@@ -32,21 +32,21 @@ if TYPE_CHECKING:
 
 KIND = "rosmini-bag"
 ROW, BAR = 34.0, 14.0
-"""How high a row is, and the messages in it [px]."""
+"""Height of a row, and of the messages in it [px]."""
 MARGIN, SPACE = 12.0, 14.0
 MERGED = 3.0
-"""Messages that are not further apart are drawn as one bar [px]."""
+"""Messages at most this far apart are drawn as one bar [px]."""
 TICK = 1.6
-"""As wide is a message at least [px]."""
+"""Minimum width of a message [px]."""
 NARROWEST = 200.0
 SHOWN_GAPS = 3
-"""So many gaps of a topic are named in the text; all are drawn."""
+"""Number of gaps of a topic that the text names; the picture shows all."""
 COLOURS = ["ink", "muted", "group-fill", "group-line", "node-fill", "node-line", "bad-fill", "bad-line"]
 
 
 @dataclass(frozen=True)
 class Row:
-    """A topic: its type, when its messages were recorded, and the times without one [s, from the bag's start]."""
+    """A topic: its type, the times of its messages, and the gaps between them [s from the start of the bag]."""
 
     topic: str
     type: str
@@ -55,13 +55,13 @@ class Row:
 
     @property
     def rate(self) -> float | None:
-        """How often messages came on average [Hz]: the median would mislead where they come in bursts."""
+        """Average rate of the messages [Hz]; the median would mislead if messages come in bursts."""
         if len(self.times) < 3 or self.times[-1] <= self.times[0]:
             return None
         return (len(self.times) - 1) / (self.times[-1] - self.times[0])
 
     def text(self) -> str:
-        """What there is of it."""
+        """Return the number, rate, times and gaps of the messages."""
         if not self.times:
             return f"{self.topic} [{self.type}]: no messages"
         rate = "" if self.rate is None else f", {fixed(self.rate, 1)} Hz on average"
@@ -88,11 +88,11 @@ def rqt_bag(
 
     Args:
         source: a bag, or its path.
-        topics: only these; all if not given.
-        gap: a time without a message is a gap if it is longer than this factor times the usual period,
-            and than a hundredth of the bag.
+        topics: topics to draw; by default all.
+        gap: a time without a message is a gap if it is longer than this factor times the usual period
+            and longer than a hundredth of the bag.
         title: a caption under the picture, and the first words of its text form.
-        width: of the picture [CSS px].
+        width: width of the picture [CSS px].
 
     Raises:
         ViewError: there is nothing to draw, or `gap` is not above 1.
@@ -123,7 +123,7 @@ def _rows(bag: Bag, topics: Collection[str] | None, gap: float) -> tuple[list[Ro
             raise bag.no_topic(topic)
     index, reader = bag.index, bag.reader()
     if index.start is None or index.end is None:
-        raise ViewError("there is no message in this bag, so there is nothing to draw")
+        raise ViewError("this bag contains no message to draw")
     duration = (index.end - index.start) / 1e9
     rows = []
     for topic in names:
@@ -137,9 +137,9 @@ def _rows(bag: Bag, topics: Collection[str] | None, gap: float) -> tuple[list[Ro
 
 
 def gaps(times: Sequence[float], factor: float, least: float = 0.0) -> tuple[tuple[float, float], ...]:
-    """The gaps longer than `factor` times the usual and than `least` [s]; none for fewer than four messages.
+    """Return the gaps longer than `factor` usual periods and `least` [s]; fewer than four messages have none.
 
-    Usual is what three of four periods do not exceed: of messages in bursts, the time from burst to burst.
+    The usual period is the third quartile: of messages in bursts, the time from burst to burst.
     """
     if len(times) < 4:
         return ()
@@ -149,7 +149,7 @@ def gaps(times: Sequence[float], factor: float, least: float = 0.0) -> tuple[tup
 
 
 def bars(places: Sequence[float]) -> list[tuple[float, float]]:
-    """Where to draw messages that stand at `places` [px], in order: (left, right), those close together as one."""
+    """Return the bars (left, right) of messages at sorted `places` [px]; messages close together share one."""
     found: list[tuple[float, float]] = []
     for place in places:
         left, right = place - TICK / 2, place + TICK / 2
@@ -241,16 +241,16 @@ def _row(row: Row, figures: tuple[str, str], top: float, left: float, room: floa
 
 
 class BagTimeline(Panel):
-    """When the messages of a bag were recorded: a row for each topic.
+    """The times of the messages in a bag: a row for each topic.
 
     Args:
         graph: the graph.
-        path: the bag that is shown first.
-        name: of the panel's node.
+        path: bag shown at first.
+        name: name of the panel's node.
 
     Raises:
-        ViewError: the file cannot be opened, or holds no message.
-        ROSBagException: it is no bag.
+        ViewError: the file cannot be opened, or contains no message.
+        ROSBagException: the file is not a bag.
 
     """
 
@@ -285,7 +285,7 @@ class BagTimeline(Panel):
         self.path = path
 
     def parts(self) -> Sequence[Part]:
-        """The file, and its rows."""
+        """The file name, and a row for each topic."""
         shown = self._bag or Words("name a file: it is read when you have typed it")
         return [bar(Control("file", "File", "text", self.path)), shown]
 
@@ -293,10 +293,10 @@ class BagTimeline(Panel):
         self.load(value)
 
     def settings(self) -> dict[str, Any]:
-        """The file."""
+        """Return the file name."""
         return {"path": self.path}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Show the file that was kept."""
+        """Show the file of a perspective."""
         if settings.get("path"):
             self.load(str(settings["path"]))

@@ -1,7 +1,7 @@
-"""A drawing of many nodes and topics: what looks alike becomes one box, until a reader, and the layout, can cope.
+"""Condense a large graph: similar nodes and topics become one box, until reader and layout can cope.
 
-Nodes are put together by ever weaker likenesses: the same topics in the same roles; names that differ in their numbers
-only; the same outermost namespace; neighbours in the alphabet. Topics are put together where they have the same
+Nodes are grouped by ever weaker similarity: the same topics in the same roles; names that differ only in
+numbers; the same outermost namespace; neighbours in the alphabet. Topics are grouped if they have the same
 publishers and the same subscribers.
 """
 
@@ -15,14 +15,14 @@ from math import isqrt
 from rosmini.viz.rqt.selection import Selection
 
 LIMIT = 300
-"""How many things, nodes, topics and arrows together, are drawn one by one."""
+"""Maximum number of nodes, topics and arrows that are drawn one by one."""
 
 Grouping = Callable[[Selection], Mapping[str, Hashable]]
-"""What tells nodes apart: those with equal values become one."""
+"""Keys of nodes: nodes with equal keys become one box."""
 
 
 def condensed(selection: Selection, limit: int = LIMIT) -> Selection:
-    """Return the selection itself if it is small, else one of groups; `Selection.bundles` has their members."""
+    """Return a small selection unchanged, and a large one as groups, whose members are in `Selection.bundles`."""
     if _size(selection) <= limit:
         return selection
     likenesses: tuple[Grouping, ...] = (_by_topics, _by_numbers, _by_namespace, _by_alphabet)
@@ -94,7 +94,7 @@ def _merge_topics(selection: Selection) -> Selection:
         topics=tuple(sorted(set(names.values()))),
         publications=_renamed(selection.publications, topics=names),
         subscriptions=_renamed(selection.subscriptions, topics=names),
-        # Where topics are boxes, connections keep the names of the graph: they tell only who is connected.
+        # If topics are boxes, connections keep the names of the graph: they only show which nodes are connected.
         connections=tuple(sorted({(p, names.get(topic, topic), s) for p, topic, s in selection.connections})),
         bundles=bundles,
     )
@@ -110,7 +110,7 @@ def _renamed(
 def _bundle(
     things: Iterable[str], key: Mapping[str, Hashable], before: Mapping[str, tuple[str, ...]], noun: str
 ) -> tuple[dict[str, str], dict[str, tuple[str, ...]]]:
-    """Return the new name of each thing, and the members of all bundles, taken apart down to what the graph has."""
+    """Return the new name of each node or topic, and the members of each bundle as the graph names them."""
     alike: dict[Hashable, list[str]] = {}
     for thing in sorted(things):
         alike.setdefault(key[thing], []).append(thing)

@@ -33,7 +33,7 @@ Column = Literal["stamp", "severity", "node", "message", "location", "topics"]
 COLUMNS: tuple[Column, ...] = ("stamp", "severity", "node", "message", "location")
 
 ALT_MESSAGES = 3
-"""How many messages the alt text spells out."""
+"""Number of messages that the alt text contains."""
 
 
 def rqt_console(
@@ -56,19 +56,19 @@ def rqt_console(
     """Show log messages as rqt_console does, the oldest first.
 
     Args:
-        source: what ``graph.console()`` returned, or any messages of the type ``rosgraph_msgs/Log``.
+        source: the console of ``graph.console()``, or messages of the type ``rosgraph_msgs/Log``.
         level: the lowest level to show ("WARN"), or a collection of the levels to show.
         node: filter for nodes: names or regular expressions with commas between, `-` excludes. "/" is all.
         text: show only messages that contain this.
         exclude: hide messages that contain this.
         highlight: mark messages that contain this.
-        regex: the three above are regular expressions; else upper and lower case are alike.
+        regex: the three above are regular expressions; otherwise they ignore case.
         topic: filter for the topics that the message's node publishes, in the form of `node`.
-        location: show only messages whose `file:line function` contains this; outside of functions it is `file:line`.
+        location: show only messages whose `file:line function` contains this; outside functions it is `file:line`.
         start: show nothing earlier, in seconds of the messages' time, or as a `rosmini.Time`.
         end: show nothing later.
-        columns: which columns, in which order.
-        limit: show the newest `limit` of what passes the filters.
+        columns: the columns, in order.
+        limit: show the newest `limit` messages that pass the filters.
         title: a caption under the table, and the first words of its text form.
 
     Raises:
@@ -99,7 +99,7 @@ def rqt_console(
 
 
 class LogTable(Table):
-    """A table of log messages: those of `total` messages that passed the filters."""
+    """A table of the log messages that pass the filters, out of `total`."""
 
     def __init__(
         self,
@@ -126,19 +126,19 @@ class LogTable(Table):
 
     @property
     def counted(self) -> str:
-        """The number of messages that are shown, and of all."""
+        """Number of messages shown, and number of all."""
         if len(self) == self.total:
             return plural(self.total, "message")
         return f"{len(self)} of {plural(self.total, 'message')}"
 
     @property
     def caption(self) -> str:
-        """The title, if there is one, and the count."""
+        """The title, if given, and the count."""
         return super().caption if self.title else self.counted
 
     @property
     def text(self) -> str:
-        """A line with the count, then the lines of each message; `*` marks those that are highlighted."""
+        """A line with the count, then the lines of each message; `*` marks highlighted messages."""
         cells = [[cell_text(cell).split("\n") for cell in row.cells] for row in self.part.rows]
         widths = [max(len(line) for cell in column for line in cell) for column in zip(*cells, strict=True)]
         lines = [f"{self.title or 'rqt_console'}: {self.counted}"]
@@ -174,7 +174,7 @@ def _cell(message: Any, column: Column) -> str:
 
 
 def location_of(message: Any) -> str:
-    """Where the message was logged: the file without its folder, which differs between machines."""
+    """Return the place of the call: the file without its folder, which differs between machines, line and function."""
     if not message.file:
         return ""
     name = message.file.replace("\\", "/").rpartition("/")[2]
@@ -182,7 +182,7 @@ def location_of(message: Any) -> str:
     return f"{name}:{message.line} {function}".rstrip()
 
 
-# ---- what was asked for ----
+# ---- checking arguments ----
 
 
 def _messages(source: object) -> list[Any]:
@@ -222,7 +222,7 @@ def _matcher(pattern: str, regex: bool) -> Callable[[str], bool]:
     try:
         expression = re.compile(pattern)
     except re.error as error:
-        raise ViewError(f"{pattern!r} is no regular expression: {error}") from error
+        raise ViewError(f"{pattern!r} is not a regular expression: {error}") from error
     return lambda text: expression.search(text) is not None
 
 
@@ -231,17 +231,17 @@ def _seconds(when: Any) -> float:
 
 
 SHOWN = 100
-"""How many messages are shown, the newest."""
+"""Maximum number of messages shown: the newest."""
 FILTERS = {"node": "Node", "text": "Text", "exclude": "Exclude", "highlight": "Highlight"}
 
 
 class LogConsole(Panel):
-    """What nodes log from now on, with the filters of :func:`rosmini.viz.rqt.console.rqt_console`.
+    """Log messages from now on, with the filters of :func:`rosmini.viz.rqt.console.rqt_console`.
 
     Args:
         graph: the graph.
-        level: the lowest level that is shown.
-        name: of the panel's node.
+        level: lowest level shown.
+        name: name of the panel's node.
 
     """
 
@@ -253,7 +253,7 @@ class LogConsole(Panel):
         super().__init__(graph, name=name)
         self.log = Console(graph, node=self.node)
         self.filters: dict[str, Any] = {"level": level, "regex": False, **dict.fromkeys(FILTERS, "")}
-        """What is shown: options of `rqt_console`."""
+        """Options of `rqt_console` that select the messages."""
         self._paused: list[Any] | None = None
 
     @classmethod
@@ -275,20 +275,20 @@ class LogConsole(Panel):
 
     @property
     def paused(self) -> bool:
-        """Whether what comes is kept, but not shown yet."""
+        """True if new messages are kept but not shown."""
         return self._paused is not None
 
     def pause(self, on: bool = True) -> None:
-        """Show nothing new for a while, or again."""
+        """Stop or resume showing new messages."""
         self._paused = self.log.messages if on else None
 
     def clear(self) -> None:
-        """Forget all messages."""
+        """Remove all messages."""
         self.log.clear()
         self._paused = [] if self.paused else None
 
     def filter(self, **filters: Any) -> None:
-        """Show other messages: level, node, text, exclude, highlight, regex. Raises ``ViewError``."""
+        """Change filters: level, node, text, exclude, highlight, regex. Raises ``ViewError``."""
         unknown = set(filters) - set(self.filters)
         if unknown:
             raise ViewError(f"no filter {', '.join(sorted(unknown))}; there are {', '.join(self.filters)}")
@@ -313,11 +313,11 @@ class LogConsole(Panel):
         ]
 
     def settings(self) -> dict[str, Any]:
-        """The filters."""
+        """Return the filters."""
         return dict(self.filters)
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Take the filters."""
+        """Restore the filters."""
         self.filter(
             **{name: value for name, value in settings.items() if type(value) is type(self.filters.get(name))}
         )

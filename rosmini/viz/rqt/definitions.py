@@ -50,7 +50,7 @@ def rqt_action(kind: str, *, title: str | None = None) -> Table:
 
 def _table(kind: str, title: str | None, parts: Callable[[], list[tuple[str, MessageSpec]]]) -> Table:
     if kind.count("/") != 1:
-        raise ViewError(f"{kind!r} is no type: one is written package/Type, as in geometry_msgs/Twist")
+        raise ViewError(f"{kind!r} is not a type: write package/Type, as in geometry_msgs/Twist")
     try:
         found = parts()
         rows: list[Row] = []
@@ -112,11 +112,11 @@ class _TypeBrowser(Panel):
         self.choose(value)
 
     def settings(self) -> dict[str, Any]:
-        """The type."""
+        """Return the type."""
         return {"type": self.kind}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Show the type that was kept."""
+        """Show the type of a perspective."""
         self.choose(str(settings.get("type", self.kind)))
 
 

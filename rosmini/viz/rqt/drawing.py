@@ -1,4 +1,4 @@
-"""From a selection to SVG: nodes as ovals, topics as labels on edges or as boxes, namespaces as boxes around."""
+"""Draw a selection as SVG: nodes as ovals, topics as labels on edges or as boxes, namespaces as boxes around them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ CHANGES = (
     ".rosmini-svg .rm-gone ellipse,.rosmini-svg .rm-gone rect,.rosmini-svg .rm-gone path:first-of-type"
     "{stroke-dasharray:6 4}"
 )
-"""What is new since an earlier state is bold, what is gone pale and dashed."""
+"""Additions since an earlier state are bold, removals pale and dashed."""
 
 
 def _lit(kind: str, colour: str) -> str:
@@ -37,7 +37,7 @@ def _lit(kind: str, colour: str) -> str:
 
 LIT = {"chosen": "vermilion", "in": "blue", "out": "green", "both": "purple"}
 HIGHLIGHTS = ".rosmini-svg .rm-pale{opacity:0.35}" + "".join(_lit(*each) for each in LIT.items())
-"""The node or topic that is highlighted, what it hears (in), what hears it (out), and, pale, all else."""
+"""Colours of the highlighted node or topic (chosen), its inputs (in) and its outputs (out); all others are pale."""
 
 
 def draw(
@@ -49,7 +49,7 @@ def draw(
     alt: str,
     highlight: Highlight | None = None,
 ) -> str:
-    """The SVG of a selection. `namespaces` is how deep boxes around namespaces nest, 0 for none."""
+    """Return the SVG of a selection. `namespaces` is the depth of nested boxes around namespaces; 0 draws none."""
     vertices, edges, labels = _graph(selection, namespaces)
     names = [*(vertex.name for vertex in vertices), *(edge.name for edge in edges)]
     looks = dict.fromkeys(names, " rm-pale") if highlight else {}
@@ -76,7 +76,7 @@ def draw(
 
 
 def _graph(selection: Selection, namespaces: int) -> tuple[list[Vertex], list[Edge], dict[str, str]]:
-    """Vertices, edges, and the label of each labelled edge. `n:` and `t:` keep equal names apart."""
+    """Return vertices, edges, and the labels of edges. `n:` and `t:` distinguish nodes and topics of equal names."""
     edges: list[Edge] = []
     labels: dict[str, str] = {}
     if selection.mode == "nodes_only":
@@ -110,7 +110,7 @@ def _sized(name: str, shape: str, edges: list[Edge], selection: Selection, names
 
 
 def _namespaces(name: str) -> list[str]:
-    """The namespaces that a name is in: `/a` and `/a/b` for `/a/b/c`."""
+    """Return the namespaces of a name: `/a` and `/a/b` for `/a/b/c`."""
     parts = name.split("/")[1:-1]
     return ["/" + "/".join(parts[: i + 1]) for i in range(len(parts))]
 
@@ -136,7 +136,7 @@ def _vertex(vertex: Vertex, layout: Layout, selection: Selection, look: str) -> 
 
 
 def _change(part: str, selection: Selection) -> str:
-    """The class of what is new or gone since an earlier state."""
+    """Return the CSS class of a part that was added or removed since an earlier state."""
     return " rm-new" if part in selection.added else " rm-gone" if part in selection.removed else ""
 
 
@@ -158,7 +158,7 @@ def _group(path: tuple[str, ...], rect: Rect) -> str:
 
 
 def _group_name(path: tuple[str, ...], rect: Rect) -> str:
-    """The name of a namespace, over the edges that pass it, with a halo that keeps it legible."""
+    """Draw the name of a namespace over the edges that cross it, with a halo that keeps it legible."""
     return element(
         "text",
         escape(path[-1]),

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 TIMES = {"time": Time, "duration": Duration}
 
 DEEPEST = 12
-"""How deep messages within messages are shown."""
+"""Maximum depth of nested messages shown."""
 
 
 class Fields:
     """A message type, and an expression for each of its fields: ``0.5 * sin(i)``, ``'hello'``, ``[1, 2]``.
 
-    ``i`` counts the messages. Fields are named by their paths, ``linear/x``. Arrays of messages stay as they are by
-    default. An expression is :mod:`rosmini.core.expressions`': nothing in it can do harm.
+    ``i`` counts the messages. Paths such as ``linear/x`` name the fields. Arrays of messages keep their
+    default. :mod:`rosmini.core.expressions` evaluates the expressions safely.
     """
 
     def __init__(self, cls: Any) -> None:
@@ -34,7 +34,7 @@ class Fields:
         self.texts: dict[str, str] = {}
         self._kinds: dict[str, str] = {}
         self._expressions: dict[str, Expression] = {}
-        """Those that were given: other fields keep their default."""
+        """The expressions given; other fields keep their default."""
         for path, kind, value in walk(cls()):
             if not isinstance(value, Message):
                 self._kinds[path] = kind
@@ -42,14 +42,14 @@ class Fields:
 
     @property
     def given(self) -> dict[str, str]:
-        """The expressions that were given, by path."""
+        """The given expressions, by path."""
         return {path: self.texts[path] for path in self._expressions}
 
     def fill(self, path: str, text: str) -> None:
         """Give a field an expression.
 
         Raises:
-            ViewError: there is no such field, or it is no expression, or its value is none of the field's.
+            ViewError: there is no such field, the text is not an expression, or its value does not fit the field.
 
         """
         if path not in self.texts:
@@ -58,7 +58,7 @@ class Fields:
         try:
             expression = Expression(text, names=("i",))
         except ExpressionError as error:
-            raise ViewError(f"{path}: {text!r:.80} is no value that can be worked out: {error}") from error
+            raise ViewError(f"{path}: {text!r:.80} is not an expression: {error}") from error
         before = self._expressions.get(path)
         self._expressions[path] = expression
         try:
@@ -90,7 +90,7 @@ class Fields:
         return made
 
     def table(self, prefix: str) -> Rows:
-        """Return a row for each field, whose control's key is ``prefix/PATH``."""
+        """Return a row for each field; the key of its control is ``prefix/PATH``."""
         rows = []
         for path, kind, value in walk(self.cls()):
             name, depth = path.rpartition("/")[2], path.count("/")
@@ -100,7 +100,7 @@ class Fields:
 
 
 def value_table(message: Any, shown: Callable[[Any], str]) -> Rows:
-    """Return a row for each field of a message that came, with its value."""
+    """Return a row with the value of each field of a received message."""
     rows = (
         Row(
             (path.rpartition("/")[2], kind, "" if isinstance(value, Message) else shown(value)),
@@ -112,7 +112,7 @@ def value_table(message: Any, shown: Callable[[Any], str]) -> Rows:
 
 
 def _fitting(value: Any, kind: str) -> Any:
-    """Return a value as the field wants it: a whole number may stand for a float, and seconds for a time."""
+    """Convert a value to the type of its field: whole numbers to floats, and seconds to times."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         if kind in ("float32", "float64"):
             return float(value)
@@ -122,7 +122,7 @@ def _fitting(value: Any, kind: str) -> Any:
 
 
 def walk(message: Any, path: str = "", depth: int = 0) -> Iterator[tuple[str, str, Any]]:
-    """Yield path, type and value of each field; those of a message within come after it."""
+    """Yield path, type and value of each field; the fields of a nested message follow it."""
     for name, kind in zip(message.__slots__, message._slot_types, strict=True):
         value = getattr(message, name)
         here = f"{path}/{name}" if path else name

@@ -49,24 +49,24 @@ def rqt_graph(
 ) -> Picture:
     """Draw who publishes what to whom, as rqt_graph does (wiki.ros.org/rqt_graph).
 
-    A graph of more than 300 nodes, topics and arrows is drawn in groups of nodes that are alike, and says so.
+    A graph of more than 300 nodes, topics and arrows is drawn in groups of similar nodes; the text says so.
 
     Args:
         source: a Master (anything with `getSystemState` and `getTopicTypes`), an object with a `master`, the value
             of `getSystemState`, or a `GraphState`.
         mode: "nodes_only" draws a topic as a label on each edge from publisher to subscriber; "nodes_topics_active"
-            draws topics as boxes, those with a connection; "nodes_topics_all" those that are only registered too.
+            draws topics with a connection as boxes; "nodes_topics_all" draws all registered topics.
         hide: switches of the "Hide" row. "debug": tools and their topics, such as /rosout and /clock; "dead_sinks":
             topics without subscribers; "leaf_topics": topics with one end only; "params": dynamic_reconfigure;
             "tf": /tf and /tf_static; "unreachable": nodes that do not answer. `()` hides nothing.
         group: switches of the "Group" row: one box for the topics of an "actions" server, of "images", of "tf".
-            They matter only where topics are boxes.
-        namespaces: how deep boxes around namespaces nest; 0 draws none.
+            They have an effect only if topics are boxes.
+        namespaces: depth of nested boxes around namespaces; 0 draws none.
         namespace: filter for nodes: names or regular expressions with commas between, `-` excludes. "/" is all.
         topics: filter for topics, in the same form.
         direction: "right" as rqt_graph, or "down".
-        since: an earlier state, in any form of `source`: what is new since then is drawn in bold, what is gone dashed.
-        highlight: a node or topic that is drawn: what it hears is blue, what hears it green, all else pale.
+        since: an earlier state, in any form of `source`: additions since then are bold, removals dashed.
+        highlight: a node or topic in the drawing: its inputs are blue, its outputs green, all others pale.
         title: a caption under the picture, and the first words of its text form.
 
     Raises:
@@ -103,7 +103,7 @@ def rqt_graph(
 
 
 def _advice(names: Collection[str], topics: str) -> str:
-    """What to do where a filter lets topics through and none of them is drawn; nothing where there is no filter."""
+    """Return advice if a filter matches topics but none of them is drawn; empty without a filter."""
     if topics in ("", "/"):
         return ""
     asked = [name for name in names if matches(name, topics)]
@@ -116,9 +116,9 @@ def _advice(names: Collection[str], topics: str) -> str:
 
 
 LOOK_S = 1.0
-"""How often Master and nodes are asked [s]."""
+"""Interval between requests to the Master and the nodes [s]."""
 MODES = ("nodes_only", "nodes_topics_active", "nodes_topics_all")
-"""As the real one counts them."""
+"""The modes in the order of rqt_graph's setting."""
 SHORT_MODES = dict(zip(("nodes", "active", "all"), MODES, strict=True))
 """Names of the modes on the command line."""
 TEXTS = {
@@ -137,17 +137,17 @@ BOXES = {
     "group_image_check_box_state": ("group", "images"),
     "group_tf_check_box_state": ("group", "tf"),
 }
-"""What the real rqt_graph calls its options where it saves them."""
+"""Keys of rqt_graph's settings in a perspective."""
 WORDS = {"dead_sinks": "Dead sinks", "leaf_topics": "Leaf topics", "tf": "tf"}
 
 
 class NodeGraph(Panel):
-    """Who publishes what to whom, with the switches of rqt_graph; a click on a node highlights what is beside it.
+    """The computation graph with the switches of rqt_graph; a click on a node highlights its neighbours.
 
     Args:
         graph: the graph.
-        name: of the panel's node.
-        options: those of :func:`rosmini.viz.rqt.graph.rqt_graph`: ``mode``, ``hide``, ``group``, ``namespaces``,
+        name: name of the panel's node.
+        options: options of :func:`rosmini.viz.rqt.graph.rqt_graph`: ``mode``, ``hide``, ``group``, ``namespaces``,
             ``namespace``, ``topics``, ``highlight``.
 
     Raises:
@@ -223,7 +223,7 @@ class NodeGraph(Panel):
         return rqt_graph(state, title=given.title, **cls.arguments(given)[1])
 
     def change(self, **options: Any) -> None:
-        """Draw it otherwise. Raises ``ViewError`` for what :func:`rqt_graph` does not know."""
+        """Change options of the drawing. Raises ``ViewError`` for options and values unknown to :func:`rqt_graph`."""
         unknown = set(options) - set(self.options)
         if unknown:
             raise ViewError(
@@ -235,11 +235,11 @@ class NodeGraph(Panel):
         self.options = wanted
 
     def refresh(self) -> None:
-        """Ask Master and nodes now."""
+        """Ask the Master and the nodes now."""
         self._state, self._asked = graph_state(self.graph), self.graph.now().to_sec()
 
     def picture(self) -> Picture:
-        """Return the drawing; what was highlighted and is gone is highlighted no more."""
+        """Return the drawing; a highlight of a node or topic that has gone is removed."""
         now = self.graph.now().to_sec()
         if self._asked is None or abs(now - self._asked) >= LOOK_S:
             self.refresh()
@@ -276,13 +276,13 @@ class NodeGraph(Panel):
         ]
 
     def settings(self) -> dict[str, Any]:
-        """The options, by the names of the real rqt_graph."""
+        """Return the options under rqt_graph's keys."""
         found = {key: self.options[name] for key, name in TEXTS.items()}
         found["graph_type_combo_box_index"] = MODES.index(self.options["mode"])
         return found | {key: name in self.options[kind] for key, (kind, name) in BOXES.items()}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Take the options by those names."""
+        """Restore options from rqt_graph's keys."""
         wanted: dict[str, Any] = {name: settings[key] for key, name in TEXTS.items() if key in settings}
         if "namespaces" in wanted:
             wanted["namespaces"] = int(wanted["namespaces"])

@@ -1,4 +1,4 @@
-"""What rqt_graph draws: who publishes and who subscribes to what, as a plain value."""
+"""The state of a computation graph that rqt_graph draws: publishers and subscribers, as a plain value."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class GraphState:
         return sorted(found)
 
     def edges(self) -> list[Connection]:
-        """Every (publisher, topic, subscriber), sorted: the Master brings all of them together."""
+        """Every (publisher, topic, subscriber), sorted: the Master connects all of them."""
         return [
             (publisher, topic, subscriber)
             for topic in self.topics
@@ -59,7 +59,7 @@ class GraphState:
         ]
 
     def joined(self, other: GraphState) -> GraphState:
-        """Return what is in this state, in the other one, or in both."""
+        """Return the union of two states."""
 
         def both(
             mine: Mapping[str, frozenset[str]], theirs: Mapping[str, frozenset[str]]
@@ -78,7 +78,7 @@ class GraphState:
         )
 
     def parts(self) -> frozenset[str]:
-        """Return the names of all nodes, topics and arrows, in the form that a drawing has for them."""
+        """Return the names of all nodes, topics and arrows, in the form of a drawing."""
         ends = {f"p:{node} {topic}" for topic, nodes in self.publishers.items() for node in nodes}
         ends |= {f"s:{topic} {node}" for topic, nodes in self.subscribers.items() for node in nodes}
         named = {f"n:{node}" for node in self.all_nodes} | {f"t:{topic}" for topic in self.topics}
@@ -92,7 +92,7 @@ class GraphState:
         *,
         unreachable: Iterable[str] = (),
     ) -> GraphState:
-        """From the answers of the Master's `getSystemState` and `getTopicTypes` (ROS Master API).
+        """Create a state from the Master's `getSystemState` and `getTopicTypes` (ROS Master API).
 
         Args:
             system_state: `[publishers, subscribers, services]`, each a list of `[name, [node, ...]]`.
@@ -100,7 +100,7 @@ class GraphState:
             unreachable: names of nodes that do not answer.
 
         Raises:
-            ViewError: `system_state` does not have that form.
+            ViewError: `system_state` has another form.
 
         """
         try:
@@ -122,10 +122,10 @@ class GraphState:
 
 
 def graph_state(source: object) -> GraphState:
-    """The state of whatever has one: a `GraphState`, a Master (in process or an XML-RPC proxy), or a graph with one.
+    """Return the state of a `GraphState`, a Master (in process or an XML-RPC proxy), or a graph with a Master.
 
     Raises:
-        ViewError: `source` is none of these, or the Master did not answer.
+        ViewError: `source` is something else, or the Master did not answer.
 
     """
     if isinstance(source, GraphState):

@@ -1,7 +1,7 @@
-"""What rqt_graph highlights: a node or a topic, and what is beside it.
+"""The highlight of rqt_graph: a node or a topic, and its neighbours.
 
-In the real rqt_graph the mouse does it (qt_dotgraph: "Highlight connections"): what the chosen one hears has one
-colour, what hears it another, what does both a third.
+In rqt_graph the mouse does it (qt_dotgraph: "Highlight connections"): inputs of the chosen node have one
+colour, outputs another, and nodes that are both a third.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from rosmini.viz.view import ViewError
 
 @dataclass(frozen=True)
 class Highlight:
-    """A node or topic of a drawing, and the ``parts`` beside it: "chosen", "in", "out" or "both" by the part's name."""
+    """A node or topic of a drawing, and its neighbours: "chosen", "in", "out" or "both" by the name of the part."""
 
     name: str
     parts: dict[str, str]
 
     @property
     def text(self) -> str:
-        """Which one, and what is beside it."""
+        """The highlight in words."""
         found: dict[str, list[str]] = {"in": [], "out": [], "both": []}
         for part, kind in sorted(self.parts.items()):
             if part[:2] in ("n:", "t:") and kind != "chosen":
@@ -37,7 +37,7 @@ def highlighted(selection: Selection, name: str) -> Highlight:
     """Return what to highlight for a node or a topic that is drawn.
 
     Raises:
-        ViewError: it is not drawn; with the nearest that is.
+        ViewError: it is not drawn; the message names the nearest.
 
     """
     known = (*selection.nodes, *selection.topics)
@@ -57,7 +57,7 @@ def highlighted(selection: Selection, name: str) -> Highlight:
 
 
 def _arrows(selection: Selection) -> Iterator[tuple[str, str, str, str]]:
-    """Yield the name of each arrow as the drawing has it, its ends, and its label."""
+    """Yield the name of each arrow in the drawing, its ends, and its label."""
     if selection.mode == "nodes_only":
         for publisher, topic, subscriber in selection.connections:
             yield f"{publisher} {topic} {subscriber}", f"n:{publisher}", f"n:{subscriber}", topic

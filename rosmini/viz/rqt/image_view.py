@@ -29,8 +29,8 @@ class ImageView(Panel):
 
     Args:
         graph: the graph.
-        topic: the one that is chosen first.
-        name: of the panel's node.
+        topic: topic shown at first.
+        name: name of the panel's node.
 
     Raises:
         ViewError: no images are published there.
@@ -99,10 +99,10 @@ class ImageView(Panel):
         self.choose(value)
 
     def settings(self) -> dict[str, Any]:
-        """The topic."""
+        """Return the topic."""
         return {"topic": self.topic}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Show the topic that was kept."""
+        """Show the topic of a perspective."""
         if settings.get("topic"):
             self.choose(str(settings["topic"]))

@@ -25,7 +25,7 @@ NAMES = tuple(name.capitalize() for name in LEVELS)
 
 
 class LoggerLevel(Panel):
-    """Choose a node, see its loggers, and set their levels, through the services that every node has for that.
+    """The loggers of a node and their levels, read and set through the node's services.
 
     >>> from rosmini import Graph
     >>> graph = Graph()
@@ -39,12 +39,12 @@ class LoggerLevel(Panel):
 
     Args:
         graph: the graph.
-        node: the node that is chosen first.
-        name: of the panel's node.
+        node: node shown at first.
+        name: name of the panel's node.
 
     Raises:
         ViewError: there is no such node.
-        ServiceException: it does not answer.
+        ServiceException: the node does not answer.
 
     """
 
@@ -58,7 +58,7 @@ class LoggerLevel(Panel):
         self.chosen = ""
         """The node whose loggers are shown."""
         self.loggers: dict[str, str] = {}
-        """Its loggers and their levels, as they were when they were asked for."""
+        """Its loggers and their levels at the last request."""
         if node:
             self.choose(node)
 
@@ -69,7 +69,7 @@ class LoggerLevel(Panel):
         return sorted(node for node in nodes if f"{node}{SET}" in known and node != self.node.name)
 
     def choose(self, node: str) -> None:
-        """Take another node, and ask for its loggers. Raises ``ViewError``, ``ServiceException``."""
+        """Choose another node, and ask for its loggers. Raises ``ViewError``, ``ServiceException``."""
         if node not in self.names():
             hint = nearest(node, self.names()) or f"there are {', '.join(self.names()) or 'none'}"
             raise ViewError(f"no node {node!r:.80} offers {GET[1:]} and {SET[1:]}; {hint}")
@@ -132,7 +132,7 @@ class LoggerLevel(Panel):
         ]
 
     def settings(self) -> dict[str, Any]:
-        """The node."""
+        """Return the node."""
         return {"node": self.chosen}
 
     def restore(self, settings: dict[str, Any]) -> None:

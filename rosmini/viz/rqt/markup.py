@@ -1,4 +1,4 @@
-"""The parts of a panel as HTML, with real form controls: in a live notebook they work, in a page they are disabled."""
+"""The parts of a panel as HTML with form controls, which work in a live notebook and are disabled in a page."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLOURS = ["page", "ink", "muted", "blue", "label", "bad-line", "group-fill", "g
 
 
 def page(title: str, parts: Iterable[Part], *, live: bool) -> str:
-    """Return the panel; without a kernel behind it (``live`` False) nothing in it can be operated."""
+    """Return the panel; without a kernel (``live`` is False) its controls are disabled."""
     head = element("header", element("strong", escape(title)))
     note = "" if live else element("p", "In a live notebook this form works.", class_="rq-note")
     body = element("fieldset", markup(parts), disabled=None if live else "")
@@ -66,7 +66,7 @@ def _in_bar(cell: Cell) -> str:
 
 
 def table(part: Rows) -> str:
-    """Return a table, which scrolls by itself where a page is narrow."""
+    """Return a table, which scrolls in a narrow page."""
     body = "".join(_row(part.columns, row) for row in part.rows)
     if not part.rows:
         body = element("tr", element("td", escape(part.empty), colspan=len(part.columns)))
@@ -90,7 +90,7 @@ def _row(columns: Iterable[str], row: Row) -> str:
 
 
 def _breakable(text: str) -> str:
-    """Return a text in which a narrow page breaks the long names of ROS where their words end."""
+    """Return a text whose long ROS names a narrow page can break between their words."""
     return re.sub(r"(?<=\w)([/_])(?=\w)", r"\1<wbr>", escape(text))
 
 

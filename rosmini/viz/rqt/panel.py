@@ -33,44 +33,44 @@ if TYPE_CHECKING:
 
 
 REDRAW_S = 1.0
-"""How often a picture is drawn again [s]."""
+"""Interval after which a picture is drawn again [s]."""
 
 
 class PanelNode(Node):
-    """The node of a panel. A new panel of its name takes its place without a complaint: a cell was run again."""
+    """The node of a panel. A new panel of the same name replaces it without a warning, since cells are run again."""
 
 
 class Panel(Plugin, LiveView):
-    """A tool of rqt on a graph. What a hand does in a page, :meth:`set` does in a script.
+    """A tool of rqt on a graph. A reader operates its controls in a page, a script by :meth:`set`.
 
     Args:
-        graph: the graph that is looked at.
-        name: of the panel's node, without which another of the kind takes this one's place; the tool's by default.
-        node: what acts on the graph, in place of a node of the panel's own.
+        graph: the graph.
+        name: name of the panel's node, by default the tool's; a new panel of the same name replaces this one.
+        node: node to use; by default the panel starts one.
 
     """
 
     look_s: ClassVar[float] = 0.2
-    """How often a page that shows it looks at it [s]."""
+    """Interval between updates of its page [s]."""
 
     def __init__(self, graph: Graph, *, name: str | None = None, node: Node | None = None) -> None:
         self.graph = graph
         self.message = ""
-        """What the last thing that was done did."""
+        """Result of the last operation."""
         self.problem = ""
-        """Why the last thing that :meth:`set` was to do was refused."""
+        """Error of the last call of :meth:`set`."""
         self._drawn: tuple[float, Drawing] | None = None
         self._node = node or _own_node(graph, name or self.tool)
 
     @property
     def node(self) -> Node:
-        """What acts on the graph."""
+        """The node that acts on the graph."""
         return self._node
 
     @classmethod
     @contextmanager
     def alone(cls, graph: Graph, *words: str, **options: Any) -> Iterator[Self]:
-        """Open a panel under a name that no other node has, and close it in the end."""
+        """Open a panel whose node has a unique name, and close it in the end."""
         make: Any = cls
         panel = make(graph, *words, name=graph.anonymous_name(cls.tool), **options)
         try:
@@ -91,32 +91,32 @@ class Panel(Plugin, LiveView):
 
     @abstractmethod
     def parts(self) -> Sequence[Part]:
-        """What it shows now, from top to bottom."""
+        """Return its current contents from top to bottom."""
 
     @abstractmethod
     def _operate(self, key: Sequence[str], value: Any) -> None:
-        """Do what a control stands for; ``key`` is the control's, split at ``/``."""
+        """Perform the action of a control; ``key`` is its key, split at ``/``."""
 
     def view(self, title: str | None = None) -> View:
-        """Return what it shows now, without its controls. Forms have none."""
+        """Return its current contents as a picture or a table. Forms have none."""
         raise NotImplementedError(f"{self.tool} is a form")
 
     @property
     def scripts(self) -> tuple[str, ...]:
-        """What its page has beside `rosmini-rqt.js`."""
+        """Scripts of its page in addition to `rosmini-rqt.js`."""
         return ()
 
     def news(self, *, whole: bool) -> tuple[dict[str, Any], list[bytes]] | None:
-        """What its page is to be sent beside the sheet, or None; `whole` for one that has nothing yet."""
+        """Return a message for its page in addition to the HTML, or None; `whole` for a page that is still empty."""
         del whole
         return None
 
     def settings(self) -> dict[str, Any]:
-        """What a perspective keeps of it, by the names that the real plugin has for it."""
+        """Return its settings for a perspective, under the keys of the real plugin."""
         return {}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Take what a perspective kept; of other keys nothing is taken. Raises ``RosminiError``, ``ValueError``."""
+        """Restore settings from a perspective; other keys are ignored. Raises ``RosminiError``, ``ValueError``."""
 
     def _redrawn(self, draw: Callable[[], Drawing]) -> Drawing:
         """Return a drawing that is at most a second old."""
@@ -132,7 +132,7 @@ class Panel(Plugin, LiveView):
 
         Raises:
             ViewError: there is no such control, or it cannot have this value.
-            RosminiError: what it stands for failed.
+            RosminiError: the operation failed.
 
         """
 
@@ -151,7 +151,7 @@ class Panel(Plugin, LiveView):
         self._operate(control.key.split("/"), value)
 
     def _try(self, action: Callable[[], T]) -> T:
-        """Do it, and keep what is wrong with it."""
+        """Call a function and store its error."""
         self.message = self.problem = ""
         try:
             return action()
@@ -161,11 +161,11 @@ class Panel(Plugin, LiveView):
 
     @property
     def gone(self) -> str | None:
-        """Why there is nothing to operate any more, or None."""
+        """Reason why the panel has ended, or None."""
         return f"the node {self.node.name} was shut down" if self.node.is_shutdown() else None
 
     def _say(self, text: str) -> None:
-        """Show what was done."""
+        """Show the result of an operation."""
         self.message, self.problem = text, ""
 
     def _require(self) -> None:
@@ -173,7 +173,7 @@ class Panel(Plugin, LiveView):
             raise ViewError(f"{self.tool} has ended: {self.gone}. Open it again.")
 
     def close(self) -> None:
-        """End it, as one closes a window. Harmless when repeated."""
+        """Close the panel. Calling it again has no effect."""
         self.node.shutdown("the panel was closed")
 
     def _on_hub(self, function: Callable[[], T]) -> T:
@@ -182,7 +182,7 @@ class Panel(Plugin, LiveView):
     # -- showing --------------------------------------------------------------------------------------------------
 
     def shown(self) -> list[Part]:
-        """Return its parts, and what is to be said of the last thing that was done."""
+        """Return its parts, and the result or error of the last operation."""
         found = list(self.parts())
         why = self.gone
         if why is not None:
@@ -193,7 +193,7 @@ class Panel(Plugin, LiveView):
 
     @property
     def text(self) -> str:
-        """The name of the tool, and what it shows."""
+        """The name of the tool, and its contents."""
         return f"{self.tool}\n{self._on_hub(lambda: text_of(self.shown()))}".rstrip()
 
     @property
@@ -203,7 +203,7 @@ class Panel(Plugin, LiveView):
         return f"The panel {self.heading} of rqt. {'; '.join(' '.join(line.split()) for line in first)}"
 
     def markup(self, *, live: bool) -> str:
-        """What it shows, as HTML."""
+        """Return its contents as HTML."""
         return self._on_hub(lambda: page(self.heading, self.shown(), live=live))
 
     def _images(self) -> dict[str, bytes]:
@@ -211,7 +211,7 @@ class Panel(Plugin, LiveView):
 
     @property
     def html(self) -> str:
-        """The panel as a page has it: as it stands, and nothing in it can be operated."""
+        """The panel in a static page, where its controls are disabled."""
         return element("figure", self.markup(live=False), class_="rosmini-figure", style="margin:0.5em 0")
 
     def _new_link(self) -> Any:
@@ -221,7 +221,7 @@ class Panel(Plugin, LiveView):
 
 
 def _own_node(graph: Graph, name: str) -> PanelNode:
-    """Start the node of a panel, in place of that of an earlier one of its name."""
+    """Start the node of a panel; it replaces the node of an earlier panel of that name."""
     before = graph.nodes.get(resolve(name, "/"))
     if isinstance(before, PanelNode):
         before.shutdown("a new panel took its place")
@@ -241,7 +241,7 @@ def bar(*cells: str | Control) -> Bar:
 
 
 def each_of(act: Callable[[str], object], names: Iterable[object]) -> None:
-    """Do it for each of the names that a perspective kept. Raises one ``ViewError`` for all that failed."""
+    """Call a function for each name in a perspective. Raises one ``ViewError`` for all failures."""
     problems = []
     for name in names:
         try:

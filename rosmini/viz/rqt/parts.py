@@ -1,4 +1,4 @@
-"""What the panels of rqt are made of: bars and tables of controls, drawings, words. Each has a text form."""
+"""The parts of a panel: bars and tables of controls, drawings, words. Each has a text form."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ Value = str | float | bool
 
 @dataclass(frozen=True)
 class Control:
-    """Something to operate.
+    """A control.
 
     Attributes:
-        key: what a page and :meth:`~rosmini.viz.rqt.panel.Panel.set` call it; parts of it are separated by ``/``.
-        label: what a reader sees, and a screen reader says.
+        key: its name in a page and in :meth:`~rosmini.viz.rqt.panel.Panel.set`; ``/`` separates parts of it.
+        label: its label, also for screen readers.
         kind: "slider" and "number" have a number, within ``minimum`` and ``maximum``; "choice" one of ``choices``.
-        value: what it shows; of a button nothing.
+        value: its value; a button has none.
         whole: only whole numbers.
-        problem: what is wrong with its value.
+        problem: error of its value.
 
     """
 
@@ -40,10 +40,10 @@ class Control:
     problem: str = ""
 
     def taken(self, given: object) -> Value:
-        """Return what a hand in a page, or a script, gave it, as its kind of value.
+        """Convert a value from a page or a script to the control's type.
 
         Raises:
-            ViewError: it cannot be that.
+            ViewError: the value is not of this type.
 
         """
         if self.kind == "button":
@@ -76,8 +76,8 @@ class Control:
 
     @property
     def text(self) -> str:
-        """The value as a cell of a table shows it."""
-        if self.kind in ("button", "slider"):  # a slider stands beside the number
+        """The value in a cell of a table."""
+        if self.kind in ("button", "slider"):  # a slider is next to its number
             return ""
         if isinstance(self.value, bool):
             return "[x]" if self.value else "[ ]"
@@ -107,7 +107,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Rows:
-    """A table. ``label`` is what a screen reader calls it, ``empty`` what it says without rows."""
+    """A table. ``label`` is its name for screen readers, ``empty`` its text without rows."""
 
     columns: tuple[str, ...]
     rows: tuple[Row, ...]
@@ -117,9 +117,9 @@ class Rows:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A picture; ``key`` is what is operated by a click on a node in it, ``pointer`` by a hand anywhere on it.
+    """A picture. A click on a node in it operates the control ``key``, a pointer anywhere on it ``pointer``.
 
-    The pointer's control is told in words where the hand is, from the left upper corner [px]: ``press 10 20``,
+    The value of ``pointer`` is an event and its position from the upper left corner [px]: ``press 10 20``,
     ``move 12 20``, ``release 15 24``, ``wheel -1 15 24``, and ``key g``.
     """
 
@@ -131,7 +131,7 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Words:
-    """A paragraph; ``is_bad`` if it says that something went wrong."""
+    """A paragraph; ``is_bad`` marks an error."""
 
     text: str
     is_bad: bool = False
@@ -150,7 +150,7 @@ Part = Bar | Rows | Drawing | Words | Box
 
 
 def controls(parts: Iterable[Part]) -> Iterator[Control]:
-    """Yield all controls, those of boxes too."""
+    """Yield all controls, including those in boxes."""
     for part in parts:
         cells: Sequence[Cell] = ()
         if isinstance(part, Box):
@@ -194,7 +194,7 @@ def within(prefix: str, parts: Iterable[Part]) -> tuple[Part, ...]:
 
 
 def text_of(parts: Iterable[Part]) -> str:
-    """Return what the parts show, line by line."""
+    """Return the text of the parts, line by line."""
     return "\n".join(filter(None, map(_text, parts)))
 
 
@@ -220,7 +220,7 @@ def _in_bar(cell: Cell) -> str:
 
 
 def cell_text(cell: Cell) -> str:
-    """Return what a cell shows."""
+    """Return the text of a cell."""
     return cell if isinstance(cell, str) else cell.text
 
 

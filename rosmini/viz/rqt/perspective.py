@@ -1,7 +1,7 @@
-"""Perspectives: which plugins of rqt run, and how they are set, in the files that the real rqt exports and imports.
+"""Perspectives: the running plugins of rqt and their settings, in the files that rqt exports and imports.
 
-Such a file is JSON: groups within groups, whose keys hold Python literals as texts
-(http://wiki.ros.org/rqt/UserGuide/Perspectives; qt_gui's perspective manager). Of a literal nothing is executed.
+Such a file is JSON: nested groups, whose keys contain Python literals as texts
+(http://wiki.ros.org/rqt/UserGuide/Perspectives; qt_gui's perspective manager). No literal is executed.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from rosmini.core import files
 from rosmini.viz.view import ViewError
 
 LARGEST = 4_000_000
-"""How many characters a file may have."""
+"""Maximum number of characters in a file."""
 LONGEST = 100_000
-"""How many characters a literal in it may have."""
+"""Maximum number of characters in a literal."""
 MOST = 100
-"""How many plugins may run."""
+"""Maximum number of running plugins."""
 
 
 def _no_group() -> dict[str, Any]:
@@ -29,7 +29,7 @@ def _no_group() -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Running:
-    """A plugin that runs: ``plugin`` is ``rqt_graph/RosGraph``, and ``settings`` are what it keeps."""
+    """A running plugin, such as ``rqt_graph/RosGraph``, and its ``settings``."""
 
     plugin: str
     number: int = 1
@@ -37,7 +37,7 @@ class Running:
 
     @property
     def group(self) -> str:
-        """What its settings are under."""
+        """Group of its settings."""
         return f"plugin__{self.plugin.replace('/', '__')}__{self.number}"
 
 
@@ -47,7 +47,7 @@ class Perspective:
 
     running: tuple[Running, ...] = ()
     docks: dict[str, Any] = field(default_factory=_no_group)
-    """Where the docks are in the window of the real rqt, in Qt's own form: kept for it, and not shown here."""
+    """Positions of the docks in Qt's format: stored for the real rqt, and not used here."""
 
     @classmethod
     def read(cls, path: str | Path) -> Perspective:
@@ -63,7 +63,7 @@ class Perspective:
 
     @classmethod
     def parse(cls, text: str) -> Perspective:
-        """Read the text of a file. Raises ``ViewError`` if it is no perspective."""
+        """Read the text of a file. Raises ``ViewError`` if it is not a perspective."""
         if len(text) > LARGEST:
             raise ViewError(f"a perspective has at most {LARGEST} characters")
         try:
@@ -130,12 +130,12 @@ def _settings(manager: dict[str, Any], group: str) -> dict[str, Any]:
 
 
 def _literal(value: Any) -> Any:
-    """Return the value of a key; None if it holds none that is a plain literal, such as the state of a Qt window."""
+    """Return the value of a key; None unless it is a plain literal (the state of a Qt window is not)."""
     return literal(value.get("repr")) if isinstance(value, dict) and value.get("type") == "repr" else None
 
 
 def literal(text: object) -> Any:
-    """Return the value that a text is the literal of; None if it is none."""
+    """Return the value of a literal; None for any other text."""
     if not isinstance(text, str) or len(text) > LONGEST:
         return None
     try:

@@ -29,24 +29,24 @@ if TYPE_CHECKING:
     from .parts import Part
 
 Samples = dict[str, tuple[list[float], list[float]]]
-"""By the name of a field: times [s] and values."""
+"""Times [s] and values, by the name of the field."""
 
 MANY = 40
-"""So many points of a line have no marks of their own."""
+"""Lines with more points are drawn without marks."""
 
 
 def rqt_plot(source: Graph | Bag, *fields: str, duration: float = 5.0, title: str | None = None) -> Picture:
-    """Plot fields of messages over time: a graph's, heard for ``duration`` seconds of its time, or those in a bag.
+    """Plot fields of messages over time: messages of a graph in ``duration`` seconds, or the messages in a bag.
 
     Args:
         source: a graph, which runs meanwhile, or a bag.
         fields: names such as "/odom/pose/pose/position/x", as rostopic writes them, or "/odom/twist/twist/linear/x:y"
-            for several fields beside one another; up to five.
+            for several fields of a message; up to five.
         duration: how long to listen [s]; a bag is read from end to end.
         title: a caption under the picture, and the first words of its text form.
 
     Raises:
-        ViewError: there is no such topic or field, a field is no number, or nothing was heard of one.
+        ViewError: there is no such topic or field, a field is not a number, or no message came for one.
 
     """
     names = [name for field in fields for name in expanded(field)]
@@ -67,13 +67,13 @@ def _plotted(samples: Samples, zero: float, *, x: str, title: str) -> Picture:
 
 
 def expanded(name: str) -> list[str]:
-    """Return the fields that a name with colons stands for: "/p/x:y" is "/p/x" and "/p/y", as in rqt_plot.
+    """Return the fields in a name with colons: "/p/x:y" is "/p/x" and "/p/y", as in rqt_plot.
 
     >>> expanded("/odom/pose/pose/position/x:y")
     ['/odom/pose/pose/position/x', '/odom/pose/pose/position/y']
     """
     parent, slash, last = name.rpartition("/")
-    if "[" in last:  # a slice has colons, too
+    if "[" in last:  # a slice contains colons, too
         return [name]
     return [f"{parent}{slash}{one}" for one in last.split(":")]
 
@@ -100,10 +100,10 @@ def _read(bag: Any, names: Iterable[str]) -> tuple[Samples, float]:
 
 
 def find_topic(graph: Graph, name: str) -> Found:
-    """Return the topic that a name stands for, which may go on with fields.
+    """Return the topic of a name that may continue with fields.
 
     Raises:
-        ViewError: there is no such topic or field, or its type is not known here; the message has the nearest.
+        ViewError: there is no such topic or field, or its type is unknown here; the message names the nearest.
 
     """
     full = name if name.startswith("/") else f"/{name}"
@@ -116,7 +116,7 @@ def find_topic(graph: Graph, name: str) -> Found:
 
 
 class Series:
-    """The values of one field. What is wrong with it is said at the end: a callback is no place for that."""
+    """The values of one field. An error is raised by `points`, since a callback must not raise it."""
 
     def __init__(self, name: str, path: str) -> None:
         self._name = name
@@ -147,28 +147,28 @@ class Series:
         self._values.append(float(value))
 
     def forget(self, before: float) -> None:
-        """Forget what came before a time [s]."""
+        """Remove the values from before a time [s]."""
         count = bisect_left(self._times, before)
         del self._times[:count], self._values[:count]
 
     def points(self) -> tuple[list[float], list[float]]:
-        """Return times and values. Raises ``ViewError`` if the field was none, or no number."""
+        """Return times and values. Raises ``ViewError`` if there is no such field, or it is not a number."""
         if self.problem:
             raise ViewError(f"{self._name}: {self.problem}")
         return self._times, self._values
 
 
 class Plot(Panel):
-    """Plot any numbers in messages, from now on.
+    """Numbers in messages from now on, as lines over time.
 
     Args:
         graph: the graph.
         fields: names such as ``/odom/twist/twist/linear/x``, ``/odom/pose/pose/position/x:y``, ``/scan/ranges[0]``.
-        seconds: how much of the past is shown [s].
-        name: of the panel's node.
+        seconds: length of the time shown [s].
+        name: name of the panel's node.
 
     Raises:
-        ViewError: there is no such topic or field, or there are more than can be told apart.
+        ViewError: there is no such topic or field, or there are more than five lines.
 
     """
 
@@ -193,13 +193,13 @@ class Plot(Panel):
 
     @classmethod
     def still(cls, given: Values, call: Call) -> View:
-        """Plot what comes for some time."""
+        """Listen for some time, and plot the fields."""
         fields, _ = cls.arguments(given)
         return rqt_plot(call.graph, *fields, duration=given.duration, title=given.title)
 
     @property
     def fields(self) -> tuple[str, ...]:
-        """What is plotted."""
+        """The plotted fields."""
         return tuple(self._lines)
 
     def samples(self) -> Samples:
@@ -211,7 +211,7 @@ class Plot(Panel):
         self._require()
         new = {name: find_topic(self.graph, name) for name in expanded(field)}
         if len({*self._lines, *new}) > len(COLOURS):
-            raise ViewError(f"{len(COLOURS)} lines can be told apart, not more: remove one first")
+            raise ViewError(f"{len(COLOURS)} lines are the maximum: remove one first")
         for name, found in new.items():
             if name not in self._lines:
                 series = Series(name, found.path)
@@ -222,14 +222,14 @@ class Plot(Panel):
         self._drawn = None
 
     def remove(self, field: str) -> None:
-        """Plot a field no more. Raises ``ViewError`` if it was not plotted."""
+        """Stop plotting a field. Raises ``ViewError`` if it is not plotted."""
         if field not in self._lines:
             raise ViewError(f"{field!r:.80} is not plotted; there are {', '.join(self._lines) or 'none'}")
         self._lines.pop(field)[1].unregister()
         self._drawn = None
 
     def clear(self) -> None:
-        """Forget what came so far."""
+        """Remove all values."""
         for series, _ in self._lines.values():
             series.forget(float("inf"))
         self._drawn = None
@@ -244,7 +244,7 @@ class Plot(Panel):
         return hear
 
     def parts(self) -> Sequence[Part]:
-        """What is plotted, and the lines."""
+        """The controls, and the lines."""
         lines = self._drawn[1] if self._paused and self._drawn else self._redrawn(self._drawing)
         remove = [Control(f"remove/{name}", f"Remove {name}", "button") for name in self._lines]
         return [
@@ -273,11 +273,11 @@ class Plot(Panel):
         return drawn(_plotted(heard, now, x="time from now [s]", title=self.tool))
 
     def settings(self) -> dict[str, Any]:
-        """What is plotted, by the real one's name."""
+        """Return the plotted fields under rqt_plot's key."""
         return {"topics": list(self._lines)}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Plot what was plotted; what is not there is named at the end."""
+        """Plot the fields of a perspective; one error names all that fail."""
         topics = settings.get("topics", [])
         each_of(self.add, [topics] if isinstance(topics, str) else topics)
 

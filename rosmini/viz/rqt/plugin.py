@@ -34,7 +34,7 @@ class Plugin:
     group: ClassVar[str] = ""
     """Group of rqt's menu; empty if the menu does not list the tool."""
     summary: ClassVar[str]
-    """What the tool shows, for the list of verbs."""
+    """One line about the tool, for the list of verbs."""
     usage: ClassVar[str] = ""
     """Words that its command takes: ``TOPIC``, ``[NODE]``, ``FIELD...``."""
     takes: ClassVar[str] = ""
@@ -42,7 +42,7 @@ class Plugin:
     example: ClassVar[str] = ""
     """Words and options of an example in the help."""
     listen_s: ClassVar[float | None] = None
-    """How long a still listens by default [s]; None: it only asks the Master, or reads a file."""
+    """Default time for which a still listens [s]; None: it only asks the Master, or reads a file."""
     instead: ClassVar[str | None] = None
     """Command that does the same in a terminal, where a form cannot work; None: the terminal shows a still."""
 
@@ -80,7 +80,7 @@ class Plugin:
 
     @classmethod
     def add_options(cls, parser: Parser) -> None:
-        """Add options of its own to those of every tool."""
+        """Add options to those that every tool has."""
 
     @classmethod
     def check_words(cls, words: Sequence[str]) -> None:
@@ -92,7 +92,7 @@ class Plugin:
 
     @classmethod
     def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
-        """Return the arguments after the graph that words and options of the command stand for."""
+        """Return the arguments of the constructor, after the graph, from words and options of the command."""
         return [global_name(word) for word in given.words], {}
 
     @classmethod
@@ -105,7 +105,7 @@ class Plugin:
 
     @classmethod
     def still(cls, given: Values, call: Call) -> View:
-        """Return what the tool shows, as a picture or a table. Forms have none."""
+        """Return the tool's picture or table. Forms have none."""
         raise NotImplementedError(f"{cls.tool} is a form")
 
     @classmethod

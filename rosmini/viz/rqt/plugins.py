@@ -1,4 +1,4 @@
-"""The plugins of rqt in the nine groups of its menu, and what does their work here (http://wiki.ros.org/rqt/Plugins)."""
+"""The plugins of rqt in the nine groups of its menu, and their counterparts here (http://wiki.ros.org/rqt/Plugins)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .table import Table
 
 
 class Entry(NamedTuple):
-    """A line of the menu: group, name, package, and what serves here: the same tool, or another means to the end."""
+    """A line of the menu: group, name, package, and the counterpart here: the same tool or a replacement."""
 
     group: str
     name: str

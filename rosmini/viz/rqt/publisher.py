@@ -1,4 +1,4 @@
-"""`rqt_publisher`: publish messages that are worked out from expressions (http://wiki.ros.org/rqt_publisher)."""
+"""`rqt_publisher`: publish messages computed from expressions (http://wiki.ros.org/rqt_publisher)."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ FASTEST_HZ = 1000.0
 
 
 class Publication:
-    """One topic on which a panel publishes. ``fields`` holds an expression for each field of its messages."""
+    """A topic of a publisher panel; ``fields`` contains an expression for each field of its messages."""
 
     def __init__(self, panel: MessagePublisher, topic: str, kind: str, rate: float) -> None:
         self.topic, self.type = topic, kind
         self.rate = rate
-        """Messages a second [Hz]; 0: only when it is told to."""
+        """Rate [Hz]; 0: only on request."""
         self.count = 0
-        """How many messages were published."""
+        """Number of published messages."""
         self.fields = Fields(class_of(kind))
         self.problem = ""
         self._panel = panel
@@ -45,7 +45,7 @@ class Publication:
 
     @property
     def enabled(self) -> bool:
-        """Whether it publishes by itself."""
+        """True if it publishes at its rate."""
         return self._timer is not None
 
     def fill(self, field: str, expression: str) -> None:
@@ -54,7 +54,7 @@ class Publication:
         self.problem = ""
 
     def enable(self, on: bool = True) -> None:
-        """Publish at the rate from now on, or no more."""
+        """Start or stop publishing at the rate."""
         if self._timer is not None:
             self._timer.shutdown()
             self._timer = None
@@ -77,7 +77,7 @@ class Publication:
         return message
 
     def close(self) -> None:
-        """End it."""
+        """Stop publishing and unregister."""
         self.enable(False)
         self._publisher.unregister()
 
@@ -107,7 +107,7 @@ class MessagePublisher(Panel):
 
     Args:
         graph: the graph.
-        name: of the panel's node.
+        name: name of the panel's node.
 
     """
 
@@ -118,7 +118,7 @@ class MessagePublisher(Panel):
     def __init__(self, graph: Graph, *, name: str | None = None) -> None:
         super().__init__(graph, name=name)
         self.publications: dict[int, Publication] = {}
-        """By their numbers, in insertion order."""
+        """The topics by number, in insertion order."""
         self._next: dict[str, Any] = {"topic": "/cmd_vel", "type": "geometry_msgs/Twist", "rate": 1.0}
         self._numbered = 0
 
@@ -131,7 +131,7 @@ class MessagePublisher(Panel):
         topic = resolve(topic, "/")
         kind = type or dict(types(self.graph)).get(topic, "")
         if not kind:
-            raise ViewError(f"nobody has named a type for {topic}: say which one, such as std_msgs/String")
+            raise ViewError(f"the type of {topic} is unknown: give one, such as std_msgs/String")
         if class_of(kind) is None:
             hint = nearest(kind, MESSAGE.all()) or "`rosmsg list` lists those that there are"
             raise ViewError(f"no package here defines {kind!r:.80}; {hint}")
@@ -141,17 +141,17 @@ class MessagePublisher(Panel):
         return made
 
     def remove(self, number: int) -> None:
-        """Take a topic away. Raises ``ViewError`` if there is none of this number."""
+        """Remove a topic. Raises ``ViewError`` for an unknown number."""
         self._publication(number).close()
         del self.publications[number]
 
     def _publication(self, number: int) -> Publication:
         if number not in self.publications:
-            raise ViewError(f"there is no publication {number}; there are {[*self.publications]}")
+            raise ViewError(f"no topic has the number {number}; there are {[*self.publications]}")
         return self.publications[number]
 
     def parts(self) -> Sequence[Part]:
-        """What can be added, and a box for each topic."""
+        """Controls to add a topic, and a box for each topic."""
         new = self._next
         known = dict(types(self.graph))
         kind = known.get(new["topic"], new["type"])
@@ -177,7 +177,7 @@ class MessagePublisher(Panel):
         return Box(title, (buttons, each.fields.table(f"{number}/field")), close)
 
     def settings(self) -> dict[str, Any]:
-        """The topics, in the form in which the real one keeps them: the text of a list."""
+        """Return the topics in rqt_publisher's form: the text of a list."""
         kept = [
             {
                 "topic_name": each.topic,
@@ -191,7 +191,7 @@ class MessagePublisher(Panel):
         return {"publishers": repr(kept)}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Add the topics that were kept."""
+        """Add the topics of a perspective."""
         for kept in literal(settings.get("publishers")) or ():
             each = self.add(str(kept["topic_name"]), str(kept["type_name"]), float(kept["rate"]))
             for path, text in kept.get("expressions", {}).items():

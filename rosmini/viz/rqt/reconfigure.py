@@ -1,4 +1,4 @@
-"""`rqt_reconfigure`: change the parameters of nodes that run (http://wiki.ros.org/rqt_reconfigure)."""
+"""`rqt_reconfigure`: change the parameters of running nodes (http://wiki.ros.org/rqt_reconfigure)."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
 
 SUFFIX = "/set_parameters"
 PATIENCE_S = 5.0
-"""How long a server may take to describe its parameters [s]."""
+"""Timeout for a server's description of its parameters [s]."""
 
 
 class DynamicReconfigure(Panel):
-    """Choose a node that can be reconfigured, and change its parameters with sliders, boxes and choices.
+    """The parameters of a dynamic_reconfigure server, with sliders, boxes and choices to change them.
 
     Args:
         graph: the graph.
-        server: the one that is chosen first.
-        name: of the panel's node.
+        server: server shown at first.
+        name: name of the panel's node.
 
     Raises:
-        ViewError: there is no such server, or it describes nothing.
+        ViewError: there is no such server, or it does not describe its parameters.
 
     """
 
@@ -53,12 +53,12 @@ class DynamicReconfigure(Panel):
             self.choose(server)
 
     def names(self) -> list[str]:
-        """Return the servers that there are, sorted."""
+        """Return the names of all servers, sorted."""
         known = (each.name for each in services(self.graph))
         return sorted(name.removesuffix(SUFFIX) for name in known if name.endswith(SUFFIX))
 
     def choose(self, server: str) -> None:
-        """Take another server, and wait until it has described its parameters. Raises ``ViewError``."""
+        """Choose another server, and wait for the description of its parameters. Raises ``ViewError``."""
         self._require()
         if server not in self.names():
             hint = nearest(server, self.names()) or f"there are {', '.join(self.names()) or 'none'}"
@@ -77,15 +77,15 @@ class DynamicReconfigure(Panel):
 
     @property
     def values(self) -> dict[str, Any]:
-        """The parameters of the server and their values, as it said last."""
+        """The parameters of the server and their last known values."""
         config = self._chosen.config or Config()
         return {name: config[name] for name in self._described() if name in config}
 
     def change(self, parameter: str, value: object) -> None:
-        """Change a parameter; the server may bring it into its range.
+        """Change a parameter; the server may clamp it to its range.
 
-        Raises ``DynamicReconfigureException`` for one that is not there, a value that cannot become one of its type,
-        and what the server refuses, and ``ViewError`` if no server is chosen.
+        Raises ``DynamicReconfigureException`` for an unknown parameter, a value of another type,
+        and an update that the server refuses, and ``ViewError`` if no server is chosen.
         """
         self._require()
         self._chosen.config = self._chosen.update_configuration({parameter: value})
@@ -130,11 +130,11 @@ class DynamicReconfigure(Panel):
             yield Box(inner.name, tuple(parts))
 
     def settings(self) -> dict[str, Any]:
-        """The server."""
+        """Return the server."""
         return {"selected_nodes": [self.server] if self.server else []}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Choose the server, the last if there are several."""
+        """Choose the server of a perspective, the last of several."""
         each_of(self.choose, settings.get("selected_nodes", []))
 
     def _operate(self, key: Sequence[str], value: Any) -> None:
@@ -178,7 +178,7 @@ def _row(parameter: ReconfigurableParameter, value: Any) -> Row:
 
 
 def _bound(end: Any) -> float | None:
-    """Return the end of a range; None where it stands for no end: the largest whole numbers, and infinity."""
+    """Return the end of a range; None if it is unlimited: infinity or the largest whole number."""
     return float(end) if math.isfinite(end) and abs(end) < 2**31 - 1 else None
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class RobotSteering(Plugin):
-    """A pad for a robot of the graph's simulator: the robot that is named, or the first."""
+    """A pad for a robot of the graph's simulator: the named robot, or the first."""
 
     tool, heading, plugin = "rqt_robot_steering", "Robot Steering", "rqt_robot_steering/RobotSteering"
     group, summary = "Robot Tools", "drive a robot, with keys"

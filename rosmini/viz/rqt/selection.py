@@ -1,7 +1,7 @@
-"""Which nodes and topics rqt_graph shows, by its modes, filters and switches.
+"""Select the nodes and topics that rqt_graph shows, by its modes, filters and switches.
 
 The switches and their meaning are those of the rqt_graph package (wiki.ros.org/rqt_graph): the "Hide" row, the "Group"
-row and the two filter fields. Pure: a `GraphState` in, a `Selection` out.
+row and the two filter fields. A `GraphState` becomes a `Selection`.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ DEBUG_NAMES = (
     "/rxloggerlevel",
     "/statistics",
 )
-"""A name that contains one of these is hidden by "debug": the list of the real rqt_graph."""
+""""debug" hides names that contain one of these: the list of rqt_graph."""
 
 DEBUG_TOPICS = ("/time", "/clock", "/rosout", "/statistics")
 ACTION_TOPICS = ("cancel", "feedback", "goal", "result", "status")
@@ -43,10 +43,10 @@ TF_TOPICS = ("/tf", "/tf_static")
 
 @dataclass(frozen=True)
 class Selection:
-    """What is shown.
+    """The nodes and topics that are shown.
 
-    `groups` maps a topic that stands for several, as rqt_graph groups them, to those; `bundles` does so for the nodes
-    and topics of a large graph. `hidden` counts what switches hid.
+    `groups` maps the name of a group of topics, as in rqt_graph, to its topics; `bundles` does so for the nodes
+    and topics of a large graph. `hidden_nodes` and `hidden_topics` count what switches hide.
     """
 
     mode: Mode
@@ -62,9 +62,9 @@ class Selection:
     hidden_nodes: int = 0
     hidden_topics: int = 0
     added: frozenset[str] = frozenset()
-    """What an earlier state did not have, of `GraphState.parts`."""
+    """Parts (`GraphState.parts`) that an earlier state does not have."""
     removed: frozenset[str] = frozenset()
-    """What only an earlier state had."""
+    """Parts that only an earlier state has."""
 
     def drawn(self) -> list[str]:
         """Return the nodes, topics and arrows that are drawn, in the form of `GraphState.parts`."""
@@ -77,10 +77,10 @@ class Selection:
 
 
 def check_choice(what: str, given: Iterable[str], known: object) -> None:
-    """Refuse a mode or a switch that does not exist, suggesting the nearest.
+    """Raise an error for an unknown mode or switch, with the nearest name.
 
     Raises:
-        ViewError: an unknown one.
+        ViewError: it is unknown.
 
     """
     names = [str(name) for name in get_args(known)]
@@ -93,13 +93,13 @@ def check_choice(what: str, given: Iterable[str], known: object) -> None:
 
 
 def matches(name: str, patterns: str) -> bool:
-    """Whether rqt_graph's filter field lets a name through.
+    """Return True if rqt_graph's filter matches a name.
 
-    Patterns are separated by commas. One that is a plain name matches that name, any other is a regular expression
-    that matches from the start; a leading `-` excludes. Nothing, or `/` alone, lets everything through.
+    Commas separate patterns. A plain name matches that name; any other pattern is a regular expression
+    that matches from the start; a leading `-` excludes. An empty filter and `/` match every name.
 
     Raises:
-        ViewError: a pattern is no regular expression.
+        ViewError: a pattern is not a regular expression.
 
     """
     parts = [part.strip() for part in patterns.split(",")]
@@ -123,7 +123,7 @@ def _match(name: str, pattern: str) -> bool:
 
 
 def is_debug(name: str) -> bool:
-    """Whether "debug" hides a node or topic of this name: a known tool, or a base name that begins with `_`."""
+    """Return True if "debug" hides a node or topic of this name: a known tool, or a base name that begins with `_`."""
     return any(part in name for part in DEBUG_NAMES) or name.rsplit("/", 1)[-1].startswith("_")
 
 
@@ -139,7 +139,7 @@ def select(
     """Apply filters, switches and grouping.
 
     Raises:
-        ViewError: an unknown mode or switch, or a filter that is no regular expression.
+        ViewError: an unknown mode or switch, or a filter that is not a regular expression.
 
     """
     check_choice("mode", [mode], Mode)
@@ -200,7 +200,7 @@ def _unhidden_topics(state: GraphState, topics: list[str], hide: Collection[Hide
 
 
 def _parameter_topics(topics: Collection[str]) -> set[str]:
-    """The pairs of topics that dynamic_reconfigure publishes for each of its servers."""
+    """Return the topics that dynamic_reconfigure publishes for each server, two each."""
     found = set()
     for topic in topics:
         prefix, _, base = topic.rpartition("/")
@@ -217,7 +217,7 @@ def _ends(
 
 
 def _grouped(selection: Selection, group: Collection[Group]) -> Selection:
-    """Let one topic stand for the topics of an action, of an image transport, or of tf."""
+    """Replace the topics of an action, of an image transport, or of tf by one group."""
     groups: dict[str, tuple[str, ...]] = {}
     topics = set(selection.topics)
     if "actions" in group:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class ServiceCaller(Panel):
-    """Choose a service, fill in its request, call it, and see the response.
+    """A form for the request of a service, which shows the response.
 
     >>> from rosmini import Graph
     >>> from rosmini.msgs.std_srvs.srv import SetBool
@@ -37,11 +37,11 @@ class ServiceCaller(Panel):
 
     Args:
         graph: the graph.
-        service: the service that is chosen first.
-        name: of the panel's node.
+        service: service shown at first.
+        name: name of the panel's node.
 
     Raises:
-        ViewError: there is no such service, or its type is not known here.
+        ViewError: there is no such service, or its type is unknown here.
 
     """
 
@@ -56,21 +56,21 @@ class ServiceCaller(Panel):
         self._type: Any = None
         self._fields: Fields | None = None
         self.response: Any = None
-        """What the service answered last."""
+        """Last response of the service."""
         self._calls = 0
         if service:
             self.choose(service)
 
     def names(self) -> list[str]:
-        """Return the names of all services, sorted; those that every node has for its loggers come last."""
+        """Return the names of all services, sorted; the logger services of every node come last."""
         found = sorted(each.name for each in services(self.graph))
         return sorted(found, key=lambda name: name.endswith(("/get_loggers", "/set_logger_level")))
 
     def choose(self, service: str) -> None:
-        """Take another service. Raises ``ViewError``."""
+        """Choose another service. Raises ``ViewError``."""
         if service not in self.names():
             hint = nearest(service, self.names()) or "`rosservice list` lists those that there are"
-            raise ViewError(f"nobody offers a service {service!r:.80}; {hint}")
+            raise ViewError(f"no node offers a service {service!r:.80}; {hint}")
         try:
             kind = type_of(self.graph, service)
         except TransportException as error:
@@ -78,7 +78,7 @@ class ServiceCaller(Panel):
         cls = service_class_of(kind) if kind else None
         if cls is None:
             raise ViewError(
-                f"{service} is a {kind or 'service of a type that nobody names'}, which no package here defines"
+                f"{service} is a {kind or 'service of an unknown type'}, which no package here defines"
             )
         self.service, self._type, self._fields, self.response = service, cls, Fields(cls._request_class), None
 
@@ -87,7 +87,7 @@ class ServiceCaller(Panel):
         self._form.fill(field, expression)
 
     def call(self) -> Any:
-        """Call the service, and return what it answers. Raises ``ViewError``, ``ServiceException``."""
+        """Call the service, and return the response. Raises ``ViewError``, ``ServiceException``."""
         self._require()
         request = self._form.message(self._calls)
         self._calls += 1
@@ -119,7 +119,7 @@ class ServiceCaller(Panel):
         return found
 
     def settings(self) -> dict[str, Any]:
-        """The service."""
+        """Return the service."""
         return {"service": self.service}
 
     def restore(self, settings: dict[str, Any]) -> None:

@@ -19,7 +19,7 @@ class Table(View):
     Args:
         part: columns and rows; a row with a depth belongs to the one above.
         title: first words of the text and the caption.
-        noun: what a row is, for the count.
+        noun: noun for the number of rows.
 
     """
 
@@ -33,7 +33,7 @@ class Table(View):
 
     @property
     def counted(self) -> str:
-        """The number of rows without those that belong to another."""
+        """The number of rows, without those that belong to another."""
         return plural(sum(not row.depth for row in self.part.rows), self._noun)
 
     @property

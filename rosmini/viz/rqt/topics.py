@@ -29,21 +29,21 @@ if TYPE_CHECKING:
     from .parts import Part
 
 LONGEST = 60
-"""How many characters of a value are shown."""
+"""Maximum number of characters of a value."""
 MOST_ELEMENTS = 5
-"""How many elements of an array of messages are shown."""
+"""Maximum number of elements of an array of messages."""
 WINDOW, LONG_WINDOW = 100, 10_000
-"""Number of messages that rate and bandwidth are computed from, of a panel and of a still."""
+"""Number of messages from which a panel and a still compute rate and bandwidth."""
 
 
 def rqt_topic(
     graph: Graph, *, expand: Collection[str] = (), duration: float = 2.0, title: str = "rqt_topic"
 ) -> Table:
-    """Listen to all topics for ``duration`` seconds of graph time, and show what came.
+    """Listen to all topics for ``duration`` seconds of graph time, and show their rates, bandwidths and values.
 
     Args:
         graph: the graph, which runs meanwhile.
-        expand: topics whose fields are shown with their last values.
+        expand: topics to show with the last value of each field.
         duration: how long to listen [s].
         title: the caption.
 
@@ -58,12 +58,12 @@ def rqt_topic(
 
 
 def known_topics(graph: Graph) -> dict[str, str]:
-    """Return the topics whose messages can be read here, sorted, and their types."""
+    """Return the topics of known types, sorted, and their types."""
     return {name: kind for name, kind in sorted(types(graph)) if class_of(kind) is not None}
 
 
 class Heard:
-    """What came on a topic: how often, how much, the last of it. ``window`` is the number of messages that count."""
+    """Rate, bandwidth and last message of a topic, computed from the last ``window`` messages."""
 
     def __init__(self, window: int) -> None:
         self.last: Any = None
@@ -71,14 +71,14 @@ class Heard:
         self._arrivals = Arrivals(window)
 
     def hear(self, now_ns: int, message: Any) -> None:
-        """Note a message that came at a time."""
+        """Count a message that came at a time [ns]."""
         message.serialize(written := BytesIO())
         self._sizes.heard(now_ns / 1e9, len(written.getvalue()))
         self._arrivals.heard(now_ns)
         self.last = message
 
     def figures(self, now: float) -> tuple[str, str]:
-        """Return bandwidth and rate at a time [s]; ``unknown`` if too little came since they were asked for."""
+        """Return bandwidth and rate at a time [s]; ``unknown`` if too few messages came since the last call."""
         weight, rate = self._sizes.weight(now), self._arrivals.statistics()
         return f"{_bytes(weight.rate)}/s" if weight else "unknown", f"{rate.rate:.2f}" if rate else "unknown"
 
@@ -92,7 +92,7 @@ def _bytes(count: float) -> str:
 
 
 def fields_of(message: Any, depth: int = 1) -> Iterator[tuple[int, str, str, str]]:
-    """Yield depth, name, type and value of every field; of a message that is a field, its own are below it."""
+    """Yield depth, name, type and value of every field; the fields of a nested message follow it."""
     for name, kind in zip(message.__slots__, message._slot_types, strict=True):
         value = getattr(message, name)
         if isinstance(value, Message):
@@ -121,16 +121,16 @@ def value_text(value: Any) -> str:
 
 
 FIGURES_S = 1.0
-"""How often rates and bandwidths are worked out [s]."""
+"""Interval between updates of rates and bandwidths [s]."""
 
 
 class TopicMonitor(Panel):
-    """All topics; those that are ticked are heard, and shown with rate, bandwidth and the last value of each field.
+    """All topics; a ticked topic is shown with its rate, bandwidth and the last value of each field.
 
     Args:
         graph: the graph.
-        topics: what is ticked first.
-        name: of the panel's node.
+        topics: topics ticked at first.
+        name: name of the panel's node.
 
     Raises:
         ViewError: there is no such topic.
@@ -154,17 +154,17 @@ class TopicMonitor(Panel):
 
     @classmethod
     def still(cls, given: Values, call: Call) -> View:
-        """Listen to all topics, and show the last values of those that are named."""
+        """Listen to all topics, and show the last values of the named ones."""
         words, _ = cls.arguments(given)
         return rqt_topic(call.graph, expand=words, duration=given.duration, title=given.title or cls.tool)
 
     @property
     def topics(self) -> tuple[str, ...]:
-        """What is heard."""
+        """The ticked topics."""
         return tuple(self._heard)
 
     def hear(self, topic: str, on: bool = True) -> None:
-        """Listen to a topic, or no more. Raises ``ViewError`` for one that is not there."""
+        """Start or stop listening to a topic. Raises ``ViewError`` for an unknown topic."""
         self._require()
         if not on:
             if topic in self._heard:
@@ -191,7 +191,7 @@ class TopicMonitor(Panel):
         return [self.table(self._heard)]
 
     def table(self, expand: Collection[str]) -> Rows:
-        """Return a row for each topic, and below those to ``expand`` a row for each field."""
+        """Return a row for each topic, followed by a row for each field if the topic is in ``expand``."""
         now = self.graph.now().to_sec()
         rows: list[Row] = []
         for topic, kind in known_topics(self.graph).items():
@@ -213,11 +213,11 @@ class TopicMonitor(Panel):
         return before[1]
 
     def settings(self) -> dict[str, Any]:
-        """What is heard."""
+        """Return the ticked topics."""
         return {"topics": list(self._heard)}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Hear what was heard; what is not there is named at the end."""
+        """Tick the topics of a perspective; one error names all that fail."""
         each_of(self.hear, settings.get("topics", []))
 
     def _operate(self, key: Sequence[str], value: Any) -> None:

@@ -1,7 +1,7 @@
 """`rqt` itself: several plugins in one window, with its menus File, Plugins, Running and Perspectives.
 
-The menus are those of the real one (http://wiki.ros.org/rqt/UserGuide). A perspective is an arrangement that was
-saved; files of the real rqt can be imported and exported (:mod:`~rosmini.viz.rqt.perspective`).
+The menus are those of rqt (http://wiki.ros.org/rqt/UserGuide). A perspective is a saved arrangement; files of
+the real rqt can be imported and exported (:mod:`~rosmini.viz.rqt.perspective`).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class Rqt(Panel):
-    """A window in which plugins run beside one another.
+    """A window with several running plugins.
 
     >>> from rosmini import Graph
     >>> window = Rqt(Graph(), "rqt_console", "Plot")
@@ -38,12 +38,12 @@ class Rqt(Panel):
 
     Args:
         graph: the graph.
-        plugins: what is opened first, as `open` takes it.
-        perspective: a file that the real rqt, or this one, has exported; opened before the plugins.
-        name: of the window's node.
+        plugins: plugins opened at first, as in `open`.
+        perspective: a file exported by rqt or by this window; opened before the plugins.
+        name: name of the window's node.
 
     Raises:
-        ViewError: there is no such plugin, or the file is no perspective.
+        ViewError: there is no such plugin, or the file is not a perspective.
 
     """
 
@@ -56,11 +56,11 @@ class Rqt(Panel):
     ) -> None:
         super().__init__(graph, name=name)
         self.running: dict[int, Panel] = {}
-        """What runs, by number, in the order in which it was opened."""
+        """The running plugins by number, in the order in which they were opened."""
         self.perspectives: dict[str, Perspective] = {}
-        """Arrangements that were saved in this window, by name."""
+        """Arrangements saved in this window, by name."""
         self.missing: list[str] = []
-        """What the perspective that was opened last has and this window has not, each with what serves instead."""
+        """Plugins of the last opened perspective that this window lacks, each with its replacement."""
         self._numbered = 0
         self._docks = Perspective().docks
         self._written = {"perspective": "my perspective", "file": "my.perspective"}
@@ -72,7 +72,7 @@ class Rqt(Panel):
     @classmethod
     def add_options(cls, parser: Parser) -> None:
         """Add the file."""
-        parser.add_option("--perspective-file", metavar="FILE", help="what runs, as rqt exported it")
+        parser.add_option("--perspective-file", metavar="FILE", help="a perspective that rqt exported")
 
     @classmethod
     def arguments(cls, given: Values) -> tuple[list[str], dict[str, Any]]:
@@ -112,13 +112,13 @@ class Rqt(Panel):
         return made
 
     def end(self, number: int) -> None:
-        """Close what runs under a number. Raises ``ViewError``."""
+        """Close the plugin with a number. Raises ``ViewError``."""
         if number not in self.running:
             raise ViewError(f"nothing runs under the number {number}; there are {[*self.running]}")
         self.running.pop(number).close()
 
     def close(self) -> None:
-        """Close the window and all in it."""
+        """Close the window and its plugins."""
         for number in list(self.running):
             self.end(number)
         super().close()
@@ -126,7 +126,7 @@ class Rqt(Panel):
     # -- Perspectives ----------------------------------------------------------------------------------------------
 
     def perspective(self) -> Perspective:
-        """Return what runs now, and how it is set."""
+        """Return the running plugins and their settings."""
         counted: dict[str, int] = {}
         found = []
         for panel in self.running.values():
@@ -135,7 +135,7 @@ class Rqt(Panel):
         return Perspective(tuple(found), self._docks)
 
     def arrange(self, perspective: Perspective) -> None:
-        """Close what runs, and open what a perspective has; `missing` names what could not be opened or restored."""
+        """Replace the running plugins by those of a perspective; `missing` names plugins that failed."""
         self._require()
         for number in list(self.running):
             self.end(number)
@@ -148,12 +148,12 @@ class Rqt(Panel):
                 self.missing.append(f"{each.plugin}: {error}")
 
     def save_perspective(self, name: str) -> None:
-        """Keep the present arrangement under a name."""
+        """Save the current arrangement under a name."""
         self.perspectives[name] = self.perspective()
         self._say(f"the perspective {name!r:.80} has {len(self.running)} plugins")
 
     def open_perspective(self, name: str) -> None:
-        """Return to an arrangement. Raises ``ViewError`` for another name."""
+        """Open a saved arrangement. Raises ``ViewError`` for an unknown name."""
         if name not in self.perspectives:
             hint = nearest(name, self.perspectives) or f"there are {', '.join(self.perspectives) or 'none'}"
             raise ViewError(f"no perspective {name!r:.80}; {hint}")
@@ -164,14 +164,14 @@ class Rqt(Panel):
         self.arrange(Perspective.read(path))
 
     def export_file(self, path: str | Path) -> None:
-        """Write the present arrangement to a file that the real rqt can import. Raises ``ViewError``."""
+        """Write the current arrangement to a file that the real rqt can import. Raises ``ViewError``."""
         self.perspective().write(path)
         self._say(f"written to {path}")
 
     # -- showing ---------------------------------------------------------------------------------------------------
 
     def parts(self) -> Sequence[Part]:
-        """The menus, and below them a box for each plugin."""
+        """The menus, followed by a box for each plugin."""
         groups: dict[str, list[str]] = {}
         for entry in menu():
             groups.setdefault(entry.group, [""]).append(entry.name)
@@ -205,7 +205,7 @@ class Rqt(Panel):
         ]
 
     def set(self, key: str, value: object = True) -> None:
-        """Operate a control of the window, or, as ``1/KEY``, one of the plugin that runs under that number."""
+        """Operate a control of the window, or, as ``1/KEY``, a control of the plugin with that number."""
         number, slash, rest = key.partition("/")
         if slash and number.isdecimal() and int(number) in self.running:
             self._require()
@@ -234,7 +234,7 @@ class Rqt(Panel):
 
 
 def _package(plugin: str) -> str:
-    """Return the package of a plugin that is named as in the menu, by its package, or as in a perspective."""
+    """Return the package of a plugin from its name in the menu, its package, or its name in a perspective."""
     package = plugin.partition("/")[0]
     return next((entry.package for entry in menu() if entry.name.casefold() == plugin.casefold()), package)
 

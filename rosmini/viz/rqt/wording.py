@@ -8,11 +8,11 @@ from rosmini.viz.rqt.selection import Selection
 from rosmini.viz.words import plural
 
 ALT_FLOWS = 6
-"""How many topics the alt text spells out."""
+"""Number of topics that the alt text contains."""
 
 
 def text_form(selection: Selection, title: str | None = None) -> str:
-    """A line of counts, then a line for each flow `publishers -> topic [type] -> subscribers`, then lone nodes."""
+    """Return counts, a line for each flow `publishers -> topic [type] -> subscribers`, and lone nodes."""
     head = f"{title or 'rqt_graph'}: {_counts(selection)}"
     hidden = [
         plural(count, noun)
@@ -35,7 +35,7 @@ def text_form(selection: Selection, title: str | None = None) -> str:
 
 
 def _changes(selection: Selection) -> list[str]:
-    """A line for what is new and one for what is gone, of what is drawn."""
+    """Return a line with the additions and one with the removals in the drawing."""
     lines = []
     for word, parts in (("new", selection.added), ("gone", selection.removed)):
         found = [part for part in selection.drawn() if part in parts]
@@ -46,7 +46,7 @@ def _changes(selection: Selection) -> list[str]:
 
 
 def alt_text(selection: Selection) -> str:
-    """What the picture shows, in a sentence or two."""
+    """Describe the picture in a sentence or two."""
     if not selection.nodes and not selection.topics:
         return "Computation graph with nothing to show."
     flows = _flows(selection)
@@ -77,7 +77,7 @@ def _type(selection: Selection, topic: str) -> str:
 
 
 def _flows(selection: Selection) -> list[tuple[tuple[str, ...], str, tuple[str, ...]]]:
-    """(publishers, topic, subscribers), sorted by topic."""
+    """Return (publishers, topic, subscribers), sorted by topic."""
     ends: dict[str, tuple[set[str], set[str]]] = {topic: (set(), set()) for topic in selection.topics}
     if selection.mode == "nodes_only":
         for publisher, topic, subscriber in selection.connections:

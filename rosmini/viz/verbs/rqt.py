@@ -1,7 +1,7 @@
 """`rosmini rqt`: the tools of rqt as pictures: `rosmini rqt_graph` is `rosmini rqt graph` (http://wiki.ros.org/rqt).
 
-Each class derived from `rosmini.viz.rqt.plugin.Plugin` is a verb. In a terminal a picture is a page, which is opened
-in the browser; in a notebook it is shown: ``TOOL.run("plot", "/odom/twist/twist/linear/x", graph=graph).view``.
+Each class derived from `rosmini.viz.rqt.plugin.Plugin` is a verb. A terminal writes a page and opens it in the
+browser; a notebook shows the view: ``TOOL.run("plot", "/odom/twist/twist/linear/x", graph=graph).view``.
 """
 
 from __future__ import annotations

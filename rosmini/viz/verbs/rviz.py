@@ -1,7 +1,7 @@
-"""`rosmini rviz`: what RViz shows of a graph (http://wiki.ros.org/rviz).
+"""`rosmini rviz`: a graph as RViz shows it (http://wiki.ros.org/rviz).
 
-In a terminal it is a page on this machine that follows the graph until Ctrl-C. In a notebook `%rviz -d FILE` shows a
-view of this moment that can be turned, with `--still` a picture, and with `--live` the window that goes on; the first
+In a terminal it serves a page on this machine that follows the graph until Ctrl-C. In a notebook `%rviz -d FILE`
+shows a view that can be turned, with `--still` a picture, and with `--live` the running window; the first
 two are a page in a terminal, too. ``TOOL.run("-d", "my.rviz", graph=graph).view`` is the view in Python.
 """
 
@@ -20,7 +20,7 @@ TOOL = Tool(
 )  # fmt: skip
 
 DURATION = 2.0
-"""How long it listens if nobody says how long [s]."""
+"""Default time for which it listens [s]."""
 
 
 def _parser() -> Parser:
@@ -33,13 +33,11 @@ def _parser() -> Parser:
     parser.add_option("-f", "--fixed-frame", metavar="FRAME", help="the frame in which everything is drawn")
     parser.add_option(
         "--duration", type="float", metavar="S",
-        help=f"show what there is after S seconds of graph time ({DURATION:g} if not given)",
+        help=f"show the scene after S seconds of graph time (default: {DURATION:g})",
     )  # fmt: skip
-    parser.flag(
-        "--live", help="the window that goes on; in a terminal that is so without any of the other options"
-    )
-    parser.flag("--no-browser", help="in a terminal: say the address of the window, and open nothing")
-    parser.flag("--still", help="a picture that is not to be turned")
+    parser.flag("--live", help="the running window; the default in a terminal without other options")
+    parser.flag("--no-browser", help="in a terminal: print the address of the window, and open nothing")
+    parser.flag("--still", help="a picture that cannot be turned")
     parser.flag("--fit", help="from above and around everything, whatever the view of the file is")
     parser.add_option(
         "--view",
@@ -55,7 +53,7 @@ def _parser() -> Parser:
 
 @TOOL.verb("show what there is", parser=_parser)
 def show(given: Values, call: Call) -> Result:
-    """Open the window, or listen for some time and show what there is then."""
+    """Open the window, or listen for some time and show the scene."""
     from rosmini.viz.rviz import Scene, look_from, still, turnable
     from rosmini.viz.rviz.suggestions import suggested
 
@@ -81,7 +79,7 @@ def show(given: Values, call: Call) -> Result:
 
 
 def _live(given: Values, call: Call) -> Result:
-    """Open the window: in a notebook a widget, in a terminal a page that is served until Ctrl-C."""
+    """Open the window: a widget in a notebook, and a page that is served until Ctrl-C in a terminal."""
     from rosmini.viz.rviz.window import RVizWindow
 
     window = RVizWindow(call.graph, given.display_config, fixed_frame=given.fixed_frame)

@@ -166,7 +166,7 @@ def test_forms(tmp_path: Path) -> None:
     [
         ({"level": "WARNING"}, "no level 'WARNING': did you mean WARN"),
         ({"columns": ("mesage",)}, "no column 'mesage': did you mean message"),
-        ({"text": "(", "regex": True}, r"'\(' is no regular expression"),
+        ({"text": "(", "regex": True}, r"'\(' is not a regular expression"),
         ({"node": "/a("}, "neither a name nor a regular expression"),
     ],
 )

@@ -76,7 +76,7 @@ def test_pause_and_clear(console, say):
 def test_a_filter_that_is_none_is_refused_and_the_old_one_holds(console, say):
     say("one")
     console.set("regex", True)
-    with pytest.raises(ViewError, match="no regular expression"):
+    with pytest.raises(ViewError, match="not a regular expression"):
         console.set("text", "(")
     with pytest.raises(ViewError, match="no filter colour"):
         console.filter(colour="red")

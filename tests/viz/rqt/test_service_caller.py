@@ -82,7 +82,7 @@ def test_what_makes_no_sense_is_refused(graph, asked):
     caller = ServiceCaller(graph)
     with pytest.raises(ViewError, match="no service is chosen"):
         caller.call()
-    with pytest.raises(ViewError, match="nobody offers a service '/swich'; did you mean /switch"):
+    with pytest.raises(ViewError, match="no node offers a service '/swich'; did you mean /switch"):
         caller.choose("/swich")
     caller.choose("/switch")
     for expression in ("open('x')", "1 +", "'yes'"):
