@@ -39,6 +39,15 @@ MOST_POINTS = 2_000
 """Maximum number of corners of a polyline."""
 
 
+NUMBERS = {
+    "pose": 6, "xyz": 3, "gravity": 3, "normal": 3, "scale": 3, "point": 2, "radius": 1, "length": 1, "height": 1,
+    "mass": 1, "ambient": 4, "diffuse": 4, "specular": 4, "emissive": 4,
+}  # fmt: skip
+"""The count of numbers in elements of these tags."""
+SIZES = {"box": 3, "plane": 2}
+"""The count of numbers in the `<size>` of these shapes."""
+
+
 @dataclass
 class Reading:
     """The state of reading a document."""
@@ -54,12 +63,28 @@ class Reading:
         if note not in self.notes[-50:]:
             self.notes.append(note)
 
+    def cut(self, element: Element) -> None:
+        """Remove the words that sdformat ignores, which reads as many numbers as it needs, and note each such place."""
+        if element.tag == "plugin":  # its parameters are its own
+            return
+        for child in element:
+            count = SIZES.get(element.tag, 0) if child.tag == "size" else NUMBERS.get(child.tag, 0)
+            if child.get("rotation_format") == "quat_xyzw":
+                count = 7
+            words = child.text.split(None, count) if count else []
+            if len(words) > count:
+                child.text = " ".join(words[:count])
+                what = f"<{child.tag}> takes {count} number{'s' * (count > 1)}"
+                self.note(child, f"{what}; the rest of its text is ignored, as in Gazebo", warning=True)
+            self.cut(child)
+
     def include(self, element: Element, file: Path) -> Element:
         """Return the root of an included file, and count it. Raises `SdfError` at `element` if there are too many."""
         root, size = self.resources.parsed(file)
         self.included += OF_AN_INCLUDE + size
         if self.included > MOST_INCLUDED:
             raise element.error(f"the includes of this world have more than {MOST_INCLUDED} elements")
+        self.cut(root)
         return root
 
     def unknown(self, element: Element, known: tuple[str, ...]) -> None:

@@ -52,6 +52,7 @@ def _document(root: Element, reading: Reading) -> Sdf:
     if root.tag not in ("sdf", "gazebo"):
         hint = "; this is a URDF, read it with rosmini.sim.urdf.load" if root.tag == "robot" else ""
         raise root.error(f"an SDF file begins with <sdf version=...>, not with <{root.tag}>{hint}")
+    reading.cut(root)
     reading.unknown(root, ("world", "model", "actor", "light", "include"))
     for light in root.all("light"):
         reading.note(light, "a light: left out, all is lit alike", left_out="a light")

@@ -455,6 +455,20 @@ def test_comments_and_blank_lines_may_precede_the_declaration(tmp_path, before):
         assert f":{before.count(chr(10)) + 4}: " in str(note)
 
 
+def test_more_numbers_than_needed_are_ignored_as_in_gazebo():
+    box = "<geometry><box><size>1 2 3 4</size></box></geometry>"
+    inside = f"<pose>1 2 3 0 0 0 9 m</pose><link name='l'><collision name='c'>{box}</collision></link>"
+    own = "<plugin name='p' filename='f'><pose>1 2 3 4 5 6 7</pose></plugin>"
+    made = load(model(inside + own))
+    assert made.models[0].pose[:3] == (1, 2, 3)
+    assert made.models[0].links[0].collisions[0].geometry.size == (1, 2, 3)
+    assert made.models[0].plugins[0].element.need("pose").text == "1 2 3 4 5 6 7"
+    assert [(note.line, note.text.partition(";")[0]) for note in made.notes] == [
+        (3, "<pose> takes 6 numbers"),
+        (3, "<size> takes 3 numbers"),
+    ]
+
+
 # ---- what is wrong ----
 
 
