@@ -125,6 +125,7 @@ def test_numbers_that_make_no_map():
         a_slam(particles=0)
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(not LOG.is_file(), reason="the log of a drive through the house is not there")
 def test_a_house_is_mapped_as_well_as_by_the_original():
     """openslam's gmapping, with the same parameters: 0.103 to 0.109 m RMS, aligned at the start."""

@@ -13,6 +13,8 @@ from rosmini.core.graph import Graph
 from rosmini.ros import rospy
 from rosmini.ros.scripts import ScriptSpec, current_script, run_scripts, run_source
 
+from ...conftest import nightly
+
 
 def test_lines_have_the_name_before_them_and_are_in_order(run):
     ran = run(
@@ -195,7 +197,13 @@ atexit.register(lambda: print("turns", len(turns)))
 """
 
 
-@pytest.mark.parametrize("kind", POLLING)
+EACH_COMMIT = ("publish", "lookup", "attribute")
+"""A call that acts, one that raises, and no call at all."""
+
+
+@pytest.mark.parametrize(
+    "kind", [*EACH_COMMIT, *nightly(*(kind for kind in POLLING if kind not in EACH_COMMIT))]
+)
 def test_a_loop_that_never_sleeps_uses_graph_time_and_is_warned_of_once(sim, kind):
     ran = sim(sim.text("poller", BEFORE + POLLING[kind]), duration=4.0, grace=0.0)
     warnings = [line for line in ran.lines if "rate.sleep()" in line]

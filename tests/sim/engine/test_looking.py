@@ -172,7 +172,7 @@ def test_who_looks_or_saves_changes_nothing(scenery, seed, look):
     assert run(scenery(), seed, look) == run(scenery(), seed)
 
 
-@pytest.mark.parametrize("scenery", SCENES)
+@pytest.mark.parametrize("scenery", [yard, crowd, *nightly(struck, two_that_push_one, along_a_wall)])
 def test_with_numba_and_without_everything_is_equal_to_the_last_bit(scenery, monkeypatch):
     pytest.importorskip("numba")
     for kernel in scene.KERNELS.values():
