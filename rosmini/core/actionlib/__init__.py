@@ -2,22 +2,19 @@
 
 This is the object API, on a :class:`rosmini.core.graph.Node`. Scripts import the same in rospy's style as
 ``actionlib``: :mod:`rosmini.ros.rospy.aliases.actionlib`. The two state machines do not depend on nodes; they are in
-:mod:`~rosmini.core.actionlib.client_machine` and :mod:`~rosmini.core.actionlib.server_machine`.
+:mod:`~rosmini.core.actionlib.client_machine` and :mod:`~rosmini.core.actionlib.server_goal_handle`.
 """
 
 from __future__ import annotations
 
 from .client import ActionClient, ClientGoalHandle
 from .client_machine import CLIENT_TRANSITIONS, ClientMachine
-from .errors import ActionException, IllegalTransition
-from .goal_id_generator import GoalIDGenerator
 from .server import ActionServer
-from .server_goal_handle import ServerGoalHandle
-from .server_machine import SERVER_TRANSITIONS, GoalEvent, next_status
+from .server_goal_handle import SERVER_TRANSITIONS, GoalEvent, ServerGoalHandle, next_status
 from .simple_client import SimpleActionClient
 from .simple_server import SimpleActionServer
-from .states import CommState, SimpleGoalState, Status, TerminalState
-from .status_tracker import StatusTracker
+from .spec import GoalIDGenerator, StatusTracker
+from .states import ActionException, CommState, IllegalTransition, SimpleGoalState, Status, TerminalState
 
 __all__ = [
     "CLIENT_TRANSITIONS",

@@ -14,11 +14,8 @@ from rosmini.core.time import Time
 from rosmini.msgs import message_class
 
 from .client_machine import CANCELLABLE, ClientMachine
-from .errors import ActionException, IllegalTransition
-from .goal_id_generator import numbers_of
-from .spec import ActionTypes
-from .states import CommState, Status
-from .waiting import Timeout, wait_on
+from .spec import ActionTypes, Timeout, numbers_of, wait_on
+from .states import ActionException, CommState, IllegalTransition, Status
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,8 +14,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .errors import IllegalTransition
-from .states import CommState, Status
+from .states import CommState, IllegalTransition, Status
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -15,11 +15,9 @@ from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class
 
 from .client import queue_size_of
-from .goal_id_generator import GoalIDGenerator
 from .server_goal_handle import ServerGoalHandle
-from .spec import ActionTypes
+from .spec import ActionTypes, GoalIDGenerator, StatusTracker
 from .states import Status
-from .status_tracker import StatusTracker
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,7 +25,7 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Node, Publisher
 
-    from .errors import ActionException
+    from .states import ActionException
 
 __all__ = ["ActionServer", "ServerGoalHandle"]
 

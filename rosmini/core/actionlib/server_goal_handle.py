@@ -1,26 +1,78 @@
-"""The handle that a server's author gets for a goal: its message, and methods to decide its outcome."""
+"""The server's view of a goal: the state machine (http://wiki.ros.org/actionlib/DetailedDescription) and the handle.
+
+The machine does no I/O: it takes a status and an event and returns a status. A client can only request
+(:attr:`GoalEvent.CANCEL_REQUEST`); the server decides everything else.
+
+>>> next_status(Status.PENDING, GoalEvent.ACCEPT).name
+'ACTIVE'
+>>> next_status(Status.SUCCEEDED, GoalEvent.ABORT)  # doctest: +ELLIPSIS
+Traceback (most recent call last):
+...
+rosmini.core.actionlib.states.IllegalTransition: set_aborted() is for a goal that is ACTIVE or PREEMPTING; ...
+"""
 
 from __future__ import annotations
 
+from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from rosmini.msgs import message_class
 
-from .errors import ActionException, IllegalTransition
-from .server_machine import GoalEvent, next_status
-from .states import Status
+from .states import ActionException, IllegalTransition, Status
 
 if TYPE_CHECKING:
     from .server import ActionServer
-    from .status_tracker import StatusTracker
+    from .spec import StatusTracker
 
-__all__ = ["ServerGoalHandle"]
+__all__ = ["SERVER_TRANSITIONS", "GoalEvent", "ServerGoalHandle", "next_status"]
+
+
+class GoalEvent(Enum):
+    """Events in the life of a goal; the values are the methods of a server's goal handle."""
+
+    ACCEPT = "set_accepted"
+    REJECT = "set_rejected"
+    SUCCEED = "set_succeeded"
+    ABORT = "set_aborted"
+    CANCEL = "set_canceled"
+    CANCEL_REQUEST = "set_cancel_requested"
+
+
+SERVER_TRANSITIONS: dict[GoalEvent, dict[Status, Status]] = {
+    GoalEvent.ACCEPT: {Status.PENDING: Status.ACTIVE, Status.RECALLING: Status.PREEMPTING},
+    GoalEvent.REJECT: {Status.PENDING: Status.REJECTED, Status.RECALLING: Status.REJECTED},
+    GoalEvent.SUCCEED: {Status.ACTIVE: Status.SUCCEEDED, Status.PREEMPTING: Status.SUCCEEDED},
+    GoalEvent.ABORT: {Status.ACTIVE: Status.ABORTED, Status.PREEMPTING: Status.ABORTED},
+    GoalEvent.CANCEL: {
+        Status.PENDING: Status.RECALLED,
+        Status.RECALLING: Status.RECALLED,
+        Status.ACTIVE: Status.PREEMPTED,
+        Status.PREEMPTING: Status.PREEMPTED,
+    },
+    GoalEvent.CANCEL_REQUEST: {Status.PENDING: Status.RECALLING, Status.ACTIVE: Status.PREEMPTING},
+}
+"""For each event: old status to new status. Anything else is illegal."""
+
+
+def next_status(status: Status, event: GoalEvent) -> Status:
+    """Return the status of a goal after ``event``. Raises ``IllegalTransition``."""
+    allowed = SERVER_TRANSITIONS[event]
+    if status in allowed:
+        return allowed[status]
+    names = [one.name for one in allowed]
+    listed = " or ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+    hint = ", which is final" if status.is_terminal else ""
+    if status is Status.PENDING and event in (GoalEvent.SUCCEED, GoalEvent.ABORT):
+        hint = ": call set_accepted() first"
+    raise IllegalTransition(
+        f"{event.value}() is for a goal that is {listed}; this one is {status.name}{hint}."
+    )
 
 
 class ServerGoalHandle:
     """One goal at the server: its message, its status, and methods to decide its outcome.
 
-    An illegal transition (:mod:`rosmini.core.actionlib.server_machine`) raises ``IllegalTransition``, and a
+    An illegal transition (:mod:`rosmini.core.actionlib.server_goal_handle`) raises ``IllegalTransition``, and a
     transition of a handle without a goal raises ``ActionException``. A server in rospy's style logs an error instead,
     as rospy does.
     """

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .client import ActionClient, ClientGoalHandle
-from .errors import ActionException
-from .states import CommState, SimpleGoalState, Status
-from .waiting import Timeout, wait_on
+from .spec import Timeout, wait_on
+from .states import ActionException, CommState, SimpleGoalState, Status
 
 if TYPE_CHECKING:
     from collections.abc import Callable

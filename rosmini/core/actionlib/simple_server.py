@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSInterruptException
 
-from .errors import ActionException
 from .server import ActionServer
 from .server_goal_handle import ServerGoalHandle
-from .states import Status
+from .states import ActionException, Status
 
 if TYPE_CHECKING:
     from collections.abc import Callable

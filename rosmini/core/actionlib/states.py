@@ -1,4 +1,4 @@
-"""The states that actionlib names: of a goal, of a client's view of it, and of the simple client.
+"""The errors of actions, and the states that actionlib names: of a goal, of its client, and of the simple client.
 
 Numbers and names are those of ``actionlib_msgs/GoalStatus`` and of actionlib's Python classes
 (http://wiki.ros.org/actionlib/DetailedDescription).
@@ -8,7 +8,17 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-__all__ = ["CommState", "SimpleGoalState", "Status", "TerminalState"]
+from rosmini.core.errors import RosminiError
+
+__all__ = ["ActionException", "CommState", "IllegalTransition", "SimpleGoalState", "Status", "TerminalState"]
+
+
+class ActionException(RosminiError):
+    """An action client or server was used in an unsupported way; actionlib's name."""
+
+
+class IllegalTransition(ActionException):
+    """The state machine has no such transition from its current state."""
 
 
 class _Named(IntEnum):

@@ -8,13 +8,15 @@ rospy's style, :mod:`rosmini.ros.rospy.aliases.dynamic_reconfigure`. What can be
 from __future__ import annotations
 
 from .client import Client
-from .description import Description, ParameterGroup, ReconfigurableParameter
-from .encoding import Config
-from .errors import (
+from .description import (
+    Description,
     DynamicReconfigureCallbackException,
     DynamicReconfigureException,
     DynamicReconfigureParameterException,
+    ParameterGroup,
+    ReconfigurableParameter,
 )
+from .encoding import Config
 from .server import Server
 
 __all__ = [

@@ -8,9 +8,14 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import ROSException, ROSInterruptException, ServiceException
 from rosmini.msgs import message_class, service_class
 
-from .description import KINDS, Description, ReconfigurableParameter
+from .description import (
+    KINDS,
+    Description,
+    DynamicReconfigureCallbackException,
+    DynamicReconfigureParameterException,
+    ReconfigurableParameter,
+)
 from .encoding import Config, decode_description, decode_values, encode_values, group_tree
-from .errors import DynamicReconfigureCallbackException, DynamicReconfigureParameterException
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

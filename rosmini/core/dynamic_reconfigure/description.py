@@ -12,17 +12,27 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
-from rosmini.core.errors import nearest
+from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.parameters import Parameters, declared_fields, is_scalar, limited_value
-
-from .errors import DynamicReconfigureParameterException
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+
+class DynamicReconfigureException(RosminiError):
+    """Base class of these errors."""
+
+
+class DynamicReconfigureParameterException(DynamicReconfigureException):
+    """There is no such parameter or group, the value is not allowed, or the description is wrong."""
+
+
+class DynamicReconfigureCallbackException(DynamicReconfigureException):
+    """A server's callback, or a call of its service, failed."""
+
+
 KINDS: dict[str, type] = {"bool": bool, "int": int, "str": str, "double": float}
 """dynamic_reconfigure's type names, with the Python types."""
-
 _RANGES: dict[str, tuple[Any, Any, Any]] = {
     "bool": (False, False, True),
     "int": (0, -(2**31), 2**31 - 1),

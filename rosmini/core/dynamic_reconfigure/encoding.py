@@ -6,8 +6,12 @@ from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.msgs import message_class
 
-from .description import Description, ParameterGroup, ReconfigurableParameter
-from .errors import DynamicReconfigureParameterException
+from .description import (
+    Description,
+    DynamicReconfigureParameterException,
+    ParameterGroup,
+    ReconfigurableParameter,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

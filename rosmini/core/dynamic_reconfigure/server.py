@@ -10,9 +10,13 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.parameters import rounded
 from rosmini.msgs import message_class, service_class
 
-from .description import Description, cast_value
+from .description import (
+    Description,
+    DynamicReconfigureCallbackException,
+    DynamicReconfigureParameterException,
+    cast_value,
+)
 from .encoding import Config, decode_values, encode_description, encode_values, group_states, group_tree
-from .errors import DynamicReconfigureCallbackException, DynamicReconfigureParameterException
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

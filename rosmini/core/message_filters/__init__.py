@@ -7,9 +7,7 @@ nodes, which messages belong together.
 
 from __future__ import annotations
 
-from .cache import Cache
-from .errors import MessageFilterError
-from .filters import SimpleFilter, Subscriber
+from .filters import Cache, MessageFilterError, SimpleFilter, Subscriber
 from .policies import ApproximateTime, ExactTime
 from .synchronizers import ApproximateTimeSynchronizer, TimeSynchronizer
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from .errors import MessageFilterError, check_size
+from .filters import MessageFilterError, check_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.time import Duration, Time
 
-from .errors import MessageFilterError
-from .filters import SimpleFilter, StampingFilter
+from .filters import MessageFilterError, SimpleFilter, StampingFilter
 from .policies import ApproximateTime, ExactTime, Policy, Queue
 
 if TYPE_CHECKING:

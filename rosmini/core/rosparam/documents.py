@@ -5,6 +5,7 @@ YAML is version 1.1, as in PyYAML: ``yes`` is a boolean, ``010`` is eight, ``1e5
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, field
 from functools import partial
@@ -13,21 +14,54 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from rosmini.core.errors import ParameterError
-from rosmini.core.expressions import STEPS_OF_A_FILE, Budget
+from rosmini.core.errors import ParameterError, shown
+from rosmini.core.expressions import MATH, STEPS_OF_A_FILE, Budget, Expression, ExpressionError, Namespace
 from rosmini.core.files import read
 from rosmini.core.names import join
 from rosmini.core.yaml_text import Loader, children, documents, line_of
 
-from .angles import degrees, radians
 from .errors import RosParamException
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
+_NAMES = {"pi": math.pi, "math": Namespace("math", MATH)}
+
+
+def degrees(text: str) -> float:
+    """Return ``deg(<number>)``, or a number in degrees, in radians. Raises ``RosParamException``."""
+    inner = text.strip()
+    if inner.startswith("deg(") and inner.endswith(")"):
+        inner = inner[4:-1]
+    try:
+        return float(inner) * math.pi / 180.0
+    except ValueError as error:
+        raise RosParamException(
+            f"{shown(text)} is no angle in degrees: write a number, such as deg(90) or !degrees 90"
+        ) from error
+
+
+def radians(text: str, budget: Budget | None = None) -> float:
+    """Return ``rad(<expression>)``, or the expression alone, in radians.
+
+    Expressions may contain numbers, ``pi``, ``+ - * / // % **``, brackets, and functions of ``math``, such as
+    ``math.sqrt(2)``. The evaluation is charged to ``budget``. Raises ``RosParamException``.
+    """
+    inner = text.strip()
+    if inner.startswith("rad(") and inner.endswith(")"):
+        inner = inner[4:-1]
+    try:
+        value = Expression(inner, names=(), functions=_NAMES).evaluate({}, budget)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise ExpressionError(f"{shown(value)} is no real number")
+        return float(value)
+    except (ExpressionError, OverflowError) as error:
+        raise RosParamException(
+            f"{shown(text)} is no angle in radians ({error}): write a number or an expression, such as rad(2*pi)"
+        ) from error
+
 
 NS = "_ns"
 """The key with which a document names its namespace."""
-
 LARGEST = 4_000_000
 """Maximum size of a parameter file [bytes]."""
 

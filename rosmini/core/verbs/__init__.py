@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
-from .arguments import DURATION_S, add_duration, below_here, dashed_remapping, duration_ns, global_name
 from .listening import SECOND, Span, tool_node
-from .options import Parser
-from .shown import Shown, shown
-from .tool import NOT_A_VERB, ArgumentParser, Call, Lines, Overview, Prompt, Result, Tool, Verb, VerbError
+from .options import DURATION_S, Parser, add_duration, below_here, dashed_remapping, duration_ns, global_name
+from .tool import (
+    NOT_A_VERB,
+    ArgumentParser,
+    Call,
+    Lines,
+    Overview,
+    Prompt,
+    Result,
+    Shown,
+    Tool,
+    Verb,
+    VerbError,
+    shown,
+)
 
 __all__ = [
     "DURATION_S",

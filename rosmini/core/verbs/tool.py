@@ -14,18 +14,20 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, cast
 
 from rosmini.core.errors import CommandError, UsageError, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+    from optparse import Values
 
     from rosmini.core.graph import Graph
     from rosmini.core.peers import Peers
-
 NOT_A_VERB = 64
 """The exit status of ROS's tools if the first word is not a command."""
 
@@ -315,3 +317,30 @@ class Prompt:
     def run(self, *words: object) -> Result:
         """Run the command, and return its result. Raises as `Tool.run` does."""
         return self.tool.run(*words, graph=self.graph)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shown(Result):
+    """A view, and in a terminal the page that it was saved to."""
+
+    view: Any
+    path: Path | None = None
+
+    def __str__(self) -> str:
+        return self.view.text if self.path is None else f"{self.view.text}\n\n{self.path}"
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
+        return self.view._repr_mimebundle_(include, exclude)
+
+
+def shown(view: Any, name: str, given: Values, call: Call) -> Shown:
+    """Save the view to the requested page; in a terminal, open a temporary page in the browser by default."""
+    if given.output:
+        return Shown(view=view, path=view.save(given.output))
+    if not call.in_terminal:
+        return Shown(view=view)
+    import webbrowser
+
+    path = view.save(Path(tempfile.mkdtemp(prefix="rosmini_")) / f"{name}.html")
+    webbrowser.open(path.as_uri())
+    return Shown(view=view, path=path)

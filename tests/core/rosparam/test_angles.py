@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.rosparam import RosParamException
-from rosmini.core.rosparam.angles import degrees, radians
+from rosmini.core.rosparam.documents import degrees, radians
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core import actionlib
 from rosmini.core.actionlib.client import ClientGoalHandle
-from rosmini.core.actionlib.errors import ActionException
-from rosmini.core.actionlib.states import CommState, SimpleGoalState, Status, TerminalState
+from rosmini.core.actionlib.states import ActionException, CommState, SimpleGoalState, Status, TerminalState
 from rosmini.msgs import message_class
 from rosmini.msgs.actionlib import msg
 from rosmini.ros import rospy

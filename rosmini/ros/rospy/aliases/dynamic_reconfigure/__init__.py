@@ -10,12 +10,12 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core import dynamic_reconfigure
-from rosmini.core.dynamic_reconfigure.encoding import Config
-from rosmini.core.dynamic_reconfigure.errors import (
+from rosmini.core.dynamic_reconfigure.description import (
     DynamicReconfigureCallbackException,
     DynamicReconfigureException,
     DynamicReconfigureParameterException,
 )
+from rosmini.core.dynamic_reconfigure.encoding import Config
 from rosmini.msgs.dynamic_reconfigure import msg, srv
 from rosmini.ros.rospy.aliases.rosgraph.masterapi import Master
 from rosmini.ros.rospy.session import require_node

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from rosmini.core.actionlib.spec import Timeout
 from rosmini.core.actionlib.states import Status
-from rosmini.core.actionlib.waiting import Timeout
 from rosmini.core.tf.errors import TimeoutException, TransformException
 from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class
