@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
 
-__all__ = ["MOST", "collide"]
+__all__ = ["MAX_COLLISIONS", "collide"]
 
-MOST = 64
+MAX_COLLISIONS = 64
 """Maximum number of different keys with the same hash in one set or dictionary."""
 
 
 def collide(keys: Iterable[Hashable]) -> bool:
-    """Return whether more than `MOST` different keys have the same hash.
+    """Return whether more than `MAX_COLLISIONS` different keys have the same hash.
 
     Raises ``TypeError`` for a key that cannot be hashed.
     """
@@ -31,6 +31,6 @@ def collide(keys: Iterable[Hashable]) -> bool:
         different = others.setdefault(code, [])
         if key not in different:
             different.append(key)
-            if len(different) >= MOST:
+            if len(different) >= MAX_COLLISIONS:
                 return True
     return False

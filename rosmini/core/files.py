@@ -56,7 +56,7 @@ def check(path: Path, largest: int = LARGEST) -> os.stat_result:
     try:
         found = os.stat(path)  # noqa: PTH116 (a path of any kind)
     except ValueError as error:  # a NUL, or a character that the file system cannot encode
-        raise OSError(errno.EINVAL, "its name holds what no name can hold", os.fspath(path)) from error
+        raise OSError(errno.EINVAL, "its name contains an invalid character", os.fspath(path)) from error
     for is_kind, what in KINDS:
         if is_kind(found.st_mode):
             raise OSError(errno.EINVAL, what, os.fspath(path))

@@ -257,7 +257,7 @@ class _Builder(xml.sax.handler.ContentHandler):
     def startElement(self, name: str, attrs: AttributesImpl) -> None:
         element = Element(name, dict(attrs.items()), "", [], self.place(), self.path, self.failure)
         if len(self.open) >= DEEPEST:
-            raise element.error(f"elements are nested deeper than {DEEPEST}: no file for a robot is")
+            raise element.error(f"elements are nested deeper than {DEEPEST}")
         if self.open:
             self.open[-1][0].children.append(element)
         else:
@@ -286,7 +286,7 @@ def _reason(message: str, column: int, text: bytes, builder: _Builder) -> str:
         return f"the file ends, but <{inner.tag}> of line {inner.line} is still open"
     if "declaration not at start" in message:
         return (
-            "<?xml ...?> must be the very first thing in the file: nothing may stand before it, not even a "
+            "<?xml ...?> must be the very first thing in the file: nothing may precede it, not even a "
             "blank line"
         )
     return f"this is not XML: {message} at column {column + 1}"

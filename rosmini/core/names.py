@@ -321,7 +321,7 @@ def _yaml(argument: str, text: str) -> Any:
 
     found = [value for value, _ in documents(text, argument, failure)]
     if len(found) > 1:
-        raise failure(f"it has {len(found)} YAML documents, and is to be one value", argument, None)
+        raise failure(f"it has {len(found)} YAML documents, but must be a single value", argument, None)
     return found[0] if found else None
 
 

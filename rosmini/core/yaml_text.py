@@ -19,10 +19,10 @@ from rosmini.core.collisions import collide
 
 __all__ = ["Loader", "children", "documents", "line_of"]
 
-MOST = 100_000
+MAX_VALUES = 100_000
 """Maximum number of values in a document, with aliases expanded."""
 
-LONGEST_NUMBER = 1000
+MAX_DIGITS = 1000
 """Maximum length of a number [characters]."""
 
 Failure = Callable[[str, str, int | None], Exception]
@@ -73,9 +73,9 @@ class Loader(Composer, SafeConstructor, Resolver):
     def compose_node(self, parent: Any, index: Any) -> Any:
         """Compose one node, and count it."""
         self.made += 1
-        if self.made > MOST:
+        if self.made > MAX_VALUES:
             mark = self.peek_event().start_mark
-            raise yaml.MarkedYAMLError(problem=f"more than {MOST} values", problem_mark=mark)
+            raise yaml.MarkedYAMLError(problem=f"more than {MAX_VALUES} values", problem_mark=mark)
         return super().compose_node(parent, index)
 
     def construct_object(self, node: Any, deep: bool = False) -> Any:
@@ -106,7 +106,7 @@ class Loader(Composer, SafeConstructor, Resolver):
 
     def construct_yaml_int(self, node: Any) -> Any:
         """Construct an integer."""
-        if len(node.value) > LONGEST_NUMBER:
+        if len(node.value) > MAX_DIGITS:
             raise yaml.MarkedYAMLError(problem="a number of too many digits", problem_mark=node.start_mark)
         return super().construct_yaml_int(node)
 
@@ -180,9 +180,9 @@ def _refuse_endless(node: yaml.Node, source: str, failure: Failure) -> None:
             open_nodes.discard(id(part))
         return sizes[id(part)]
 
-    if size(node) > MOST:
+    if size(node) > MAX_VALUES:
         raise failure(
-            f"this document has {size(node)} values with its aliases; {MOST} are allowed",
+            f"this document has {size(node)} values with its aliases; {MAX_VALUES} are allowed",
             source,
             line_of(node),
         )

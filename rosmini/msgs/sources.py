@@ -8,7 +8,7 @@ from rosmini.core.errors import DefinitionError
 from rosmini.core.files import read
 from rosmini.core.packages import PackageIndex, assets_dir, reconfigure_modules, search_paths
 
-from .definition import LONGEST_TEXT
+from .definition import MAX_TEXT
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -70,7 +70,7 @@ class PackageSource:
         if path is None:
             return None
         try:
-            text = read(path, LONGEST_TEXT).decode("utf-8")
+            text = read(path, MAX_TEXT).decode("utf-8")
         except OSError as error:
             raise DefinitionError(f"the file cannot be read: {error.strerror}", path) from error
         except UnicodeDecodeError as error:

@@ -12,7 +12,7 @@ from pathlib import Path
 from rosmini.core.errors import DefinitionError, RosminiError, UnknownPackage, nearest
 from rosmini.core.packages import BUILT_IN, Package, PackageIndex, Stack
 
-LONGEST_ANSWER = 10_000
+MAX_LINES = 10_000
 """Maximum number of lines of an answer that can grow exponentially with the number of packages."""
 
 
@@ -121,35 +121,35 @@ class Dependencies:
         return sorted(found), broken
 
     def tree(self, name: str) -> list[str]:
-        """Return the dependencies of ``name`` as an indented tree of at most `LONGEST_ANSWER` lines."""
+        """Return the dependencies of ``name`` as an indented tree of at most `MAX_LINES` lines."""
         lines: list[str] = []
-        for way in self._ways(name):
-            lines.append("  " * (len(way) - 2) + way[-1])
-            if len(lines) >= LONGEST_ANSWER:
+        for path in self._paths(name):
+            lines.append("  " * (len(path) - 2) + path[-1])
+            if len(lines) >= MAX_LINES:
                 break
         return lines
 
     def chains(self, name: str, target: str) -> list[list[str]]:
-        """Return all chains of dependencies from ``name`` to ``target``, at most `LONGEST_ANSWER`."""
+        """Return all chains of dependencies from ``name`` to ``target``, at most `MAX_LINES`."""
         able = {target, *self.dependents(target, direct=False)[0]}
         found: list[list[str]] = []
-        for way in self._ways(name, able):
-            if way[-1] == target:
-                found.append(way)
-            if len(found) >= LONGEST_ANSWER:
+        for path in self._paths(name, able):
+            if path[-1] == target:
+                found.append(path)
+            if len(found) >= MAX_LINES:
                 break
         return found
 
-    def _ways(self, name: str, within: set[str] | None = None) -> Iterator[list[str]]:
+    def _paths(self, name: str, within: set[str] | None = None) -> Iterator[list[str]]:
         """Yield every path from ``name`` along its dependencies, depth first."""
-        way = [name]
+        path = [name]
         waiting = [iter(self.direct(name))]
         while waiting:
             child = next(waiting[-1], None)
             if child is None:
                 waiting.pop()
-                way.pop()
-            elif child not in way and (within is None or child in within):
-                way.append(child)
-                yield list(way)
+                path.pop()
+            elif child not in path and (within is None or child in within):
+                path.append(child)
+                yield list(path)
                 waiting.append(iter(self.direct(child)))

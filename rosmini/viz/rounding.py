@@ -12,7 +12,7 @@ from decimal import ROUND_HALF_UP, Decimal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.core.geometry.polygons import needed
+from rosmini.core.geometry.polygons import simplified_indices
 
 MILLIMETRE = 1e-3
 """To what pictures of a world are rounded [m]: a tenth of a pixel, at most."""
@@ -47,7 +47,7 @@ def snap(values: ArrayLike, quantum: float = MILLIMETRE) -> NDArray[np.float64]:
 def kept(points: NDArray[np.float64], tolerance: float) -> list[int]:
     """Which points of a line (n, 2) are enough to draw it: none of the others is further away than `tolerance`.
 
-    The ends stay; see `rosmini.core.geometry.polygons.needed`.
+    The ends stay; see `rosmini.core.geometry.polygons.simplified_indices`.
     """
 
     def gaps(first: int, last: int) -> NDArray[np.float64]:
@@ -59,4 +59,4 @@ def kept(points: NDArray[np.float64], tolerance: float) -> list[int]:
         )
         return np.asarray(np.hypot(*(between - along[:, None] * chord).T))
 
-    return needed([0, len(points) - 1], gaps, tolerance)
+    return simplified_indices([0, len(points) - 1], gaps, tolerance)

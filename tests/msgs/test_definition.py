@@ -76,11 +76,11 @@ def test_a_service_is_two_messages_and_an_action_seven() -> None:
         ("int32 a\nint32\n", 2, "a field is 'type name', this has one word"),
         ("int32 a b\n", 1, "this has 3 words"),
         ("int32\ta\n", 1, "by a space, not by a tab"),
-        ("int32 2a\n", 1, "'2a' is no field name"),
+        ("int32 2a\n", 1, "'2a' is not a field name"),
         ("int32 a\n# fine\nfloat64 a\n", 3, "'a' is declared twice, first in line 1"),
         ("int32 A=1\nint32 A\n", 2, "'A' is declared twice"),
         ("int32[<=3] a\n", 1, "exist in ROS 2 only"),
-        ("int32[3][2] a\n", 1, "is no type"),
+        ("int32[3][2] a\n", 1, "is not a type"),
         ("int8 X=128\n", 1, "128 does not fit into int8 (-128 to 127)"),
         ("uint64 X=18446744073709551616\n", 1, "does not fit into uint64"),
         ("int8 X=1.5\n", 1, "'1.5' is no int8 value"),
@@ -107,7 +107,7 @@ def test_a_broken_message_is_reported_with_its_line(text: str, line: int, words:
     [
         ("int64 a\n", 2, "a line '---' is missing"),
         ("int64 a\n---\n---\n", 3, "one line '---' too many"),
-        ("int64 a\n---\nint64 b\nint64 2\n", 4, "no field name"),
+        ("int64 a\n---\nint64 b\nint64 2\n", 4, "not a field name"),
     ],
 )
 def test_a_broken_service_is_reported_with_its_line_in_the_file(text: str, line: int, words: str) -> None:
@@ -119,7 +119,7 @@ def test_a_broken_service_is_reported_with_its_line_in_the_file(text: str, line:
 def test_a_broken_action_is_reported_with_its_line_in_the_file() -> None:
     with pytest.raises(DefinitionError, match="is missing"):
         split_action("int32 a\n---\nint32 b\n", "my_msgs/Do", "Do.action")
-    with pytest.raises(DefinitionError, match="no field name") as caught:
+    with pytest.raises(DefinitionError, match="not a field name") as caught:
         split_action("int32 a\n---\nint32 b\n---\nint32 c!\n", "my_msgs/Do", "Do.action")
     assert caught.value.line == 5
 

@@ -106,7 +106,7 @@ def test_a_workspace_on_the_package_path(
     from own_msgs.msg import Pair
 
     assert Pair(a=3).b.data == ""
-    with pytest.raises(DefinitionError, match=r"Bad\.msg:2.*no field name"):
+    with pytest.raises(DefinitionError, match=r"Bad\.msg:2.*not a field name"):
         run("from own_msgs.msg import Bad")
 
 

@@ -11,7 +11,7 @@ import pytest
 from rosmini.core.errors import DefinitionError, DeserializationError, UnknownType
 from rosmini.msgs import define_action, define_message, define_service, message_class
 from rosmini.msgs.codegen import source
-from rosmini.msgs.definition import LONGEST_TEXT, parse_message
+from rosmini.msgs.definition import MAX_TEXT, parse_message
 from rosmini.msgs.limits import MAX_DEPTH, MAX_EMPTY, MAX_FIELDS
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def test_what_is_no_name_is_the_name_of_nothing(name: str) -> None:
     texts = ["int32 a\n", "int32 a\n---\n", "int32 a\n---\n---\n"]
     for make, text in zip(define, texts, strict=True):
         for kind in (f"pkg/{name}", f"{name}/Type"):
-            with pytest.raises(DefinitionError, match="is no name of a type: it is written package/Type"):
+            with pytest.raises(DefinitionError, match="is not a type name: write package/Type"):
                 make(kind, text)
     with pytest.raises(UnknownType, match="is no message type: it is written package/Type"):
         message_class(f"pkg/{name}")
@@ -127,7 +127,7 @@ def test_a_type_that_is_too_large_names_the_field(
 
 def test_a_file_that_is_no_definition_is_not_read(make_registry: Any, tmp_path: Path) -> None:
     reg = make_registry(
-        {"my_msgs/msg/Long.msg": "#" * (LONGEST_TEXT + 1), "my_msgs/msg/Dos.msg": "int32 a\r\nstring B=x\r\n"}
+        {"my_msgs/msg/Long.msg": "#" * (MAX_TEXT + 1), "my_msgs/msg/Dos.msg": "int32 a\r\nstring B=x\r\n"}
     )
     with pytest.raises(
         DefinitionError, match=r"Long\.msg: the file cannot be read: it has more than 1.0\d+ MB"
@@ -162,7 +162,7 @@ def test_empty_messages_on_the_wire_are_counted(make_registry: Any) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "#" * LONGEST_TEXT + "\n",
+        "#" * MAX_TEXT + "\n",
         "int32 " + "a" * 100_000,
         "a" * 100_000 + " x",
         "int32 X=" + "9" * 100_000,

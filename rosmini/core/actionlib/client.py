@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ActionClient", "ClientGoalHandle"]
 
-LOOK_NS = 10_000_000
-LOOKS = 100
+POLL_NS = 10_000_000
+MAX_POLLS = 100
 """Interval [ns] and maximum number of the checks whether a server counts a client among its subscribers."""
 
 
@@ -294,11 +294,11 @@ class ActionClient:
         result of a goal that ended at once.
         """
         scheduler = self.node.scheduler
-        for _ in range(LOOKS):
+        for _ in range(MAX_POLLS):
             if not self._connected() or self._is_counted():
                 break
             scheduler.sleep_until(
-                scheduler.now_ns() + LOOK_NS, f"the action server of {self.ns} to count its clients"
+                scheduler.now_ns() + POLL_NS, f"the action server of {self.ns} to count its clients"
             )
         return self._connected()
 

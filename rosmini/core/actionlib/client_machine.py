@@ -56,8 +56,8 @@ _TABLE = """
 
 CLIENT_TRANSITIONS: dict[CommState, dict[Status, tuple[CommState, ...] | None]] = {
     CommState[row.split()[0]]: {
-        status: None if way == "!" else tuple(_LETTERS[letter] for letter in way if letter != "-")
-        for status, way in zip(_HEARD, row.split()[1:], strict=True)
+        status: None if states == "!" else tuple(_LETTERS[letter] for letter in states if letter != "-")
+        for status, states in zip(_HEARD, row.split()[1:], strict=True)
     }
     for row in _TABLE.strip().splitlines()
 }
@@ -82,15 +82,15 @@ def path(state: CommState, status: int) -> tuple[CommState, ...]:
     if status not in row:
         known = ", ".join(f"{one.value} {one.name}" for one in _HEARD)
         raise IllegalTransition(
-            f"the server told the status {Status.to_string(status)}, which no server may: there are {known}"
+            f"the server sent the status {Status.to_string(status)}, which is not valid; valid are {known}"
         )
-    way = row[Status(status)]
-    if way is None:
+    states = row[Status(status)]
+    if states is None:
         raise IllegalTransition(
-            f"the server says that the goal is {Status(status).name}, and the client was {state.name} already: "
-            "that order cannot be. Do two servers, or two nodes of one name, answer on the same topics?"
+            f"the server reports the goal as {Status(status).name}, but the client was already {state.name}: "
+            "this order is not possible. Do two servers, or two nodes of the same name, use these topics?"
         )
-    return way
+    return states
 
 
 class ClientMachine:

@@ -35,10 +35,10 @@ STATUS_HZ = 5.0
 STATUS_LIST_TIMEOUT = 5.0
 """How long a finished goal stays in the list [s], so that every client learns of its end."""
 
-SHARE = 16
+BATCH_DIVISOR = 16
 """A list of n goals is published after n/16 changes at most; after each change if no other work is due."""
 
-STALE = "it was sent at or before the time up to which goals were cancelled"
+CANCELLED_BEFORE = "it was sent at or before the time up to which goals were cancelled"
 """Text for a goal that arrives after it was cancelled."""
 
 
@@ -155,7 +155,7 @@ class ActionServer:
         node = self.node
         old = f"{self.ns}/status_frequency"
         if node.has_param(old):
-            node.logwarn(f"the parameter {old} is out of use: set actionlib_status_frequency instead")
+            node.logwarn(f"the parameter {old} is deprecated: set actionlib_status_frequency instead")
             return float(node.get_param(old, expect=float))
         found = node.search_param("actionlib_status_frequency")
         return STATUS_HZ if found is None else float(node.get_param(found, expect=float))
@@ -198,7 +198,7 @@ class ActionServer:
         has changed, the cost per goal does not depend on the number of goals.
         """
         self._unpublished += 1
-        if self._unpublished * SHARE >= len(self.status_list):
+        if self._unpublished * BATCH_DIVISOR >= len(self.status_list):
             self.publish_status()
         elif not self._catching_up:
             self._catching_up = True
@@ -266,7 +266,7 @@ class ActionServer:
         handle = tracker.handle_tracker = self._handle(tracker)
         stamp = action_goal.goal_id.stamp
         if stamp and stamp <= self.last_cancel:
-            handle.set_canceled(None, STALE)
+            handle.set_canceled(None, CANCELLED_BEFORE)
         else:
             self.node.guarded(self.goal_callback, handle, what=f"a goal of {self.ns}")
 

@@ -93,7 +93,7 @@ class SimpleActionClient:
         Returns False after ``timeout`` (None or 0: no limit).
         """
         if self.gh is None:
-            self._complain("wait_for_result() was called, and no goal was sent")
+            self._complain("wait_for_result() was called before any goal was sent")
             return False
         waiter = self.node.waiter(f"the result of {self.gh.id} from {self.action_client.ns}")
         self._waiting.append(waiter)
@@ -105,7 +105,7 @@ class SimpleActionClient:
     def get_result(self) -> Any:
         """Return the goal's result, or None if it has not arrived."""
         if self.gh is None:
-            self._complain("get_result() was called, and no goal was sent")
+            self._complain("get_result() was called before any goal was sent")
             return None
         return self.gh.get_result()
 
@@ -122,8 +122,8 @@ class SimpleActionClient:
     def get_goal_status_text(self) -> str:
         """Return the server's explanation of the goal's status."""
         if self.gh is None:
-            self._complain("get_goal_status_text() was called, and no goal was sent")
-            return "ERROR: get_goal_status_text() was called, and no goal was sent"
+            self._complain("get_goal_status_text() was called before any goal was sent")
+            return "ERROR: get_goal_status_text() was called before any goal was sent"
         return self.gh.get_goal_status_text()
 
     # -- cancelling ----------------------------------------------------------------------------------------------

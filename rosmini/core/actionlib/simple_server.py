@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 __all__ = ["SimpleActionServer"]
 
-BUMPED = "This goal was canceled because another goal was received by the simple action server"
+PREEMPTED_TEXT = "This goal was canceled because another goal was received by the simple action server"
 """Text for a goal that the server cancels itself, as in the original."""
 
-ACCEPTED = "This goal has been accepted by the simple action server"
+ACCEPTED_TEXT = "This goal has been accepted by the simple action server"
 """Text for an accepted goal, as in the original."""
 
 
@@ -127,14 +127,14 @@ class SimpleActionServer:
         new, old = self.next_goal, self.current_goal
         if not self.new_goal:
             self._complain(
-                "accept_new_goal() was called, and no new goal is there: ask is_new_goal_available()"
+                "accept_new_goal() was called, but no goal is waiting: check is_new_goal_available()"
             )
             return None
         if old != new and self.is_active():
-            old.set_canceled(None, BUMPED)
+            old.set_canceled(None, PREEMPTED_TEXT)
         self.current_goal, self.new_goal = new, False
         self.preempt_request, self.new_goal_preempt_request = self.new_goal_preempt_request, False
-        new.set_accepted(ACCEPTED)
+        new.set_accepted(ACCEPTED_TEXT)
         return new.get_goal()
 
     # -- ending the current goal ---------------------------------------------------------------------------------
@@ -161,7 +161,7 @@ class SimpleActionServer:
 
     def _current(self, step: str, *arguments: Any) -> None:
         if self.current_goal.goal is None:
-            self._complain(f"{step}() was called, and no goal was accepted")
+            self._complain(f"{step}() was called before a goal was accepted")
         else:
             getattr(self.current_goal, step)(*arguments)
 
@@ -178,10 +178,10 @@ class SimpleActionServer:
         stamp = goal.get_goal_id().stamp
         rivals = [other for other in (self.current_goal, self.next_goal) if other.goal is not None]
         if any(stamp < other.get_goal_id().stamp for other in rivals):
-            goal.set_canceled(None, BUMPED)  # it was sent before the present goal, but arrived later
+            goal.set_canceled(None, PREEMPTED_TEXT)  # it was sent before the present goal, but arrived later
             return
         if self.next_goal.goal is not None and self.next_goal != self.current_goal:
-            self.next_goal.set_canceled(None, BUMPED)
+            self.next_goal.set_canceled(None, PREEMPTED_TEXT)
         self.next_goal, self.new_goal, self.new_goal_preempt_request = goal, True, False
         if self.is_active():
             self._request_preemption()
@@ -225,7 +225,7 @@ class SimpleActionServer:
             return
         if self.is_active() and self.current_goal is handle:
             self.node.logwarn(
-                f"the execute callback of {self.action_server.ns} returned and has not said how the goal ended: it is "
+                f"the execute callback of {self.action_server.ns} returned without setting how the goal ended: it is "
                 "ABORTED. End it with set_succeeded(), set_aborted() or set_preempted()."
             )
             self._abort(handle, "No terminal state was set.")

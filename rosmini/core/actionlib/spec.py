@@ -124,7 +124,7 @@ class StatusTracker:
 
 Timeout = float | Duration | None
 """Seconds; None and zero (rospy's default) mean no limit."""
-AFTER_NS = 10_000_000
+WAIT_AFTER_SHUTDOWN_NS = 10_000_000
 """Duration of a wait on a node that has been shut down [ns]."""
 
 
@@ -138,8 +138,8 @@ def wait_on(node: Node, waiter: Waiter, timeout: Timeout, holds: Callable[[], bo
     """Block until ``waiter`` is woken, for at most ``timeout`` of the node's time; return ``holds()``.
 
     If the node shuts down meanwhile, the wait ends, as in rospy, and returns ``holds()``. A wait that begins after
-    the shutdown lasts ``AFTER_NS``: a loop around it (``while not client.wait_for_server(timeout)``) does not see the
-    shutdown of its node, and the thread that ends the loop needs a turn.
+    the shutdown lasts ``WAIT_AFTER_SHUTDOWN_NS``: a loop around it (``while not client.wait_for_server(timeout)``)
+    does not see the shutdown of its node, and the thread that ends the loop needs a turn.
     """
     is_over = node.is_shutdown()
     seconds = seconds_of(timeout)
@@ -152,7 +152,7 @@ def wait_on(node: Node, waiter: Waiter, timeout: Timeout, holds: Callable[[], bo
             node.wait(waiter)
     except ROSInterruptException:
         if is_over:
-            node.scheduler.waiter(f"the end of {node.name}").wait(AFTER_NS)
+            node.scheduler.waiter(f"the end of {node.name}").wait(WAIT_AFTER_SHUTDOWN_NS)
         return holds()
     finally:
         if cancel is not None:

@@ -163,7 +163,7 @@ class Client:
         description = self.description
         if description is None:
             raise DynamicReconfigureCallbackException(
-                f"{self.name} has not described its parameters, and the node shuts down"
+                f"{self.name} has not described its parameters, and the node is shutting down"
             )
         values = {
             name: _converted(description[name], value) for name, value in changes.items() if name != "groups"
@@ -226,5 +226,5 @@ def _converted(parameter: ReconfigurableParameter, value: Any) -> Any:
         return kind(value)
     except (TypeError, ValueError, OverflowError) as error:
         raise DynamicReconfigureParameterException(
-            f"parameter {parameter.name} is of the type {parameter.type}, and {value!r} cannot become one: {error}"
+            f"parameter {parameter.name} has the type {parameter.type}; {value!r} cannot be converted to it: {error}"
         ) from error

@@ -223,7 +223,7 @@ def _group_of(tree: Mapping[str, Any], numbers: _Numbers, parent: int = 0) -> Pa
         )
     except (KeyError, TypeError, AttributeError) as error:
         raise DynamicReconfigureParameterException(
-            f"the description of the group {tree.get('name', 'Default')!r} is not as dynamic_reconfigure writes it: "
+            f"the description of the group {tree.get('name', 'Default')!r} does not have dynamic_reconfigure's form: "
             f"{type(error).__name__}: {error}"
         ) from error
 
@@ -310,8 +310,8 @@ def _group_of_fields(source: type[Parameters]) -> ParameterGroup:
         kind = _KIND_OF.get(python)
         if kind is None:
             raise DynamicReconfigureParameterException(
-                f"{source.__name__}.{declared.name} may be {python}; what is reconfigured is one of "
-                f"{', '.join(one.__name__ for one in _KIND_OF)}, and always has a value"
+                f"{source.__name__}.{declared.name} may be {python}; a reconfigurable parameter is one of "
+                f"{', '.join(one.__name__ for one in _KIND_OF)}, and cannot be None"
             )
         bounds = [
             None if about[bound] is None else KINDS[kind](about[bound]) for bound in ("minimum", "maximum")

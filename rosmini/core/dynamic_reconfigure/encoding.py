@@ -133,7 +133,7 @@ def decode_description(message: Any) -> Description:
     roots = [group for group in message.groups if group.id == 0]
     if not roots:
         raise DynamicReconfigureParameterException(
-            "the server describes no group with the number 0, in which all others are"
+            "the server's description has no group 0, which contains all others"
         )
     try:
         return Description(build(roots[0]))

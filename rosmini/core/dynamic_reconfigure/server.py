@@ -107,8 +107,8 @@ class Server:
         answer = self.callback(copy.deepcopy(self._config(values, states)), level)
         if answer is None:
             raise DynamicReconfigureCallbackException(
-                f"the callback of the parameters of {self.node.name} returned nothing: it has to return the "
-                "configuration, changed or as it was"
+                f"the parameter callback of {self.node.name} returned nothing: it must return the "
+                "configuration, changed or not"
             )
         unknown = next((name for name in answer if name != "groups" and name not in values), None)
         if unknown is not None:
@@ -159,8 +159,7 @@ class Server:
         me = self.node.scheduler.current()
         if self._owner is me:
             raise DynamicReconfigureCallbackException(
-                "the callback of a server cannot call update_configuration: it returns the configuration that is to "
-                "hold"
+                "the callback of a server cannot call update_configuration: it must return the new hold"
             )
         while self._owner is not None:
             waiter = self.node.waiter("another change of parameters to be done")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from typing import Any
 
-from rosmini.core.collisions import MOST, collide
+from rosmini.core.collisions import MAX_COLLISIONS, collide
 from rosmini.core.errors import RosminiError
 
 BITS = 4096
@@ -104,7 +104,7 @@ class Budget:
     def unique(self, keys: Collection[Any]) -> Collection[Any]:
         """Return the keys of a set or dictionary. Raises `NotAllowed` if many of them have the same hash."""
         if collide(keys):
-            raise NotAllowed(f"a set or a dictionary with more than {MOST} keys of the same hash")
+            raise NotAllowed(f"a set or a dictionary with more than {MAX_COLLISIONS} keys of the same hash")
         return keys
 
     def room(self, size: int) -> None:

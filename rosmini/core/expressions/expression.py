@@ -381,7 +381,7 @@ def _tree(text: str) -> ast.expr:
             return ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         reason = error.msg if isinstance(error, SyntaxError) else str(error) or "nested too deep"
-        raise ExpressionError(f"this is no Python expression: {reason}") from error
+        raise ExpressionError(f"this is not a Python expression: {reason}") from error
 
 
 def _look_up(name: str, names: Mapping[str, Any], functions: Mapping[str, Any]) -> Any:
@@ -393,5 +393,5 @@ def _look_up(name: str, names: Mapping[str, Any], functions: Mapping[str, Any]) 
 
 def _callable(value: Any, name: str) -> Function:
     if not isinstance(value, Function):
-        raise NotAllowed(f"{name} is no function that may be called")
+        raise NotAllowed(f"{name} is not a function that can be called")
     return value

@@ -14,10 +14,10 @@ from rosmini.core.errors import nearest, shown
 
 from .budget import BITS, STEPS, Budget, NotAllowed, check_bits, cut, weight
 
-WIDEST = 2000
+MAX_NUMBER_WIDTH = 2000
 """Maximum length of a formatted number: width and precision have at most three digits, the value `BITS`."""
 
-MOST_DIGITS = 400
+MAX_ROUND_DIGITS = 400
 """Maximum number of digits for ``round``; floating-point numbers have fewer."""
 
 _OPERATORS = (
@@ -71,7 +71,7 @@ brackets, the type is ``(``."""
 def _pay_for_format(text: str | bytes, values: Any, budget: Budget) -> None:
     """Charge for a format: ``'%1000000000d' % 1`` and ``'%(a)s' * 10**5 % {'a': 'a' * 10**4}`` are huge."""
     found = text if isinstance(text, str) else text.decode("latin-1")
-    budget.room(len(found) + found.count("%") * (WIDEST + weight(budget.made(values))))
+    budget.room(len(found) + found.count("%") * (MAX_NUMBER_WIDTH + weight(budget.made(values))))
     for conversion in _CONVERSION.finditer(found):
         width, precision, kind = conversion.groups("")
         if "*" in (width, precision) or len(width) > 3 or len(precision) > 3:
@@ -129,7 +129,7 @@ def _sum(values: Iterable[Any], start: Any = 0) -> Any:
 
 
 def _round(value: Any, digits: int | None = None) -> Any:
-    if digits is not None and abs(digits) > MOST_DIGITS:
+    if digits is not None and abs(digits) > MAX_ROUND_DIGITS:
         raise NotAllowed(f"round() to {digits} digits")
     return round(value, digits)
 

@@ -52,16 +52,18 @@ def distances(points: Floats, sides: Floats) -> Floats:
 
 def each_distance(points: Floats, sides: Floats) -> Floats:
     """Return the distance [m] from each of the points (n, 2) to each of `sides` (m, 4), as (n, m)."""
-    begin, way = sides[:, :2], sides[:, 2:] - sides[:, :2]
-    squares = (way * way).sum(axis=1)
+    begin, direction = sides[:, :2], sides[:, 2:] - sides[:, :2]
+    squares = (direction * direction).sum(axis=1)
     offset = points[:, None, :] - begin
-    along = np.clip((offset * way).sum(axis=2) / np.where(squares > 0, squares, 1.0), 0.0, 1.0)
-    gaps = offset - along[..., None] * way
+    along = np.clip((offset * direction).sum(axis=2) / np.where(squares > 0, squares, 1.0), 0.0, 1.0)
+    gaps = offset - along[..., None] * direction
     lengths: Floats = np.hypot(gaps[..., 0], gaps[..., 1])
     return lengths
 
 
-def needed(fixed: Sequence[int], gaps: Callable[[int, int], Floats], tolerance: float) -> list[int]:
+def simplified_indices(
+    fixed: Sequence[int], gaps: Callable[[int, int], Floats], tolerance: float
+) -> list[int]:
     """Return the indices of the points needed to draw a line within `tolerance` of the others, including `fixed`.
 
     `gaps(first, last)` returns the distances between the points between two indices and the line drawn without them
@@ -88,13 +90,13 @@ def crossing_sides(outline: Floats) -> tuple[int, int] | None:
     count = len(outline)
     ends = np.roll(outline, -1, axis=0)
     for first in range(count):
-        way, following = ends[first] - outline[first], ends[(first + 1) % count] - ends[first]
+        direction, following = ends[first] - outline[first], ends[(first + 1) % count] - ends[first]
         if (
-            _cross(way, following) == 0 and scalar_product(way, following) <= 0
+            _cross(direction, following) == 0 and scalar_product(direction, following) <= 0
         ):  # back along the same line, or a side of length 0
             return first, (first + 1) % count
         others = slice(first + 2, count - (first == 0))
-        meeting = np.flatnonzero(_meet(outline[first], ends[first], outline[others], ends[others]))
+        meeting = np.flatnonzero(_intersects(outline[first], ends[first], outline[others], ends[others]))
         if len(meeting):
             return first, first + 2 + int(meeting[0])
     return None
@@ -171,7 +173,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
     return product
 
 
-def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> NDArray[np.bool_]:
+def _intersects(a: Floats, b: Floats, c: Floats, d: Floats) -> NDArray[np.bool_]:
     """Return which of the segments c d (n, 2) have a point in common with the segment a b."""
     c_side, d_side, a_side, b_side = (
         _cross(b - a, c - a),

@@ -116,8 +116,8 @@ class GridMap:
         cells = np.array(message.data, dtype=np.int8)
         if len(cells) != info.width * info.height or not len(cells):
             raise MapDataError(
-                f"a map of {info.width} x {info.height} cells has to have {info.width * info.height} of them, more "
-                f"than none, and its message has {len(cells)}"
+                f"a map of {info.width} x {info.height} cells needs {info.width * info.height} of them, at least "
+                f"1, but its message has {len(cells)}"
             )
         position, q = info.origin.position, info.origin.orientation
         yaw = yaw_from_quaternion(q.x, q.y, q.z, q.w) if any((q.x, q.y, q.z, q.w)) else 0.0
@@ -125,7 +125,7 @@ class GridMap:
         if not (resolution > 0 and all(map(math.isfinite, (resolution, position.x, position.y, yaw)))):
             raise MapMetadataError(
                 f"the map's cells are {resolution} m wide and its origin is ({position.x}, {position.y}, {yaw}): "
-                "these have to be finite numbers, and a cell wider than 0"
+                "these must be finite, and the width positive"
             )
         cells.flags.writeable = False
         return cls(cells.reshape(info.height, info.width), resolution, (position.x, position.y, yaw))

@@ -267,7 +267,7 @@ def _number(document: _Document, name: str, value: object) -> float:
 
 
 def _wrong(document: _Document, name: str, value: object, wanted: str) -> MapMetadataError:
-    said = f"{document.place(name)}: the field {name!r} is {shown(value)}; it has to be {wanted}"
+    said = f"{document.place(name)}: the field {name!r} is {shown(value)}; it must be {wanted}"
     return MapMetadataError(said, name)
 
 

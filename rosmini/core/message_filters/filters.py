@@ -22,7 +22,7 @@ def check_size(name: str, size: Any) -> int:
     """Return ``size``. Raises ``MessageFilterError`` unless it is an integer of at least 1."""
     if isinstance(size, bool) or not isinstance(size, int) or size < 1:
         raise MessageFilterError(
-            f"{name} is {size!r}; give a whole number of messages, at least 1: a filter that keeps none has no output"
+            f"{name} is {size!r}; give an integer of at least 1: without messages a filter has no output"
         )
     return size
 
@@ -75,7 +75,7 @@ class StampingFilter(SimpleFilter):
         if node is None:
             node = next((one.node for one in inputs if one.node is not None), None)
         self.node = node
-        self._complained: set[type] = set()
+        self._warned_types: set[type] = set()
 
     def _stamp(self, message: Any) -> Time | None:
         """Return a message's stamp; without a header, return the current time if allowed, else warn and return None."""
@@ -84,8 +84,8 @@ class StampingFilter(SimpleFilter):
             return stamp
         if self.allow_headerless:
             return self._now()
-        if type(message) not in self._complained:
-            self._complained.add(type(message))
+        if type(message) not in self._warned_types:
+            self._warned_types.add(type(message))
             self._warn(
                 f"messages of type {getattr(message, '_type', type(message).__name__)} have no header, and "
                 f"{type(self).__name__} drops them. ApproximateTimeSynchronizer and Cache take the time of arrival "
@@ -99,7 +99,7 @@ class StampingFilter(SimpleFilter):
     def _now(self) -> Time:
         if self.node is None:
             raise MessageFilterError(
-                f"{type(self).__name__} has to know the time, and none of its inputs belongs to a node: give node="
+                f"{type(self).__name__} needs the time, but none of its inputs belongs to a node: pass node="
             )
         return self.node.now()
 

@@ -39,15 +39,15 @@ class Policy(ABC):
         self.queue_size = check_size("queue_size", queue_size)
         self.reset = reset
         self.queues: list[Queue] = [{} for _ in range(count)]
-        self._heard = [0] * count
+        self._arrivals = [0] * count
         self._last = 0
 
     def add(self, index: int, stamp: int, message: Any, now: int = 0) -> list[tuple[Any, ...]]:
         """Add a message of input ``index``, received at ``now``; return the sets that it completes, oldest first."""
         queue = self.queues[index]
-        if self.reset and now < self._heard[index]:
+        if self.reset and now < self._arrivals[index]:
             queue.clear()
-        self._heard[index] = now
+        self._arrivals[index] = now
         queue[stamp] = message
         if self._forgets_all and now < self._last:
             for each in self.queues:
@@ -55,7 +55,7 @@ class Policy(ABC):
         self._last = now
         while len(queue) > self.queue_size:
             del queue[min(queue)]
-        if self.reset and max(self._heard) != now:
+        if self.reset and max(self._arrivals) != now:
             return []
         return [
             tuple(waiting.pop(when) for waiting, when in zip(self.queues, stamps, strict=True))
@@ -96,7 +96,7 @@ class ApproximateTime(Policy):
         super().__init__(count, queue_size, reset=reset)
         if not slop > 0:
             raise MessageFilterError(
-                f"slop is {slop / 1e9} s; it has to be positive, and stamps less than that apart match. "
+                f"slop is {slop / 1e9} s; it must be positive: stamps that differ by less match. "
                 "Use TimeSynchronizer for stamps that are equal"
             )
         self.slop = slop

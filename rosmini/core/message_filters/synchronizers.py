@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 
-UNSTAMPED = 10
+MAX_UNSTAMPED = 10
 """Number of messages of an input with the stamp 0, without any other, after which a warning is logged."""
 
 
@@ -75,7 +75,7 @@ class TimeSynchronizer(StampingFilter):
         self.queues = [StampedQueue(queue) for queue in policy.queues]
         """The waiting messages of each input, by stamp."""
         self._ready: deque[tuple[Any, ...]] = deque()
-        self._giving = False
+        self._is_outputting = False
         self._unstamped: list[int | None] = [0] * len(filters)
         """Number of messages of each input, all with the stamp 0; None after another stamp, or after the warning."""
         self.connectInput(filters)
@@ -100,42 +100,42 @@ class TimeSynchronizer(StampingFilter):
         stamp = self._stamp(msg)
         if stamp is None:
             return
-        self._look_at_stamp(index, stamp)
+        self._check_stamp(index, stamp)
         now = self._now().to_nsec() if self._knows_time() or self.policy.reset else 0
         self._ready.extend(self.policy.add(index, stamp.to_nsec(), msg, now))
-        self._give_out()
+        self._output_ready()
 
-    def _look_at_stamp(self, index: int, stamp: Time) -> None:
+    def _check_stamp(self, index: int, stamp: Time) -> None:
         """Warn once if all messages of an input have the stamp 0, as they do not match others."""
         count = self._unstamped[index]
         if count is None or not self._knows_time():
             return
         self._unstamped[index] = None if stamp else count + 1
-        if self._unstamped[index] == UNSTAMPED:
+        if self._unstamped[index] == MAX_UNSTAMPED:
             self._unstamped[index] = None
             self._warn(
-                f"{type(self).__name__}: all {UNSTAMPED} messages of input {index} have the stamp 0, which other "
+                f"{type(self).__name__}: all {MAX_UNSTAMPED} messages of input {index} have the stamp 0, which other "
                 "messages do not match. Their publisher has to set header.stamp, for example to rospy.Time.now()."
             )
 
-    def _give_out(self) -> None:
+    def _output_ready(self) -> None:
         """Call the callbacks for all complete sets; does nothing if called again while a callback blocks."""
-        if self._giving:
+        if self._is_outputting:
             return
-        self._giving = True
+        self._is_outputting = True
         try:
             while self._ready:
                 self._signal(self._ready.popleft())
         finally:
-            self._giving = False
+            self._is_outputting = False
 
     def _signal(self, messages: tuple[Any, ...]) -> None:
         """Call the callbacks for one set; if one raises, still output the sets after it."""
         try:
             self.signalMessage(*messages)
         except Exception:
-            self._giving = False
-            self._give_out()
+            self._is_outputting = False
+            self._output_ready()
             raise
 
 

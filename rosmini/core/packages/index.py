@@ -227,7 +227,7 @@ class PackageIndex:
         there = self.executables(package)
         guess = nearest(name, there)
         if not there:
-            hint = "the package has no executables; scripts belong into its folder scripts"
+            hint = "the package has no executables; put scripts into its folder scripts"
         else:
             hint = guess or f"the package has: {', '.join(there)}"
         below = f" below {folder}" if folder is not None else ""

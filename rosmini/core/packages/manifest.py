@@ -117,7 +117,7 @@ def read_package(folder: Path) -> Package:
     read_heading(manifest)  # check that it is harmless XML
     data = _read(manifest)
     if data.count(b"<") > MOST_TAGS:
-        raise DefinitionError(f"this has more than {MOST_TAGS} tags: no manifest has", manifest)
+        raise DefinitionError(f"it has more than {MOST_TAGS} tags, more than any real manifest", manifest)
     try:
         parsed = parse_package_string(data, str(manifest), warnings=[])
         with warnings.catch_warnings():  # catkin_pkg uses deprecated names of pyparsing

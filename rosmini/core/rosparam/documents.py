@@ -52,7 +52,7 @@ def radians(text: str, budget: Budget | None = None) -> float:
     try:
         value = Expression(inner, names=(), functions=_NAMES).evaluate({}, budget)
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ExpressionError(f"{shown(value)} is no real number")
+            raise ExpressionError(f"{shown(value)} is not a real number")
         return float(value)
     except (ExpressionError, OverflowError) as error:
         raise RosParamException(
@@ -132,7 +132,7 @@ def _checked(name: str, value: Any, place: str) -> Any:
     if isinstance(value, dict):
         for key in value:
             if not isinstance(key, str):
-                raise _Refused(f"parameter {name}: the key {key!r} is no string", f"{place}/{key}")
+                raise _Refused(f"parameter {name}: the key {key!r} is not a string", f"{place}/{key}")
         return {key: _checked(f"{name}/{key}", item, f"{place}/{key}") for key, item in value.items()}
     if value is None:
         raise _Refused(
@@ -211,7 +211,7 @@ def parse(text: str) -> Any:
     """Return the value of a YAML text, as in ``rosparam set /gains '[1, 2.5]'``. Raises ``RosParamException``."""
     documents = load_str(text)
     if len(documents) > 1:
-        raise RosParamException(f"{text!r} is {len(documents)} YAML documents, and one value is needed")
+        raise RosParamException(f"{text!r} is {len(documents)} YAML documents, but a single value is needed")
     return documents[0].values if documents else None
 
 

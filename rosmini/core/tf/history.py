@@ -29,7 +29,7 @@ class Samples:
 
     Attributes:
         stamps: the time of each sample [ns].
-        origins: parent and broadcaster of each sample: numbers that `said` translates.
+        origins: parent and broadcaster of each sample: numbers that `source_of` translates.
         values: the transforms, seven numbers each.
         spans: for each frame the start and end of its samples, and 1 if it is static.
         columns: these four in the form for `walk`: memoryviews, or arrays for numba.
@@ -39,7 +39,7 @@ class Samples:
     def __init__(self) -> None:
         self.compiled = False
         self._origins: dict[tuple[str, str], int] = {}
-        self._said: list[Sample] = []
+        self._sources: list[Sample] = []
         self._parents: dict[str, int] = {}
         self._free: dict[int, list[int]] = {}
         self._free_frames: list[int] = []
@@ -109,13 +109,13 @@ class Samples:
         found = self._origins.get((parent, authority))
         if found is None:
             number = self._parents.setdefault(parent, len(self._parents))
-            found = self._origins[parent, authority] = number << PARENT_SHIFT | len(self._said)
-            self._said.append(Sample(parent, authority))
+            found = self._origins[parent, authority] = number << PARENT_SHIFT | len(self._sources)
+            self._sources.append(Sample(parent, authority))
         return found
 
-    def said(self, origin: int) -> Sample:
+    def source_of(self, origin: int) -> Sample:
         """Return the parent and authority of a number from `origin`."""
-        return self._said[origin & ((1 << PARENT_SHIFT) - 1)]
+        return self._sources[origin & ((1 << PARENT_SHIFT) - 1)]
 
 
 class History:
@@ -196,7 +196,7 @@ class History:
                 place = self._end
             self.newest_ns = stamp_ns
             if not known:
-                self.newest, self._origin = samples.said(origin), origin
+                self.newest, self._origin = samples.source_of(origin), origin
         else:
             if stamp_ns < self.newest_ns - self._cache_ns:
                 return "old"
@@ -246,7 +246,7 @@ class History:
         place = find(self._samples.stamps, self._begin, self._end, stamp_ns)
         if self.static or place == self._end or self._samples.stamps[place] != stamp_ns:
             raise LookupError(stamp_ns)
-        return self._samples.said(self._samples.origins[place])
+        return self._samples.source_of(self._samples.origins[place])
 
     def parent_at(self, stamp_ns: int) -> str:
         """Return the parent at a time [ns]; between two samples, that of the earlier one.
@@ -259,4 +259,4 @@ class History:
         place = find(samples.stamps, self._begin, self._end, stamp_ns)
         if place == self._end or samples.stamps[place] != stamp_ns:
             place = max(self._begin, place - 1)
-        return samples.said(samples.origins[place]).parent
+        return samples.source_of(samples.origins[place]).parent

@@ -135,7 +135,7 @@ def walk(
     origins: Sequence[int],
     values: Sequence[float],
     spans: Sequence[int],
-    way: Sequence[int],
+    edge_numbers: Sequence[int],
     ups: int,
     stamp_ns: int,
 ) -> tuple[int, int, Rigid]:
@@ -146,23 +146,23 @@ def walk(
         origins: the parent and the authority of each sample.
         values: the transform of each sample, seven numbers.
         spans: for each edge the start and end of its samples, and 1 if it is static.
-        way: the edges from the source up to the common ancestor, then those from the target up to it.
+        edge_numbers: the edges from the source up to the common ancestor, then those from the target up to it.
         ups: the number of edges on the source's side.
         stamp_ns: the time.
 
     Returns:
-        `FOUND`, or the index in `way` of an edge that is not known at that time; the time; the transform.
+        `FOUND`, or the index in `edge_numbers` of an edge that is not known at that time; the time; the transform.
 
     """
     if stamp_ns == 0:
-        for n in range(len(way)):
-            edge = 3 * way[n]
+        for n in range(len(edge_numbers)):
+            edge = 3 * edge_numbers[n]
             newest = stamps[spans[edge + 1] - 1]
             if not spans[edge + 2] and newest and (stamp_ns == 0 or newest < stamp_ns):
                 stamp_ns = newest
     up, down = IDENTITY, IDENTITY
-    for n in range(len(way)):
-        edge = 3 * way[n]
+    for n in range(len(edge_numbers)):
+        edge = 3 * edge_numbers[n]
         begin, end = spans[edge], spans[edge + 1]
         if spans[edge + 2]:
             step = sample(values, begin)
@@ -186,7 +186,7 @@ def walk(
             up = step if n == 0 else compose(step, up)
         else:
             down = step if n == ups else compose(step, down)
-    if ups == len(way):
+    if ups == len(edge_numbers):
         return FOUND, stamp_ns, up
     back = inverse(down)
     return FOUND, stamp_ns, back if ups == 0 else compose(back, up)

@@ -39,7 +39,7 @@ class MessageFilter:
         self._queue_size = queue_size
         self._tolerance_ns = round(tolerance * 1e9)
         self._waiting: deque[Any] = deque()
-        self._end = buffer.watch(self._look)
+        self._end = buffer.watch(self._check_waiting)
 
     def __len__(self) -> int:
         """Return the number of waiting messages."""
@@ -49,7 +49,7 @@ class MessageFilter:
         """Add a message with a header."""
         if not message.header.frame_id.lstrip("/"):
             self._drop(message, NO_FRAME)
-        elif not self._settle(message):
+        elif not self._pass_or_drop(message):
             self._waiting.append(message)
             if 0 < self._queue_size < len(self._waiting):
                 self._drop(self._waiting.popleft(), QUEUE_FULL)
@@ -63,14 +63,14 @@ class MessageFilter:
         self.clear()
         self._end()
 
-    def _look(self) -> None:
+    def _check_waiting(self) -> None:
         """Check all waiting messages after new transforms have arrived."""
         for _ in range(len(self._waiting)):
             message = self._waiting.popleft()
-            if not self._settle(message):
+            if not self._pass_or_drop(message):
                 self._waiting.append(message)
 
-    def _settle(self, message: Any) -> bool:
+    def _pass_or_drop(self, message: Any) -> bool:
         """Pass a message on or drop it, if this can be decided; return True if so."""
         source = message.header.frame_id.lstrip("/")
         stamp = message.header.stamp.to_nsec()

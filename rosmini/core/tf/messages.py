@@ -127,7 +127,7 @@ def cloud_view(message: Any, data: bytearray) -> list[NDArray[Any]]:
         field = fields.get(name)
         if field is None or field.datatype not in FLOAT_TYPES:
             raise TransformException(
-                f"a cloud with the fields {', '.join(fields) or '(none)'} cannot be moved: x, y and z are needed, as "
+                f"a cloud with the fields {', '.join(fields) or '(none)'} cannot be transformed: it needs x, y, z as "
                 "FLOAT32 or FLOAT64"
             )
         kind = (">" if message.is_bigendian else "<") + FLOAT_TYPES[field.datatype]
@@ -183,7 +183,7 @@ def moved(message: Any, stamped: Any, warn: Callable[[str], object] = lambda _te
     """
     kind = getattr(message, "_type", type(message).__name__)
     if kind not in MOVERS:
-        raise TransformException(f"a {kind} cannot be moved to another frame; these can: {', '.join(MOVERS)}")
+        raise TransformException(f"a {kind} cannot be transformed; these types can: {', '.join(MOVERS)}")
     result = copy.deepcopy(message)
     if kind in ROTATIONS:
         turn = ROTATIONS[kind](result)

@@ -47,9 +47,7 @@ def parse(arguments: tuple[str, ...], period: str = "") -> tuple[str, str, Rigid
     except ValueError as error:
         raise ScriptError(f"static_transform_publisher: {error}.\n{usage}") from error
     if frame == child:
-        raise ScriptError(
-            f"frame_id and child_frame_id are the same ({frame}): a frame is where it is in itself.\n{usage}"
-        )
+        raise ScriptError(f"frame_id and child_frame_id are the same ({frame}): they must differ.\n{usage}")
     if len(numbers) == 6:
         yaw, pitch, roll = numbers[3:]
         return frame, child, from_rpy(numbers[:3], roll, pitch, yaw)
@@ -82,7 +80,9 @@ class RepeatingTransformPublisher:
                 f"static_transform_publisher: {error} as the period.\n{USAGE.format(period=usage)}"
             ) from error
         if self.period.to_nsec() <= 0:
-            raise ScriptError(f"a period of {arguments[-1]} ms is none.\n{USAGE.format(period=usage)}")
+            raise ScriptError(
+                f"the period must be positive, not {arguments[-1]} ms.\n{USAGE.format(period=usage)}"
+            )
         self.node = node
         self.broadcaster = TransformBroadcaster(node)
         self.timer = node.timer(self.period, lambda _event: self.send())
@@ -121,7 +121,7 @@ class TfEcho:
             period = 1 / float(echo_rate)
         except (ValueError, ZeroDivisionError) as error:
             raise ScriptError(
-                f"tf_echo: {echo_rate!r} is no rate; give how often a second it shall print"
+                f"tf_echo: {echo_rate!r} is not a rate: give the number of outputs per second"
             ) from error
         self.node = node
         self.frames = source_frame.lstrip("/"), target_frame.lstrip("/")

@@ -21,7 +21,7 @@ from .errors import (
 )
 from .history import History, Samples
 from .kernel import FOUND, IDENTITY, Rigid, compiled_walk, compose, walk
-from .wording import Complaints, Words
+from .wording import DataWarnings, ErrorTexts
 
 CACHE_NS = 10_000_000_000
 """Default length of the history [ns]: tf's 10 s."""
@@ -53,7 +53,7 @@ class Path(NamedTuple):
 
     source: tuple[History, ...]
     target: tuple[History, ...]
-    way: Any
+    edge_numbers: Any
     """The numbers of all edges, for `walk`."""
 
 
@@ -82,9 +82,9 @@ class FrameTree:
         self._slow_lookups = 0
         self._roots: dict[str, None] = {}
         self._paths: dict[tuple[str, str], Path] = {}
-        self._wandering = False
-        self._complaints = Complaints(warn or (lambda _text: None))
-        self._words = Words(self, now_ns)
+        self._parents_vary = False
+        self._warnings = DataWarnings(warn or (lambda _text: None))
+        self._texts = ErrorTexts(self, now_ns)
 
     # -- input --------------------------------------------------------------------------------------------------
 
@@ -104,9 +104,9 @@ class FrameTree:
         with a warning, not an error, and so is a repeated or too old time. A
         frame that is static at first remains static.
         """
-        reason = self._complaints.check(parent, child, transform)
+        reason = self._warnings.check(parent, child, transform)
         if reason is not None:
-            self._complaints.say(child, authority, reason)
+            self._warnings.warn_once(child, authority, reason)
             return False
         history = self.edges.get(child)
         if history is None:
@@ -115,16 +115,16 @@ class FrameTree:
             )
             self._structure_changed(parent, child)
         elif history.newest.parent != parent:
-            self._complaints.two_parents(history, parent, authority)
+            self._warnings.two_parents(history, parent, authority)
             self._structure_changed(parent, child)
         was_steady = history.steady
         outcome = history.add(parent, transform, stamp_ns, authority)
         if history.steady != was_steady:
-            self._wandering = not all(other.steady for other in self.edges.values())
+            self._parents_vary = not all(other.steady for other in self.edges.values())
         if outcome == "repeated":
-            self._complaints.repeated(history, stamp_ns, authority)
+            self._warnings.repeated(history, stamp_ns, authority)
         elif outcome == "old":
-            self._complaints.old(history, stamp_ns, authority)
+            self._warnings.old(history, stamp_ns, authority)
         return outcome == "kept"
 
     def _structure_changed(self, parent: str, child: str) -> None:
@@ -143,7 +143,7 @@ class FrameTree:
             edge.newest.parent for edge in self.edges.values() if edge.newest.parent not in self.edges
         )
         self._paths.clear()
-        self._wandering = False
+        self._parents_vary = False
 
     # -- contents ------------------------------------------------------------------------------------------------
 
@@ -173,7 +173,7 @@ class FrameTree:
         seen = {frame}
         while (above := self.parent(frame)) is not None:
             if above in seen:
-                raise LookupException(self._words.loop())
+                raise LookupException(self._texts.loop())
             seen.add(above)
             frame = above
         return frame
@@ -210,7 +210,7 @@ class FrameTree:
         path, fault, stamp_ns, transform = self._found(target, source, stamp_ns)
         if fault != FOUND:
             edge = (path.source + path.target)[fault]
-            raise ExtrapolationException(self._words.extrapolation(edge, stamp_ns, target, source))
+            raise ExtrapolationException(self._texts.extrapolation(edge, stamp_ns, target, source))
         return Found(transform, stamp_ns)
 
     def knows(self, target: str, source: str, stamp_ns: int = LATEST) -> bool:
@@ -231,10 +231,10 @@ class FrameTree:
             if self._slow_lookups % LOOKUPS_LOADED == 0:
                 self._consider_machine_code()
         path = self._paths.get((target, source)) or self._path(target, source, stamp_ns)
-        if self._wandering and stamp_ns == LATEST:
+        if self._parents_vary and stamp_ns == LATEST:
             stamp_ns = _common(path)
             path = self._path(target, source, stamp_ns)
-        return path, *self._walk(*self._samples.columns, path.way, len(path.source), stamp_ns)
+        return path, *self._walk(*self._samples.columns, path.edge_numbers, len(path.source), stamp_ns)
 
     def _consider_machine_code(self) -> None:
         """Use compiled code from now on if worthwhile; its results are the same."""
@@ -290,13 +290,15 @@ class FrameTree:
             if frame in place:
                 source_edges = tuple(self.edges[other] for other in up[: place[frame]])
                 target_edges = tuple(self.edges[other] for other in down)
-                way = np.array([edge.number for edge in source_edges + target_edges], dtype=np.int64)
-                path = Path(source_edges, target_edges, way if self._samples.compiled else way.data)
+                edge_numbers = np.array([edge.number for edge in source_edges + target_edges], dtype=np.int64)
+                path = Path(
+                    source_edges, target_edges, edge_numbers if self._samples.compiled else edge_numbers.data
+                )
                 break
             down.append(frame)
         else:
-            raise ConnectivityException(self._words.unconnected(target, source))
-        if not self._wandering:
+            raise ConnectivityException(self._texts.unconnected(target, source))
+        if not self._parents_vary:
             if len(self._paths) >= PATHS_KEPT:
                 self._paths.clear()
             self._paths[target, source] = path
@@ -304,16 +306,16 @@ class FrameTree:
 
     def _check(self, frame: str, role: str) -> None:
         if not frame or frame.startswith("/"):
-            raise InvalidArgumentException(self._words.bad_name(frame, role))
+            raise InvalidArgumentException(self._texts.bad_name(frame, role))
         if frame not in self:
-            raise LookupException(self._words.unknown(frame, role))
+            raise LookupException(self._texts.unknown(frame, role))
 
     def _ancestors(self, frame: str, stamp_ns: int) -> list[str]:
         found = {frame: None}
         while (history := self.edges.get(frame)) is not None:
             frame = history.parent_at(stamp_ns) if stamp_ns else history.newest.parent
             if frame in found:
-                raise LookupException(self._words.loop())
+                raise LookupException(self._texts.loop())
             found[frame] = None
         return list(found)
 

@@ -34,7 +34,7 @@ def seconds(time_ns: int) -> str:
     return f"{'-' if time_ns < 0 else ''}{whole}.{decimals:0<3}"
 
 
-class Words:
+class ErrorTexts:
     """Error messages of one tree."""
 
     def __init__(self, tree: FrameTree, now_ns: Callable[[], int] | None) -> None:
@@ -46,7 +46,7 @@ class Words:
         if not frame:
             return (
                 f"Invalid argument passed to lookupTransform argument {role}: in tf2 frame_ids cannot be empty. "
-                "A message whose header.frame_id nobody filled in has this one."
+                "Was the header.frame_id of a message never set?"
             )
         return (
             f'Invalid argument "{frame}" passed to lookupTransform argument {role}: in tf2 frame_ids cannot start '
@@ -60,9 +60,9 @@ class Words:
         text = f'"{frame}" passed to lookupTransform argument {role} does not exist. '
         if not known:
             return text + (
-                "No transform has been received at all: a listener hears of a frame when its broadcaster sends next "
-                "(and of static ones once it is connected), so make it early, and wait with a timeout. Is anyone "
-                "publishing /tf or /tf_static?"
+                "No transform has been received yet: a listener learns of a frame when its broadcaster sends next "
+                "(and of static frames once it is connected), so create it early, and use a timeout. Does any node "
+                "publish /tf or /tf_static?"
             )
         hint = nearest(frame, known)
         listed = ", ".join(known[:FRAMES_LISTED]) + (
@@ -73,8 +73,8 @@ class Words:
     def loop(self) -> str:
         """Return the error for a loop."""
         return (
-            "The tf tree is invalid because it contains a loop. A frame is under its own child: two broadcasters "
-            f"disagree about who is whose parent.\n{self.frames()}"
+            "The tf tree is invalid because it contains a loop. A frame is below its own child: two broadcasters "
+            f"name different parents.\n{self.frames()}"
         )
 
     def frames(self) -> str:
@@ -119,12 +119,12 @@ class Words:
         latest = "Time(0) asks for the latest time that the whole chain has"
         if gap > OTHER_CLOCK_NS:
             return (
-                "the two times come from different clocks, the wall's and a simulation's: set /use_sim_time before "
+                "the two times come from different clocks, real and simulated time: set /use_sim_time before "
                 "the nodes start, for all of them or for none."
             )
         if len(edge) == 1:
             return (
-                "one transform alone cannot be interpolated. If it never changes, send it as a static one; if it "
+                "a single transform cannot be interpolated. If it never changes, send it as a static one; if it "
                 f"does, wait for the next ones. {latest}."
             )
         period = edge.span_ns / (len(edge) - 1)
@@ -135,12 +135,12 @@ class Words:
                     f"give the buffer a longer cache_time. {latest}."
                 )
             return (
-                "nobody told of this edge yet at that time, or the listener had not been made yet: its buffer is "
-                f"empty at first. Make it before the data come, and drop what is older. {latest}."
+                "this edge was not yet published at that time, or the listener did not exist yet: its buffer is "
+                f"empty at first. Create it before the data arrive, and drop older data. {latest}."
             )
         now = None if self._now_ns is None else self._now_ns()
         if now is not None and stamp_ns > now:
-            return f"that time is still to come: it is {seconds(now)} s now. {latest}."
+            return f"that time is in the future: it is {seconds(now)} s now. {latest}."
         if gap > NEAR_PERIODS * period:
             return (
                 f"nothing new came for {seconds(gap)} s, {gap / period:.0f} times the usual: the broadcaster of "
@@ -178,18 +178,18 @@ def draw(tree: FrameTree) -> str:
     return "\n".join(lines)
 
 
-class Complaints:
+class DataWarnings:
     """Warnings about refused data, each once per frame; on a real robot they repeat at the rate of the data."""
 
     def __init__(self, warn: Callable[[str], object]) -> None:
         self._warn = warn
-        self._said: set[tuple[str, str]] = set()
+        self._warned: set[tuple[str, str]] = set()
 
-    def say(self, frame: str, authority: str, text: str) -> None:
+    def warn_once(self, frame: str, authority: str, text: str) -> None:
         """Warn about the data of a frame, once for each kind, which is the first word of the text."""
         key = (frame, text.partition(":")[0])
-        if key not in self._said:
-            self._said.add(key)
+        if key not in self._warned:
+            self._warned.add(key)
             sender = authority or "an unnamed sender"
             self._warn(text.replace("{sender}", sender) + " (This is said once for this frame.)")
 
@@ -229,7 +229,7 @@ class Complaints:
                 f"{first or 'an unnamed sender'} sent it first, {authority or 'an unnamed sender'} again: two "
                 f"broadcasters of one frame; stop one of them"
             )
-        self.say(
+        self.warn_once(
             frame,
             authority,
             f'TF_REPEATED_DATA: the transform of frame "{frame}" at {seconds(stamp_ns)} s came more than once; the '
@@ -239,14 +239,14 @@ class Complaints:
     def old(self, history: History, stamp_ns: int, authority: str) -> None:
         """Warn of a transform that is too old."""
         frame = history.frame
-        self.say(
+        self.warn_once(
             frame,
             authority,
             f'TF_OLD_DATA: the transform of frame "{frame}" at {seconds(stamp_ns)} s from {{sender}} is older than '
-            "all that is "
-            f"kept (the newest is of {seconds(history.newest_ns)} s, from "
+            "the "
+            f"buffer (the newest is of {seconds(history.newest_ns)} s, from "
             f"{history.newest.authority or 'an unnamed sender'}); ignored. Two broadcasters with different clocks, or "
-            "a bag played again, do this.",
+            "a bag played again, are possible causes.",
         )
 
     def two_parents(self, history: History, parent: str, authority: str) -> None:
@@ -254,7 +254,7 @@ class Complaints:
         before = history.newest
         if before.authority == authority:
             return  # a sender may move its own frame
-        self.say(
+        self.warn_once(
             history.frame,
             authority,
             f'TF_TWO_PARENTS: frame "{history.frame}" is under "{before.parent}" by '

@@ -114,7 +114,7 @@ def _plain(outline: Floats) -> Floats:
 
 
 def thinned(outline: Floats, tolerance: float) -> Floats:
-    """Return an outline (k, 2) with fewer corners, within `tolerance` [m] of the original; see `polygons.needed`."""
+    """Return an outline (k, 2) with fewer corners, within `tolerance` [m] of it; see `polygons.simplified_indices`."""
     if len(outline) <= 4:
         return outline
     far = int(np.hypot(*(outline - outline[0]).T).argmax())
@@ -124,7 +124,7 @@ def thinned(outline: Floats, tolerance: float) -> Floats:
         chord = np.concatenate([closed[first], closed[last]])[None]
         return polygons.distances(closed[first + 1 : last], chord)
 
-    return closed[polygons.needed([0, far, len(outline)], gaps, tolerance)[:-1]]
+    return closed[polygons.simplified_indices([0, far, len(outline)], gaps, tolerance)[:-1]]
 
 
 def _overlapping(outlines: list[Floats]) -> bool:

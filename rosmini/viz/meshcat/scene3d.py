@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.polygons import needed
+from rosmini.core.geometry.polygons import simplified_indices
 from rosmini.core.geometry.poses import compose, inverse
 from rosmini.core.geometry.products import inverse_matrix, matrix_product
 from rosmini.sim.models import LidarModel, RobotModel
@@ -460,7 +460,7 @@ def keyframes(times: Floats, values: Floats, tolerance: float) -> list[int]:
         # Snapped, so that of two samples that are equally far off the same one is taken everywhere.
         return snap(np.abs(values[first + 1 : last] - line).max(axis=1), 1e-7)
 
-    return needed([0, len(times) - 1], gaps, tolerance)
+    return simplified_indices([0, len(times) - 1], gaps, tolerance)
 
 
 def simplified(points: Floats, tolerance: float = 0.002) -> Floats:

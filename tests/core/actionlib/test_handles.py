@@ -331,7 +331,7 @@ def test_the_old_parameter_is_heeded_with_a_warning(sim, log):
     sim.node("ear").subscriber("/work/status", GoalStatusArray, lists.append)
     sim.run(3)
     assert len(lists) == 1  # latched
-    assert "/work/status_frequency is out of use: set actionlib_status_frequency" in log()
+    assert "/work/status_frequency is deprecated: set actionlib_status_frequency" in log()
 
 
 # -- who is there ------------------------------------------------------------------------------------------------------
@@ -449,7 +449,7 @@ def test_two_servers_on_one_topic_are_noticed(lenient, log):
     status = message_class("actionlib_msgs/GoalStatus")
     liar.publish(status_list=[status(goal_id=GoalID(id=handle.id), status=Status.RECALLING)])
     lenient.run(0.1)
-    assert "RECALLING, and the client was ACTIVE already" in log()
+    assert "RECALLING, but the client was already ACTIVE" in log()
     assert handle.get_comm_state() is CommState.ACTIVE
 
 

@@ -176,5 +176,5 @@ def test_a_message_that_describes_too_little():
     with pytest.raises(DynamicReconfigureParameterException, match="no default or no range"):
         decode_description(message)
     message.groups = message.groups[1:]
-    with pytest.raises(DynamicReconfigureParameterException, match="number 0"):
+    with pytest.raises(DynamicReconfigureParameterException, match="no group 0"):
         decode_description(message)

@@ -181,9 +181,9 @@ def test_changes_come_one_after_another_though_the_callback_blocks(graph):
     ("changes", "problem"),
     [
         ({"gian": 1}, "did you mean gain"),
-        ({"gain": "much"}, "'much' cannot become one"),
-        ({"gain": None}, "None cannot become one"),
-        ({"window": float("inf")}, "inf cannot become one"),
+        ({"gain": "much"}, "'much' cannot be converted to it"),
+        ({"gain": None}, "None cannot be converted to it"),
+        ({"window": float("inf")}, "inf cannot be converted to it"),
     ],
 )
 def test_changes_that_a_client_refuses(sim, changes, problem):
@@ -255,5 +255,5 @@ def test_an_enumeration_by_name(sim):
     Server(sim.node("tuned"), {"name": "Default", "parameters": [size], "groups": []}, lambda c, _: c)
     client = Client(sim.node("client"), "tuned", 5)
     assert client.update_configuration({"size": "SMALL"}).size == 3
-    with pytest.raises(DynamicReconfigureParameterException, match="'tiny' cannot become one"):
+    with pytest.raises(DynamicReconfigureParameterException, match="'tiny' cannot be converted to it"):
         client.update_configuration({"size": "tiny"})

@@ -123,7 +123,7 @@ def test_a_budget_holds_for_many_evaluations():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("1 +", "this is no Python expression: invalid syntax"),
+        ("1 +", "this is not a Python expression: invalid syntax"),
         ("1 + speeed", r"there is no 'speeed'; did you mean speed\? \(in 'speeed'\)"),
         ("sped(1)", r"sped\(\) is not allowed; there are .*"),
         ("squrt(1)", r"squrt\(\) is not allowed; did you mean sqrt or isqrt\?"),

@@ -75,7 +75,7 @@ def test_a_script_s_message_is_read_too():
 @pytest.mark.parametrize(
     ("change", "error", "said"),
     [
-        ({"width": 3}, MapDataError, "a map of 3 x 2 cells has to have 6 of them.* its message has 4"),
+        ({"width": 3}, MapDataError, "a map of 3 x 2 cells needs 6 of them.* its message has 4"),
         ({"width": 0}, MapDataError, "a map of 0 x 2 cells"),
         ({"resolution": 0.0}, MapMetadataError, "cells are 0.0 m wide"),
         ({"resolution": math.nan}, MapMetadataError, "cells are nan m wide"),

@@ -139,7 +139,7 @@ def test_messages_without_a_header(sim, capsys):
     assert lenient.getLatestTime() == node.now()
     assert lenient.getLast().data == "x"
     ApproximateTimeSynchronizer([source, other], 5, 0.1, allow_headerless=True)
-    with pytest.raises(MessageFilterError, match="give node="):
+    with pytest.raises(MessageFilterError, match="node="):
         source.signalMessage(String("x"))
 
 

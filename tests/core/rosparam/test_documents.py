@@ -154,7 +154,7 @@ def test_what_cannot_be_read_is_named_with_its_line(text: str, message: str) -> 
         ),
         ("a: 1\nb: [1,\n  2, 4294967296]\n", r"p\.yaml:3: parameter /r/b\[2\]: 4294967296 does not fit"),
         ("a:\n  1: one\n", r"p\.yaml:2: parameter /r/a: the key 1 is a int, and keys are strings"),
-        ("a: 1\nb: [{c: 1}, {2: 1}]\n", r"p\.yaml:2: parameter /r/b\[1\]: the key 2 is no string"),
+        ("a: 1\nb: [{c: 1}, {2: 1}]\n", r"p\.yaml:2: parameter /r/b\[1\]: the key 2 is not a string"),
         ("day: 2020-01-02\n", r"p\.yaml:1: parameter /r/day: a date cannot be stored"),
         ("!!set {a, b}\n", r"p\.yaml:1: parameter /r: a set cannot be stored"),
     ],

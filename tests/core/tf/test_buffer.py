@@ -134,7 +134,7 @@ def test_what_is_in_a_frame_moves_to_another(graph):
     assert moved.pose.covariance[7] == pytest.approx(4)
     assert moved.pose.covariance[0] == pytest.approx(0)
     assert moved.pose.pose.position.x == pytest.approx(1)
-    with pytest.raises(TransformException, match="std_msgs/String cannot be moved"):
+    with pytest.raises(TransformException, match="std_msgs/String cannot be transformed"):
         from rosmini.core.tf.messages import moved as move
 
         move(message_class("std_msgs/String")(), buffer.lookup_transform("map", "base"))
@@ -161,7 +161,7 @@ def test_clouds(graph):
     moved = buffer.transform(cloud, "map")
     assert struct.unpack("<8f", bytes(moved.data)) == (11, 2, 3, 9, 14, 5, 6, 8)
     cloud.fields = cloud.fields[1:]
-    with pytest.raises(TransformException, match="fields y, z, i cannot be moved"):
+    with pytest.raises(TransformException, match="fields y, z, i cannot be transformed"):
         buffer.transform(cloud, "map")
 
 

@@ -14,7 +14,7 @@ def content(samples, history):
     return [
         (
             samples.stamps[place],
-            samples.said(samples.origins[place]).authority,
+            samples.source_of(samples.origins[place]).authority,
             sample(samples.values, place)[0],
         )
         for place in range(begin, end)

@@ -68,7 +68,7 @@ def test_tfs_static_transform_publisher(graph):
         ("tf2_ros", ("0", "0", "0", "0", "0", "0", "0", "a", "b"), "no rotation"),
         ("tf", (*TIP, "a", "b"), "got 7 arguments"),
         ("tf", (*TIP, "a", "b", "x"), "'x' as the period"),
-        ("tf", (*TIP, "a", "b", "0"), "a period of 0 ms"),
+        ("tf", (*TIP, "a", "b", "0"), "period must be positive, not 0 ms"),
     ],
 )
 def test_wrong_arguments_show_the_usage(graph, package, arguments, text):
@@ -114,7 +114,7 @@ def test_tf_echo_of_what_is_not_there(graph, capsys):
     assert out.endswith("The current list of frames is:\nFrame base exists with parent map.\n\n")
     with pytest.raises(ScriptError, match="does not take the arguments"):
         rosrun("tf", "tf_echo", "map", graph=graph).instance()
-    with pytest.raises(ScriptError, match="'often' is no rate"):
+    with pytest.raises(ScriptError, match="'often' is not a rate"):
         rosrun("tf", "tf_echo", "map", "base", "often", graph=graph).instance()
 
 

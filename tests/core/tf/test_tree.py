@@ -18,14 +18,14 @@ S = 1_000_000_000
 
 
 @pytest.fixture
-def said():
+def source_of():
     return []
 
 
 @pytest.fixture
-def tree(said):
+def tree(source_of):
     """map -> odom at 1 s and 2 s, odom -> base at 2 s and 3 s, base -> laser for ever, and x -> y apart."""
-    tree = FrameTree(warn=said.append)
+    tree = FrameTree(warn=source_of.append)
     tree.set("map", "odom", rigid((1, 0, 0)), 1 * S, "/amcl")
     tree.set("map", "odom", rigid((2, 0, 0)), 2 * S, "/amcl")
     tree.set("odom", "base", from_yaw(3, 0, 0), 2 * S, "/robot")
@@ -62,7 +62,7 @@ def test_the_latest_common_time_of_frames_that_were_never_known_together():
     tree.set("map", "odom", rigid(), 5 * S)
     tree.set("odom", "base", rigid(), 9 * S)
     tree.set("base", "laser", rigid(), 0, static=True)
-    tree.set("base", "arm", rigid(), 0)  # said to move, and stamped 0: that counts as always
+    tree.set("base", "arm", rigid(), 0)  # source_of to move, and stamped 0: that counts as always
     assert tree.latest_common_time("map", "laser") == 5 * S
     assert tree.latest_common_time("odom", "arm") == 9 * S
     assert tree.latest_common_time("odom", "odom") == 5 * S
@@ -113,7 +113,7 @@ def test_the_chain(tree):
                 "Time(0)",
             ),
         ),
-        (1_999_999_000, ("0.000001s into the past", "nobody told of this edge yet", "Time(0)")),
+        (1_999_999_000, ("0.000001s into the past", "this edge was not yet published", "Time(0)")),
         (30 * S, ("27.000s into the future", "27 times the usual", "has stopped")),
         (1_700_000_000 * S, ("different clocks", "/use_sim_time")),
     ],
@@ -147,7 +147,7 @@ def test_what_the_clock_and_the_cache_have_to_say():
     tree = FrameTree(now_ns=lambda: 20 * S)
     for tenth in range(205):
         tree.set("a", "b", rigid(), tenth * S // 10)
-    with pytest.raises(ExtrapolationException, match=r"still to come: it is 20\.000 s now"):
+    with pytest.raises(ExtrapolationException, match=r"in the future: it is 20\.000 s now"):
         tree.lookup("a", "b", 21 * S)
     with pytest.raises(ExtrapolationException, match=r"the buffer keeps 10 s, and this is longer ago"):
         tree.lookup("a", "b", 3 * S)
@@ -195,7 +195,7 @@ def test_an_unknown_frame(tree, target, source, text):
 
 
 def test_an_empty_tree_says_so():
-    with pytest.raises(LookupException, match="No transform has been received at all"):
+    with pytest.raises(LookupException, match="No transform has been received yet"):
         FrameTree().lookup("a", "b")
 
 
@@ -231,19 +231,19 @@ def test_what_is_known_is_what_a_lookup_answers(tree, target, stamp):
 # ---- what is refused ----
 
 
-def test_repeated_data_are_said_once_and_name_both(tree, said):
+def test_repeated_data_are_said_once_and_name_both(tree, source_of):
     for _ in range(5):
         assert not tree.set("map", "odom", rigid((9, 0, 0)), 2 * S, "/fake")
         assert not tree.set("map", "odom", rigid((9, 0, 0)), 1 * S, "/fake")
-    (text,) = said
+    (text,) = source_of
     assert text.startswith('TF_REPEATED_DATA: the transform of frame "odom" at 2.000 s came more than once')
     assert "/amcl sent it first, /fake again: two broadcasters" in text
     assert tree.lookup("map", "odom", 2 * S).transform[0] == 2
 
 
-def test_repeated_data_of_one_broadcaster(tree, said):
+def test_repeated_data_of_one_broadcaster(tree, source_of):
     tree.set("map", "odom", rigid(), 2 * S, "/amcl")
-    assert "/amcl sent it twice" in said[0]
+    assert "/amcl sent it twice" in source_of[0]
 
 
 @pytest.mark.parametrize(
@@ -257,23 +257,23 @@ def test_repeated_data_of_one_broadcaster(tree, said):
         (("a", "b", (0, 0, 0, 0, 0, 0, 0.5)), "TF_DENORMALIZED_QUATERNION"),
     ],
 )
-def test_data_that_cannot_be_right(said, edge, word):
-    tree = FrameTree(warn=said.append)
+def test_data_that_cannot_be_right(source_of, edge, word):
+    tree = FrameTree(warn=source_of.append)
     assert not tree.set(*edge, 1, "/me")
     assert not tree.set(*edge, 2, "/me")
-    (text,) = said
+    (text,) = source_of
     assert text.startswith(word + ": /me ")
     assert list(tree) == []
 
 
-def test_old_data_and_the_end_of_the_cache(said):
-    tree = FrameTree(cache_ns=2 * S, warn=said.append)
+def test_old_data_and_the_end_of_the_cache(source_of):
+    tree = FrameTree(cache_ns=2 * S, warn=source_of.append)
     for second in range(1, 6):
         tree.set("a", "b", rigid((second, 0, 0)), second * S, "/me")
     kept = tree.edges["b"]
     assert (kept.oldest_ns, len(kept), kept.newest_ns) == (3 * S, 3, 5 * S)
     assert not tree.set("a", "b", rigid(), 2 * S, "/late")
-    assert said[0].startswith('TF_OLD_DATA: the transform of frame "b" at 2.000 s from /late')
+    assert source_of[0].startswith('TF_OLD_DATA: the transform of frame "b" at 2.000 s from /late')
     assert tree.set("a", "b", rigid((3.5, 0, 0)), 3 * S + S // 2, "/me")  # late, but not too late
     assert tree.lookup("a", "b", 3 * S + S // 4).transform[0] == 3.25
 
@@ -281,10 +281,10 @@ def test_old_data_and_the_end_of_the_cache(said):
 # ---- frames that change their parent ----
 
 
-def test_a_frame_that_changes_its_parent(tree, said):
+def test_a_frame_that_changes_its_parent(tree, source_of):
     tree.set("base", "cup", rigid((1, 0, 0)), 2 * S, "/hand")
     tree.set("map", "cup", rigid((7, 0, 0)), 3 * S, "/hand")
-    assert said == []  # a sender may move its own frame
+    assert source_of == []  # a sender may move its own frame
     assert tree.lookup("base", "cup", 2 * S).transform[0] == 1
     assert (
         tree.lookup("base", "cup", 2 * S + 1).transform[0] == 1
@@ -297,11 +297,11 @@ def test_a_frame_that_changes_its_parent(tree, said):
     assert tree.lookup("map", "cup", 9 * S + S // 2).transform[0] == 9.5
 
 
-def test_two_parents_by_two_senders(tree, said):
+def test_two_parents_by_two_senders(tree, source_of):
     for second in range(3, 9):
         tree.set("map", "base", rigid(), second * S + 1, "/fake")
         tree.set("odom", "base", rigid(), second * S + 2, "/robot")
-    (text,) = said
+    (text,) = source_of
     assert 'TF_TWO_PARENTS: frame "base" is under "odom" by /robot, and under "map" by /fake' in text
 
 

@@ -85,7 +85,7 @@ def test_a_map_that_is_none_ends_it_with_a_reason(graph):
     message.info.width = 7
     publish(graph, message)
     assert rosrun("map_server", "map_saver", graph=graph).wait(5.0) == 1
-    assert any("a map of 7 x 2 cells has to have 14 of them" in text for _, text in graph.said)
+    assert any("a map of 7 x 2 cells needs 14 of them" in text for _, text in graph.said)
 
 
 def test_help(graph, capsys):
