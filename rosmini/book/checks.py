@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 NOTEBOOK = "notebook"
-"""The package in which a notebook's scripts are."""
+"""Name of the package that contains a notebook's scripts."""
 
 
 class UnknownExercise(RosminiError):
@@ -45,11 +45,11 @@ class UnknownExercise(RosminiError):
 
 
 class NoAnswer(RosminiError):
-    """There is no script to be checked."""
+    """There is no script to check."""
 
 
 class Wrong(RosminiError):
-    """The answer is wrong: the message says what is wrong with it, `hint` what to look at, `view` shows it."""
+    """The answer is wrong: the message says why, `hint` says where to look, `view` is a picture of the run."""
 
     def __init__(self, message: str, hint: str = "", view: Any = None) -> None:
         super().__init__(message)
@@ -66,7 +66,7 @@ class Script:
 
     @property
     def gaps(self) -> list[int]:
-        """The lines with a bare `...`, where the reader is to write; none in what is not Python."""
+        """Lines with a bare `...`, where the reader writes; empty if the script is not valid Python."""
         try:
             tree = ast.parse(self.source)
         except SyntaxError:
@@ -79,7 +79,7 @@ class Script:
 
 
 class Status(Enum):
-    """What a check found."""
+    """The result of a check."""
 
     NOT_ATTEMPTED = "not attempted yet"
     WRONG = "not right yet"
@@ -103,11 +103,11 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Exercise:
-    """One exercise: its number ("11.2"), what is said about a right answer, and the function that examines one.
+    """One exercise: its number ("11.2"), the praise for a right answer, and the function that examines an answer.
 
-    `examine(answer)` raises `Wrong` (most simply through `expect`) or returns what shows the answer at work, or None.
-    `gaps` is how many bare `...` its stub has, if that is a script. `truths` are the keys of an answer whose values may
-    be True or False; elsewhere these are no numbers, though Python takes them for 1 and 0.
+    `examine(answer)` raises `Wrong`, usually through `expect`, or returns a picture of the run, or None. `gaps` is the
+    number of bare `...` in the stub of a script. `truths` are the keys of an answer whose values may be True or False;
+    everywhere else these are refused, although Python counts them as numbers.
     """
 
     number: str
@@ -117,7 +117,7 @@ class Exercise:
     truths: tuple[str, ...] = ()
 
     def grade(self, answer: Any) -> Verdict:
-        """Examine `answer`. An exception out of the reader's code is a wrong answer, not an error of the check."""
+        """Examine `answer`. An exception from the reader's code makes the answer wrong."""
         if is_stub(answer, self.gaps):
             at = gap_left(answer) if isinstance(answer, Script) else ""
             return self._verdict(Status.NOT_ATTEMPTED, f"Replace the `...` {at}." if at else "")
@@ -136,7 +136,7 @@ class Exercise:
         return self._verdict(Status.RIGHT, self.praise, view)
 
     def _watched(self, answer: Any) -> Any:
-        """The answer, in which a truth value is no number, nor in what it returns if it is a function."""
+        """Return the answer; refuse truth values where numbers are expected, also in the result of a function."""
         if not isinstance(answer, types.FunctionType):
             return _numbers_only(answer, "The answer has", self.truths)
 
@@ -155,12 +155,12 @@ class Exercise:
 
 
 def _numbers_only(value: Any, said: str, truths: tuple[str, ...]) -> Any:
-    """Expect no truth value in `value` but under the keys `truths`, and return it; a number of numpy as Python's."""
+    """Expect truth values in `value` only under the keys `truths`; return it, with numpy's numbers as Python's."""
     if getattr(value, "shape", None) == () and hasattr(value, "item"):
         value = value.item()
     expect(
         not isinstance(value, bool),
-        f"{said} {value} where a number or a text is asked for.",
+        f"{said} {value} where a number or a string is expected.",
         "1 and 0 are numbers, True and False are truth values",
     )
     if isinstance(value, dict):
@@ -175,7 +175,7 @@ def _numbers_only(value: Any, said: str, truths: tuple[str, ...]) -> Any:
 
 
 def _unexpected(answer: Any, error: Exception) -> str:
-    """Say what was raised: by the reader's code, or by what the check did with an answer of another form."""
+    """Describe an exception: from the reader's code, or from the check because the answer has the wrong form."""
     said = f"{type(error).__name__}: {error}"
     if (
         isinstance(error, RosminiError)
@@ -186,7 +186,7 @@ def _unexpected(answer: Any, error: Exception) -> str:
     shown = reprlib.repr(answer)
     if str(error).endswith("object is not callable"):
         return f"{shown} is not a function."
-    return f"{shown} does not have the form that is asked for: {said}\nHint: compare it with the stub"
+    return f"{shown} does not have the expected form: {said}\nHint: compare it with the stub"
 
 
 def _is_readers(frame: types.FrameType) -> bool:
@@ -208,13 +208,13 @@ def expect(condition: object, message: str, hint: str = "") -> None:
 
 
 def call_bounded(answer: Callable[..., Any], *arguments: Any, lines: int = 200_000) -> Any:
-    """Return what an answer returns; expect it to come back within so many lines of Python."""
+    """Call an answer and return its result; expect it to return within this number of executed lines."""
     left = lines
 
     def watch(_frame: object, event: str, _argument: object) -> Any:
         nonlocal left
         left -= event == "line"
-        expect(left > 0, "It never comes back.", "which loop goes on for ever, and what should end it?")
+        expect(left > 0, "It never returns.", "which loop runs for ever, and what should end it?")
         return watch
 
     before = sys.gettrace()
@@ -228,48 +228,50 @@ def call_bounded(answer: Callable[..., Any], *arguments: Any, lines: int = 200_0
 def expect_type(
     found: object, kinds: type | UnionType | tuple[type, ...], said: str, wanted: str, hint: str = ""
 ) -> None:
-    """Expect an object of one of `kinds`; else "`said` a TYPE, not `wanted`.", as "It returned a str, not a list."."""
+    """Expect an object of one of `kinds`; the message is "`said` a TYPE, not `wanted`."."""
     expect(isinstance(found, kinds), f"{said} a {type(found).__name__}, not {wanted}.", hint)
 
 
 def expect_number(found: object, what: str) -> float:
-    """The number that a function returned; expect a finite or infinite one that is not a bool.
+    """Expect a number, finite or infinite, that is not a bool, and return it as a float.
 
-    numpy's functions make arrays without a dimension of numbers (`np.where`): these are numbers, too.
+    Arrays without a dimension, which functions such as `np.where` return, count as numbers.
     """
     if getattr(found, "shape", None) == ():
         found = cast("Any", found).item()
     expect(
         isinstance(found, Real) and not isinstance(found, bool) and not math.isnan(found),
-        f"It returned {found!r}, which is no {what}.",
+        f"It returned {found!r}, which is not a {what}.",
         "return one number",
     )
     return float(cast("Real", found))
 
 
 def expect_fields(found: type[Message], wanted: type[Message], what: str) -> None:
-    """Expect the fields of a message class to be those of another one; else name the first difference of `what`."""
+    """Expect two message classes to have the same fields; the error names the first difference of `what`."""
     given, right = ([(field.type, field.ros_name) for field in cls._spec.fields] for cls in (found, wanted))
     for kind, name in right:
         kinds = [other for other, field in given if field == name]
         expect(kinds, f"There is no field {name} in the {what}.", "a field is 'type name'")
         expect(kinds == [kind], f"The field {name} of the {what} is a {kinds[0]}, not a {kind}.")
     extra = [name for _, name in given if name not in [field for _, field in right]]
-    expect(not extra, f"A field of the {what} was not asked for: {', '.join(extra)}.")
-    expect(given == right, f"The fields of the {what} are not in the order that was asked for.")
+    expect(not extra, f"The {what} has a field that the task does not mention: {', '.join(extra)}.")
+    expect(given == right, f"The fields of the {what} are in the wrong order.")
 
 
 def expect_node(graph: Graph, name: str) -> None:
     """Expect a node with this full name in a graph."""
-    expect(name in graph.nodes, f"There is no node {name}.", f'graph.node("{name.rpartition("/")[2]}")')
+    expect(name in graph.nodes, f"There is no node {name}.", f'use graph.node("{name.rpartition("/")[2]}")')
 
 
 def expect_heard(publisher: Publisher) -> None:
-    """Expect that somebody subscribes to what `publisher` publishes."""
+    """Expect a subscriber of the topic of `publisher`."""
     kind = publisher.message_class._type.rpartition("/")[2]
     topic = publisher.topic
     expect(
-        publisher.num_connections(), f"Nobody subscribes to {topic}.", f"subscriber(...) with the type {kind}"
+        publisher.num_connections(),
+        f"No node subscribes to {topic}.",
+        f"call subscriber(...) with type {kind}",
     )
 
 
@@ -294,7 +296,7 @@ def check(number: str, *answer: Any) -> Verdict:
 
 
 def written(number: str) -> Script:
-    """The script in the notebook's package whose second line names the exercise; the latest, if there are several.
+    """Return the latest script in the notebook's package whose second line names the exercise.
 
     Raises `NoAnswer` if there is none.
     """
@@ -311,18 +313,18 @@ def written(number: str) -> Script:
 
 
 def find(number: str) -> Exercise:
-    """The exercise with that number; raises `UnknownExercise` if there is none."""
+    """Return the exercise with this number. Raises `UnknownExercise` if there is none."""
     known = {found.number: found for found in exercises_of(number.partition(".")[0])}
     if number not in known:
         guess = nearest(number, known) or (
-            f"this chapter has {', '.join(known)}" if known else "no exercise has such a number"
+            f"this chapter has {', '.join(known)}" if known else "no exercise has this number"
         )
         raise UnknownExercise(f"there is no exercise {number!r}; {guess}")
     return known[number]
 
 
 def exercises_of(chapter: str) -> Iterator[Exercise]:
-    """The exercises of a chapter ("11"), in the order in which its module defines them; none if it has no module."""
+    """Yield the exercises of a chapter ("11") in the order of its module, if it has one."""
     name = f"rosmini.book.exercises.chapter_{chapter.zfill(2)}"
     if chapter.isdecimal() and importlib.util.find_spec(name):
         yield from (
@@ -331,9 +333,9 @@ def exercises_of(chapter: str) -> Iterator[Exercise]:
 
 
 def is_stub(answer: Any, gaps: int = 1) -> bool:
-    """Whether the reader has not begun: `...`, what holds nothing else, or a function or class that does nothing.
+    """True if the reader has not begun: `...`, a container of nothing else, or a function or class that does nothing.
 
-    A script is a stub as long as it has as many bare `...` as at first, which is `gaps`.
+    A script is a stub while it has all of its bare `...`, whose number is `gaps`.
     """
     if answer is ...:
         return True
@@ -352,7 +354,7 @@ def is_stub(answer: Any, gaps: int = 1) -> bool:
 
 
 def gap_left(answer: Any) -> str:
-    """Where in an answer that is not complete there is still a `...`: "in line 9"; empty if there is none."""
+    """Return where an incomplete answer still contains a `...`, such as "in line 9"; empty if nowhere."""
     if isinstance(answer, Script) and answer.gaps:
         return f"in line {answer.gaps[0]}"
     if isinstance(answer, dict):

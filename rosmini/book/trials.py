@@ -1,7 +1,7 @@
-"""Trials of scripts: a fresh graph with a TurtleBot3, in which the answer to an exercise has to prove itself.
+"""Trials of scripts: a fresh graph with a TurtleBot3, in which the answer to an exercise runs.
 
-The reader's own graph has no part in it. Time is simulated and the trial has an end, so that a script that runs for
-ever does no harm; what scripts print is kept, and what ends one is part of the verdict.
+The reader's graph is not involved. Time is simulated and the trial ends, so a script that runs for
+ever does no harm. The output of scripts is kept, and an error that ends one is part of the verdict.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 
 
 class Trial:
-    """A graph of its own with a simulated TurtleBot3 Burger, to be used in a ``with`` block.
+    """A separate graph with a simulated TurtleBot3 Burger, for use in a ``with`` block.
 
     Args:
         world: the name of the simulator's world.
-        parameters: of the simulator, as rosrun takes them: ``"_x:=1.0"``.
-        is_shown: whether a wrong answer is shown with a picture of the drive; False where the robot has no part in it.
+        parameters: of the simulator, as for rosrun: ``"_x:=1.0"``.
+        is_shown: whether a wrong answer is shown with a picture of the drive; False if no robot drives.
 
-    A `Wrong` that leaves the block has the picture of the drive so far, and names the first error that a script logged.
+    A `Wrong` that leaves the block gets the picture of the drive so far and the first error that a script logged.
 
     """
 
@@ -55,7 +55,7 @@ class Trial:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """End the graph, and add to a `Wrong` what was seen."""
+        """Shut the graph down, and add picture and logged error to a `Wrong`."""
         try:
             if isinstance(error, Wrong):
                 if self._is_shown:
@@ -67,13 +67,13 @@ class Trial:
 
     @property
     def output(self) -> str:
-        """What the scripts have printed so far."""
+        """Output of the scripts so far."""
         return self._console.captured or ""
 
     def start(self, script: Script, *args: str) -> ScriptHandle:
-        """Start a script with the arguments that rosrun would hand over, and return its handle."""
+        """Start a script with arguments as for rosrun, and return its handle."""
         spec = ScriptSpec(script.name, args, source=script.source)
-        seed = str(len(self._scripts) or "")  # two copies of a script choose by chance, each by its own
+        seed = str(len(self._scripts) or "")  # two copies of a script draw different random numbers
         handle = ScriptHandle(self.graph, spec, lambda: self._console, seed=seed, owns_console=False)
         self._scripts.append(handle)
         handle.start()
@@ -85,9 +85,7 @@ class Trial:
         for handle in self._scripts:
             if handle.poll():
                 last = self.output.strip().rpartition("\n")[2] or f"exit status {handle.poll()}"
-                raise Wrong(
-                    f"{handle.spec.path} ended with an error: {last}", "the last line says what; mend it"
-                )
+                raise Wrong(f"{handle.spec.path} ended with an error: {last}", "fix the error in this line")
 
     def expect_no_errors(self) -> None:
         """Raise `Wrong` if a script has logged an error, such as that of a callback that failed."""
@@ -95,7 +93,7 @@ class Trial:
             raise Wrong(f"Your script logged an error: {said}", "the error names the line and the cause")
 
     def view(self) -> Any:
-        """Return the picture of the drive so far; None before the robot was seen."""
+        """Return the picture of the drive so far; None if nothing was recorded yet."""
         from rosmini.sim.recording import RecordingError
 
         try:
@@ -110,10 +108,10 @@ class Trial:
 
 
 class TurtleTrial(Trial):
-    """A graph of its own with turtlesim, to be used in a ``with`` block as a `Trial` is.
+    """A separate graph with turtlesim, for use in a ``with`` block like a `Trial`.
 
     Args:
-        parameters: of turtlesim, as rosrun takes them: ``"__name:=pond"``; None for no turtlesim.
+        parameters: of turtlesim, as for rosrun: ``"__name:=pond"``; None for no turtlesim.
 
     """
 
@@ -123,12 +121,12 @@ class TurtleTrial(Trial):
             self.open(*parameters)
 
     def open(self, *parameters: str) -> None:
-        """Start a turtlesim with these words, and let it begin."""
+        """Start a turtlesim with these arguments, and wait until it is ready."""
         rosrun("turtlesim", "turtlesim_node", *parameters, graph=self.graph, capture_output=True)
         self.run(0.1)
 
     def spawn(self, name: str, x: float, y: float, theta: float = 0.0) -> None:
-        """Put another turtle into the window."""
+        """Add another turtle to the window."""
         self.sim.spawn(x, y, theta, name)
 
     @property
@@ -139,7 +137,7 @@ class TurtleTrial(Trial):
         return window(graph=self.graph)
 
     def view(self) -> Any:
-        """Return the picture of the window; None where there is none."""
+        """Return the picture of the window; None if there is no window."""
         from rosmini.sim.turtlesim import TurtleError
 
         try:

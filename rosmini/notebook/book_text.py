@@ -1,4 +1,4 @@
-"""What differs from machine to machine in what a cell prints or raises, and what the book has instead."""
+"""Replace text in outputs and errors of a cell that differs between machines by the text of the book."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def book_text(text: str, places: Places) -> str:
 
 
 class BookErrors:
-    """A context that changes the texts of errors of ours, and of those that caused them, on their way through it."""
+    """A context that rewrites the texts of rosmini's errors, and of their causes, when they leave it."""
 
     def __init__(self, rewrite: Callable[[str], str]) -> None:
         self._rewrite = rewrite

@@ -1,4 +1,4 @@
-"""What the words after ``%rosrun`` may go on as."""
+"""Completion of the words after ``%rosrun``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rosmini.core.packages import PackageIndex
 
 
 def complete(_shell: Any, event: Any) -> list[str]:
-    """Return the packages, or the executables of the package that is named, that begin with the word."""
+    """Return the packages, or the executables of the given package, that begin with the word."""
     before = event.text_until_cursor.lstrip().removeprefix("%").split()
     if event.text_until_cursor[-1:].isspace():
         before.append("")

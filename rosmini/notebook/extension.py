@@ -1,4 +1,4 @@
-"""What ``%load_ext rosmini`` does to an IPython shell."""
+"""Set up an IPython shell for ``%load_ext rosmini``."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from .session import Session, begin_session, end_session, session_of
 
 
 def load(shell: Any) -> None:
-    """Make a notebook one whose cells are terminals; a second call changes nothing.
+    """Turn the cells of a notebook into terminals; a second call changes nothing.
 
-    ``import rospy`` is rosmini's from now on, ROS's commands are line magics, and there is a new graph in simulated
+    Afterwards ``import rospy`` finds rosmini's, ROS's commands are line magics, and there is a new graph in simulated
     time.
     """
     if is_loaded(shell):
         return
     install(shadow=True)
-    tell_which_ros()
+    report_which_ros()
     session = begin_session(shell)
     magics.register(shell, say=session.say, warn=session.warn, around=lambda: session_of(shell).raising())
     shell.events.register("pre_run_cell", session.begin_cell)
@@ -39,7 +39,7 @@ def load(shell: Any) -> None:
 def unload(shell: Any) -> None:
     """Undo :func:`load`: end the graph, remove the notebook's package, and leave ``import rospy`` alone.
 
-    Prints which nodes end with the graph: ``%reload_ext`` calls this, too.
+    Prints which nodes end with the graph, because ``%reload_ext`` calls this as well.
     """
     if not is_loaded(shell):
         return
@@ -58,8 +58,8 @@ def is_loaded(shell: Any) -> bool:
     return vars(shell).get("rosmini_session") is not None
 
 
-def tell_which_ros() -> None:
-    """Say which rospy an import finds from now on, where there are two."""
+def report_which_ros() -> None:
+    """Print which rospy an import finds, if there are two."""
     loaded = getattr(sys.modules.get("rospy"), "__file__", None)
     if loaded is not None and "rosmini" not in loaded:
         print("rosmini: rospy was imported before; restart the kernel, and %load_ext rosmini first.")
@@ -68,25 +68,25 @@ def tell_which_ros() -> None:
 
 
 def roscore(session: Session, line: str) -> None:
-    """End the graph with all that runs in it, and restart: the same time, the same seed, a new Master.
+    """End the graph and everything in it, and start a new one with the same time and seed, and a new Master.
 
-    Raises ``UsageError`` for arguments: this roscore takes none.
+    Raises ``UsageError`` for arguments.
     """
     if line.strip():
         raise UsageError(
-            f"%roscore takes no arguments, not {line.strip()!r}: in a notebook it begins anew, and is all"
+            f"%roscore takes no arguments, not {line.strip()!r}: in a notebook it only starts a new graph"
         )
-    session.look()
+    session.attach()
     session.begin()
     session.say(f"ROS_MASTER_URI={session.graph.master_uri}\nstarted core service [/rosout]")
 
 
 def terminal(session: Session, line: str, cell: str) -> None:
-    """Run the lines of a cell in a terminal, which keeps its folder and its environment.
+    """Run the lines of a cell in a terminal, which keeps its folder and environment.
 
-    ``%%terminal --at NAME`` is another one, ``%%terminal --new`` begins with an empty home folder.
+    ``%%terminal --at NAME`` uses a different terminal, ``%%terminal --new`` starts with an empty home folder.
     """
-    session.look()
+    session.attach()
     session.terminals.run(line, cell)
 
 
@@ -103,11 +103,11 @@ OWN_MAGICS: tuple[tuple[str, str, Callable[..., object]], ...] = (
     ("cell", "launch", file_cells.launch),
     ("line", "save_package", save_package),
 )
-"""The magics that only a notebook has: the kind, the name, and the function that gets the session and the texts."""
+"""Magics for notebooks only: the kind, the name, and the function, which takes the session and the texts."""
 
 
 def _register(shell: Any, kind: str, name: str, act: Callable[..., object]) -> None:
-    """Register a magic of which only ``$name`` is replaced; ``act`` is given the session first."""
+    """Register a magic in which only ``$name`` is replaced; ``act`` takes the session as first argument."""
     from IPython.core.magic import no_var_expand
 
     def magic(*texts: str) -> object:

@@ -1,6 +1,6 @@
 """``%%msg Num``, ``%%srv``, ``%%action`` and ``%%launch start.launch``: cells that are files of the notebook's package.
 
-A cell is checked by the readers that use such files, before anything is written; an error names the line of the cell.
+A cell is checked by the readers of such files before anything is written; an error names the line of the cell.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _DECLARATION = re.compile(r"\A\s*<\?xml[^>]*\?>")
 
 @dataclass(frozen=True)
 class _Draft:
-    """The definitions of another source, and one more that is not in a file yet."""
+    """The definitions of another source, and one that is not in a file yet."""
 
     source: Source
     package: str
@@ -50,34 +50,34 @@ class _Draft:
 
 
 def msg(session: Session, line: str, cell: str) -> None:
-    """Write the cell as a message type: after ``%%msg Num`` there is ``from notebook.msg import Num``.
+    """Write the cell as a message type: after ``%%msg Num``, ``from notebook.msg import Num`` works.
 
-    Raises ``DefinitionError`` with the line of the cell for a definition that is wrong; then nothing is written.
+    Raises ``DefinitionError`` with the line of the cell for an invalid definition; then nothing is written.
     """
     _define(session, "msg", line, cell)
 
 
 def srv(session: Session, line: str, cell: str) -> None:
-    """Write the cell as a service type: after ``%%srv Add`` there is ``from notebook.srv import Add, AddResponse``.
+    """Write the cell as a service type: after ``%%srv Add``, ``from notebook.srv import Add, AddResponse`` works.
 
-    Raises ``DefinitionError`` with the line of the cell for a definition that is wrong; then nothing is written.
+    Raises ``DefinitionError`` with the line of the cell for an invalid definition; then nothing is written.
     """
     _define(session, "srv", line, cell)
 
 
 def action(session: Session, line: str, cell: str) -> None:
-    """Write the cell as an action type: after ``%%action Dock`` there is ``from notebook.msg import DockAction``.
+    """Write the cell as an action type: after ``%%action Dock``, ``from notebook.msg import DockAction`` works.
 
-    Raises ``DefinitionError`` with the line of the cell for a definition that is wrong; then nothing is written.
+    Raises ``DefinitionError`` with the line of the cell for an invalid definition; then nothing is written.
     """
     _define(session, "action", line, cell)
 
 
 def launch(session: Session, line: str, cell: str) -> None:
-    """Write the cell as a launch file: after ``%%launch two.launch`` there is ``%roslaunch notebook two.launch``.
+    """Write the cell as a launch file: after ``%%launch two.launch``, ``%roslaunch notebook two.launch`` starts it.
 
-    What it needs and is not there yet is told. Raises ``LaunchError`` with the line of the cell for a file that is
-    wrong; then nothing is written.
+    Prints what the file needs and does not exist yet. Raises ``LaunchError`` with the line of the cell for an invalid
+    file; then nothing is written.
     """
     name = _the_word(line, "%%launch NAME.launch")
     if not name.endswith(".launch"):
@@ -91,12 +91,12 @@ def launch(session: Session, line: str, cell: str) -> None:
 
 
 def _complaints(name: str, cell: str) -> list[str]:
-    """Return what is odd about a launch file, and what it needs that is not there."""
+    """Return warnings about a launch file, and the things that it needs and that are missing."""
     text = "\n" + _DECLARATION.sub("", cell)  # the line of the magic
     try:
         plan = read(text=text, lenient=True)
     except LaunchError as error:
-        if error.missing:  # such as an argument that a command line has to give
+        if error.missing:  # such as a required argument
             return []
         raise LaunchError(error.message, name, error.line) from None
     missing = [f"{name}:{each.place.line}: {each}" for each in plan.missing if each.kind != "arg"]
@@ -114,15 +114,15 @@ def _define(session: Session, kind: str, line: str, cell: str) -> None:
         forget(package.name)
     if before is not None and _meaning(before) != _meaning(cell):
         session.say(
-            f"{package.name}/{name} is another type from now on. What imported it before has the old one: import it "
+            f"{package.name}/{name} is now a different type. Earlier imports still have the old one: import it "
             "again, and run the cells of its nodes again."
         )
 
 
 def _check(package: str, kind: str, name: str, cell: str) -> None:
-    """Raise ``DefinitionError`` for a definition that is wrong, with the line of the cell."""
+    """Raise ``DefinitionError`` with the line of the cell for an invalid definition."""
     if not re.fullmatch(r"[A-Z][A-Za-z0-9_]*", name):
-        raise UsageError(f"{name!r} is no name for a type: one begins with a capital letter, such as Num")
+        raise UsageError(f"{name!r} is not a name for a type: names begin with a capital letter, such as Num")
     draft = _Draft(registry().source, package, kind, name, "\n" + cell)  # the line of the magic
     types = Registry(draft)
     if kind == "srv":
@@ -132,7 +132,7 @@ def _check(package: str, kind: str, name: str, cell: str) -> None:
 
 
 def _meaning(text: str) -> list[str]:
-    """Return a definition without comments and blanks."""
+    """Return the lines of a definition without comments and extra spaces."""
     return [
         " ".join(line.partition("#")[0].split())
         for line in text.splitlines()

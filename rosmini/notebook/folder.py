@@ -1,4 +1,4 @@
-"""A temporary folder that is gone after its process, also where that was killed."""
+"""A temporary folder that is removed after its process ends, even if the process was killed."""
 
 from __future__ import annotations
 
@@ -16,33 +16,33 @@ _LOCK = "lock"
 
 
 class TemporaryFolder:
-    """A folder of this process. Making one also removes those of processes that were killed.
+    """A temporary folder of this process. Making one also removes those of killed processes.
 
-    Who owns a folder holds a lock on a file in it, which the system releases when the process ends in whatever way;
-    where there are no such locks (Windows), an open file cannot be removed.
+    The owner of a folder holds a lock on a file in it, which the system releases when the process ends for any reason.
+    Windows has no such locks, but refuses to remove an open file.
     """
 
     def __init__(self) -> None:
         self.path = Path(tempfile.mkdtemp(prefix=PREFIX)).resolve()
-        """Where it is."""
+        """Path of the folder."""
         made = self.path / f"{_LOCK}-new"
         self._lock: Any = made.open("w", encoding="utf-8")
         _take(self._lock)
-        if os.name == "nt":  # nor can it be renamed
+        if os.name == "nt":  # an open file cannot be renamed
             self._lock.close()
             self._lock = (self.path / _LOCK).open("w", encoding="utf-8")
         else:
-            made.rename(self.path / _LOCK)  # what is called so is locked
+            made.rename(self.path / _LOCK)  # a file of this name is always locked
         remove_abandoned(self.path.parent)
 
     def remove(self) -> None:
-        """Remove it with all that is in it. Harmless when repeated."""
+        """Remove the folder and its contents. Harmless when repeated."""
         self._lock.close()
         shutil.rmtree(self.path, ignore_errors=True)
 
 
 def remove_abandoned(parent: Path) -> None:
-    """Remove the folders below ``parent`` whose processes have ended without doing so."""
+    """Remove the folders below ``parent`` whose processes have ended without removing them."""
     for folder in parent.glob(f"{PREFIX}*"):
         with suppress(OSError):
             lock = folder / _LOCK
@@ -55,7 +55,7 @@ def remove_abandoned(parent: Path) -> None:
 
 
 def _take(file: Any) -> None:
-    """Lock a file. Raises ``OSError`` if another process has."""
+    """Lock a file. Raises ``OSError`` if another process holds the lock."""
     with suppress(ImportError):  # Windows
         fcntl: Any = importlib.import_module("fcntl")
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

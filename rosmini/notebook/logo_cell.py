@@ -1,4 +1,4 @@
-"""``%%logo [--title TEXT] [TURTLE ...]``: the cell is a program in Logo, for turtles and robots of the graph."""
+"""``%%logo [--title TEXT] [TURTLE ...]``: the cell is a Logo program for turtles and robots of the graph."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ TITLE = "--title"
 
 
 def logo(session: Session, line: str, cell: str) -> Any:
-    """Run the cell as a program in Logo; show the drawing.
+    """Run the cell as a Logo program; show the drawing.
 
-    Without names it drives turtlesim's first turtle, or all robots, or a turtle on paper. Later cells know the
+    Without names it drives turtlesim's first turtle, or all robots, or a turtle on paper. Later cells share the
     procedures and the drawing of this one until %roscore, and until clearscreen.
     The error of a program is printed with its line in the cell; like a ``%%node`` cell, the cell itself does not fail.
     Raises ``UsageError`` for an invalid line, and ``LogoError`` for an unknown turtle.
@@ -35,7 +35,7 @@ def logo(session: Session, line: str, cell: str) -> Any:
     wrong = next((word for word in words if word.startswith("-")), None)
     if wrong is not None:
         raise UsageError(f"unknown option {wrong!r}. Usage: {USAGE}")
-    session.look()
+    session.attach()
     interpreter = session.logo(tuple(words), lambda: _begin(session, words))
     before = interpreter.drawing.lines
     try:

@@ -26,17 +26,17 @@ if TYPE_CHECKING:
     from .session import Session
 
 SHEBANG = "#!/usr/bin/env python3"
-"""The first line of a script: it takes the place of the magic's line, so that line numbers agree."""
+"""First line of a script: it replaces the line of the magic, so that line numbers agree."""
 
 STDIN = "--stdin"
 
-_SPEAKS = re.compile(r"\bprint\b|\blog(?:debug|info|warn|err|fatal)|\blogging\b|\bstd(?:out|err)\b|\binput\b")
-"""What is in a script that prints."""
+_PRINTS = re.compile(r"\bprint\b|\blog(?:debug|info|warn|err|fatal)|\blogging\b|\bstd(?:out|err)\b|\binput\b")
+"""Text that occurs in scripts that print."""
 
 
 @dataclass(frozen=True)
 class Words:
-    """The words of a line: what to start, its arguments, and what its standard input is to be, if that is given."""
+    """The words of a line: what to start, its arguments, and the text of its standard input, if given."""
 
     what: tuple[str, ...]
     args: tuple[str, ...]
@@ -44,15 +44,13 @@ class Words:
 
     @classmethod
     def of(cls, line: str, name: str, count: int, usage: str, variables: Mapping[str, Any]) -> Words:
-        """Read a line whose first ``count`` words say what to start. Raises ``UsageError``, with the ``usage``."""
+        """Read a line whose first ``count`` words say what to start. Raises ``UsageError`` with the ``usage``."""
         words = words_of(line, name, variables)
         stdin: str | None = None
         if STDIN in words:
             at = words.index(STDIN)
             if at + 1 == len(words):
-                raise UsageError(
-                    f"{STDIN} takes the text to be typed, such as {STDIN} '3\\n4'. Usage: {usage}"
-                )
+                raise UsageError(f"{STDIN} takes the text to type, such as {STDIN} '3\\n4'. Usage: {usage}")
             stdin = words[at + 1].replace("\\n", "\n").removesuffix("\n") + "\n"
             del words[at : at + 2]
         what = words[:count]
@@ -65,10 +63,10 @@ class Words:
 
 
 def node(session: Session, line: str, cell: str) -> None:
-    """Write the cell as a script into the notebook's package, and start it up to where it blocks.
+    """Write the cell as a script into the notebook's package, and start it until it blocks.
 
-    Raises ``UsageError`` for a line that makes no sense, and ``ScriptError`` for a cell that is no Python: then nothing
-    was written or ended.
+    Raises ``UsageError`` for an invalid line, and ``ScriptError`` for a cell that is not valid Python: then nothing
+    is written or ended.
     """
     given = Words.of(line, "%node", 1, f"%%node NAME.py [ARGS] [{STDIN} TEXT]", session.shell.user_ns)
     name = given.what[0]
@@ -81,9 +79,9 @@ def node(session: Session, line: str, cell: str) -> None:
 
 
 def rosrun(session: Session, line: str) -> None:
-    """Start an executable of a package up to where it blocks, as `rosrun PACKAGE EXECUTABLE [ARGS] &` does.
+    """Start an executable of a package until it blocks, like `rosrun PACKAGE EXECUTABLE [ARGS] &`.
 
-    Raises ``UsageError`` for a line that makes no sense, and as :func:`rosmini.rosrun` does.
+    Raises ``UsageError`` for an invalid line, and the errors of :func:`rosmini.rosrun`.
     """
     usage = f"%rosrun PACKAGE EXECUTABLE [ARGS] [{STDIN} TEXT]"
     given = Words.of(line, "rosrun", 2, usage, session.shell.user_ns)
@@ -94,21 +92,21 @@ def rosrun(session: Session, line: str) -> None:
         return
     graph = session.graph
     console = partial(Console, graph.scheduler, stdin="", sink=session.sink)
-    session.look()
+    session.attach()
     session.runs.start(
         RunKey.of(f"{package}/{name}", given.args),
         name,
         lambda: NodeHandle(graph, NodeSpec(found, given.args), console),
-        speaks=False,
+        may_print=False,
     )
 
 
 def roslaunch(session: Session, line: str) -> Result:
-    """Start the nodes of launch files, or answer what is asked about them, as the command does.
+    """Start the nodes of launch files, or print information about the files, like the command.
 
-    Raises as the command does.
+    Raises the errors of the command.
     """
-    session.look()
+    session.attach()
     console = {"stdin": "", "sink": session.sink}
     results: list[Result] = []
 
@@ -121,9 +119,9 @@ def roslaunch(session: Session, line: str) -> Result:
 
 
 def _start_script(session: Session, path: Path, title: str, given: Words, text: str | None = None) -> None:
-    """Start the script at ``path``, which is written first if its text is given.
+    """Start the script at ``path``; write it first if its text is given.
 
-    What it asks for comes from ``--stdin``, or from the reader.
+    Its standard input comes from ``--stdin``, or from the reader.
     """
     graph = session.graph
     advice = f"add {STDIN} TEXT to the line that starts {title}"
@@ -136,19 +134,19 @@ def _start_script(session: Session, path: Path, title: str, given: Words, text: 
         return ScriptHandle(graph, ScriptSpec(str(path), given.args), console, seed=_seed(given.args))
 
     source = path.read_text(encoding="utf-8", errors="replace") if text is None else text
-    session.look()
+    session.attach()
     session.runs.start(
-        RunKey.of(str(path), given.args), title, make, speaks=_SPEAKS.search(source) is not None
+        RunKey.of(str(path), given.args), title, make, may_print=_PRINTS.search(source) is not None
     )
 
 
 def _seed(args: Sequence[str]) -> str:
-    """Return what distinguishes the random numbers of two runs of one file."""
+    """Return the seed of a run: runs of one file with different arguments differ."""
     return f"0/{' '.join(args)}"
 
 
 def _check(session: Session, name: str, text: str) -> None:
-    """Raise ``ScriptError`` for what is no Python, shown as IPython shows it in a cell."""
+    """Raise ``ScriptError`` for invalid Python, displayed like a syntax error in a cell."""
     try:
         compile_script(text.encode(), name)
     except ScriptError as error:
@@ -159,7 +157,7 @@ def _check(session: Session, name: str, text: str) -> None:
 
 
 def _shown(shell: Any, cause: SyntaxError, text: str) -> list[str]:
-    """Return what IPython shows of a syntax error, and what we know besides."""
+    """Return IPython's display of a syntax error, and our advice."""
     lines: list[str] = shell.SyntaxTB.structured_traceback(type(cause), cause, [])
     known = text.partition("\n")[0]
     return lines if "this is not Python" in known else [*lines, known]

@@ -1,4 +1,4 @@
-"""What nodes print, in the cell in which time passes, and what they ask for."""
+"""Output and input of nodes, in the cell in which time passes."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from rosmini.ros.scripts.streams import ScriptOutput
 
 MAX_LINES = 2_000
-"""The largest number of lines that scripts may print in one cell: a loop without a pause prints a million a second."""
+"""Largest number of lines that scripts may print in one cell: a loop without a pause prints a million a second."""
 
 _A_MOMENT_NS = 1_000_000
 
 
 class CellStream(io.TextIOBase):
-    """Standard output or error of the cell that runs: nothing while ``is_muted``."""
+    """Standard output or error of the running cell; discards everything while ``is_muted``."""
 
     def __init__(self, name: str, rewrite: Callable[[str], str]) -> None:
         super().__init__()
@@ -35,13 +35,13 @@ class CellStream(io.TextIOBase):
         self._rewrite = rewrite
         self._target: TextIO = getattr(sys, name)
 
-    def look(self) -> None:
-        """Note where the process writes to now. Not for a lane of a script, which has streams of its own."""
+    def attach(self) -> None:
+        """Write to the process's present stream. Do not call this in a script's lane, which has separate streams."""
         self._target = getattr(sys, self.name)
 
     @property
     def encoding(self) -> str:  # type: ignore[override]
-        """What is written is text."""
+        """The encoding, since text is written."""
         return "utf-8"
 
     def writable(self) -> bool:
@@ -55,28 +55,28 @@ class CellStream(io.TextIOBase):
         return len(text)
 
     def flush(self) -> None:
-        """Flush the cell's stream, unless that was closed first."""
+        """Flush the cell's stream, unless it is already closed."""
         if not self.is_muted and not self._target.closed:
             self._target.flush()
 
 
 class CellSink(OutputSink):
-    """Where all scripts of a notebook write to; names stand before lines where ``several_speak``."""
+    """The output of all scripts of a notebook; lines begin with a script's name if ``several_print``."""
 
-    def __init__(self, rewrite: Callable[[str], str], several_speak: Callable[[ScriptOutput], bool]) -> None:
-        self._several_speak = several_speak
+    def __init__(self, rewrite: Callable[[str], str], several_print: Callable[[ScriptOutput], bool]) -> None:
+        self._several_print = several_print
         self._lines = 0
         self._streams = (CellStream("stdout", rewrite), CellStream("stderr", rewrite))
         out, err = (cast("TextIO", stream) for stream in self._streams)
         super().__init__(out, err)
 
     def begin_cell(self) -> None:
-        """Count from zero: another cell runs."""
+        """Reset the count of lines for a new cell."""
         self._lines = 0
-        self.look()
+        self.attach()
 
     def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
-        """Write a line, or the next part of one, unless that many were written; errors are always written."""
+        """Write a line, or part of one, up to the largest number of lines; errors are always written."""
         self._lines += complete and not owner.is_error
         if self._lines <= MAX_LINES or owner.is_error:
             super().emit(owner, text, complete=complete)
@@ -87,31 +87,31 @@ class CellSink(OutputSink):
             )
 
     def _label(self, owner: ScriptOutput) -> str:
-        return super()._label(owner) if self._several_speak(owner) else ""
+        return super()._label(owner) if self._several_print(owner) else ""
 
     def say(self, text: str) -> None:
-        """Write a line that is no node's, after what is unfinished."""
+        """Write a line of the notebook itself, after ending an unfinished line."""
         if self._open is not None:
             self.stdout.write("\n")
             self._open = None
         self.stdout.write(f"{text}\n")
         self.stdout.flush()
 
-    def look(self) -> None:
-        """Note where the process writes to now."""
+    def attach(self) -> None:
+        """Write to the process's present streams."""
         for stream in self._streams:
-            stream.look()
+            stream.attach()
 
     def mute(self, *, muted: bool) -> None:
-        """Throw away what is written from now on, or no longer."""
+        """Discard everything that is written from now on, or stop discarding."""
         for stream in self._streams:
             stream.is_muted = muted
 
 
 class TypedFeed(Feed):
-    """Lines that the reader types below the cell in which time passes; graph time stands still meanwhile.
+    """Lines that the reader types below the cell in which time passes; graph time stops meanwhile.
 
-    ``ask`` calls a function in the context of that cell. An interrupt ends that cell, and the script asks again when
+    ``ask`` calls a function in the context of that cell. An interrupt ends the cell, and the script asks again when
     time passes again.
     """
 
@@ -128,12 +128,12 @@ class TypedFeed(Feed):
             except EOFError:
                 self._ended = True
                 return
-            except NotImplementedError as error:  # IPython's, where nobody can type
+            except NotImplementedError as error:  # raised by IPython where there is no input
                 raise ScriptError(
-                    f"the script asks for input, and nobody can type here: {self._advice}"
+                    f"the script asks for input, but there is no keyboard here: {self._advice}"
                 ) from error
             except KeyboardInterrupt:
-                signal.raise_signal(signal.SIGINT)  # for who drives the graph: it ends the cell
+                signal.raise_signal(signal.SIGINT)  # ends the cell that drives the graph
                 who.pause("standard input", _A_MOMENT_NS)
 
     def _await(self, who: Blocker, timeout_ns: int | None) -> bool:  # noqa: ARG002
@@ -141,7 +141,7 @@ class TypedFeed(Feed):
 
 
 def _line() -> str:
-    """Let the reader type a line, and let an interrupt end that at once."""
+    """Read a line from the reader; an interrupt ends this at once."""
     if threading.current_thread() is not threading.main_thread():
         return builtins.input()
     before = signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -10,7 +10,7 @@ from rosmini.core.errors import UsageError
 from .folder import TemporaryFolder
 
 NAME = "notebook"
-"""What the package is called: the same whether the notebook is open in JupyterLab or VS Code or run by a test."""
+"""Name of the package: the same in JupyterLab, in VS Code and in a test."""
 
 FOLDERS = ("scripts", "launch", "msg", "srv", "action")
 
@@ -33,18 +33,18 @@ _MANIFEST = f"""\
 
 
 class NotebookPackage:
-    """A package in a temporary folder of this process; the only one that writes files of a notebook.
+    """A package in a temporary folder of this process; no other class writes files of a notebook.
 
-    It is on ``ROS_PACKAGE_PATH`` of this process until :meth:`close`, which is called at the end of the process at
+    It is on ``ROS_PACKAGE_PATH`` of this process until :meth:`close`, which is called when the process ends at
     the latest.
     """
 
     def __init__(self) -> None:
         self._temporary = TemporaryFolder()
         self.workspace = self._temporary.path / "catkin_ws"
-        """The folder of a catkin workspace around it."""
+        """Folder of the catkin workspace that contains it."""
         self.folder = self.workspace / "src" / NAME
-        """The package's folder."""
+        """Folder of the package."""
         self.name = NAME
         self.folder.mkdir(parents=True)
         self._put(self.folder / "package.xml", _MANIFEST)
@@ -52,12 +52,12 @@ class NotebookPackage:
         os.environ[_VARIABLE] = os.pathsep.join(filter(None, (str(self.folder.parent), self._path_before)))
 
     def file(self, kind: str, name: str) -> Path:
-        """Return where a file of a kind (one of :data:`FOLDERS`) and a name is, or would be.
+        """Return the path of a file of a kind (one of :data:`FOLDERS`), which need not exist.
 
-        Raises ``UsageError`` for a name that is no plain file name.
+        Raises ``UsageError`` for a name that is not a plain file name.
         """
         if kind not in FOLDERS:
-            raise ValueError(f"{kind!r} is none of the folders {', '.join(FOLDERS)}")
+            raise ValueError(f"{kind!r} is not one of the folders {', '.join(FOLDERS)}")
         plain = name.isprintable() and not set(name) & set('/\\:*?"<>|') and not name.startswith((".", "-"))
         if not name or not plain:
             raise UsageError(
@@ -67,9 +67,9 @@ class NotebookPackage:
         return self.folder / kind / name
 
     def write(self, kind: str, name: str, text: str, *, may_run: bool = False) -> Path:
-        """Write a file of the package, with the run bit or without, and return where it is.
+        """Write a file of the package, with or without the run bit, and return its path.
 
-        Raises ``UsageError`` for a name that is no plain file name.
+        Raises ``UsageError`` for a name that is not a plain file name.
         """
         path = self.file(kind, name)
         path.parent.mkdir(exist_ok=True)
@@ -82,7 +82,7 @@ class NotebookPackage:
         path.write_text(text, encoding="utf-8", newline="\n")
 
     def close(self) -> None:
-        """Remove the folder, and take it off the search path."""
+        """Remove the folder, also from the search path."""
         if self._path_before is None:
             os.environ.pop(_VARIABLE, None)
         else:

@@ -1,4 +1,4 @@
-"""Where a terminal of a notebook is, and its environment."""
+"""The working folder and the environment of a notebook's terminal."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ ROS_SETUP = {
     "ROS_ROOT": f"{SHARE}/ros",
     "ROS_VERSION": "1",
 }
-"""What the setup files of a ROS put into the environment; lists of folders get it in front."""
+"""Variables that ROS's setup files set; folders are put in front of a list."""
 
 
 class Prompt:
-    """The working folder and the environment of a terminal; values of the environment are as they are shown."""
+    """The working folder and the environment of a terminal; paths in the environment have the book's form."""
 
     def __init__(self, places: Places) -> None:
         self.places = places
@@ -42,12 +42,12 @@ class Prompt:
 
     @property
     def folder(self) -> str:
-        """The working folder, as it is shown."""
+        """The working folder, in the book's form."""
         return self.places.shown(str(self._folder))
 
     @property
     def previous(self) -> Path:
-        """The working folder before this one."""
+        """The previous working folder."""
         return self._previous
 
     def go(self, folder: Path) -> None:
@@ -55,11 +55,11 @@ class Prompt:
         self._previous, self._folder = self._folder, folder
 
     def path(self, word: str, *, writes: bool = False) -> Path:
-        """Return the path that a word names. Raises as `Places.find` does."""
+        """Return the path that a word names. Raises the errors of `Places.find`."""
         return self.places.find(word, self._folder, writes=writes)
 
     def words(self, pattern: str) -> list[str]:
-        """Return the names that a pattern such as ``*.py`` stands for; the pattern itself if there is none."""
+        """Return the names that match a pattern such as ``*.py``; the pattern itself if none does."""
         folder, _, last = pattern.rpartition("/")
         if not any(mark in last for mark in "*?") or any(mark in folder for mark in "*?"):
             return [pattern]
@@ -70,7 +70,7 @@ class Prompt:
         ]
 
     def remove(self, folder: Path) -> None:
-        """Remove a folder; of the home folder, what is in it."""
+        """Remove a folder; the home folder is only emptied."""
         is_home = folder.resolve() == self.places.home
         for each in list(folder.iterdir()) if is_home else [folder]:
             shutil.rmtree(each) if each.is_dir() and not each.is_symlink() else each.unlink()
@@ -78,7 +78,7 @@ class Prompt:
             self._folder = self._folder.parent
 
     def export(self, name: str, value: str | None) -> None:
-        """Set a variable; None takes it out of the environment."""
+        """Set a variable; None removes it."""
         if value is None:
             self.environment.pop(name, None)
             self._unset.add(name)
@@ -86,12 +86,12 @@ class Prompt:
             self.environment[name] = self.places.shown(value)
 
     def put_first(self, name: str, folders: str) -> None:
-        """Put folders first in a list of folders, once."""
+        """Put folders in front of a list of folders, once."""
         rest = [each for each in self.environment.get(name, "").split(":") if each and each != folders]
         self.environment[name] = ":".join([folders, *rest])
 
     def set_up(self, folders: Sequence[tuple[str, Path]] = ()) -> None:
-        """Do what the setup file of a ROS does, then that of a workspace with these folders for these lists."""
+        """Apply the setup file of ROS, then that of a workspace, which puts these folders in front of these lists."""
         for name, value in ROS_SETUP.items():
             if name not in (*LISTS, "PATH"):
                 self.environment.setdefault(name, value)
@@ -101,9 +101,9 @@ class Prompt:
             self.put_first(name, self.places.shown(str(folder)))
 
     def real_environment(self, base: Mapping[str, str]) -> dict[str, str | None]:
-        """Return how this environment differs from ``base``; None for a variable that was unset here.
+        """Return the differences of this environment from ``base``; None for a variable that was unset here.
 
-        ROS's own folders are left out of the lists: rosmini's packages are always found. Packages that ``base`` knows
+        ROS's own folders are left out of the lists: rosmini's packages are always found. Packages in ``base``
         come after those of the terminal.
         """
         found: dict[str, str | None] = dict.fromkeys(self._unset)
@@ -125,11 +125,11 @@ class Prompt:
 
     @contextmanager
     def inside(self, base: Mapping[str, str]) -> Iterator[None]:
-        """Let this process have the folder and the environment of the terminal."""
+        """Give this process the folder and the environment of the terminal inside the block."""
         home = str(self.places.home)
         try:
             before = Path.cwd()
-        except FileNotFoundError:  # it is gone
+        except FileNotFoundError:  # it was removed
             before = None
         os.chdir(self._folder)
         try:
@@ -143,7 +143,7 @@ class Prompt:
 
 @contextmanager
 def changed(values: Mapping[str, str | None]) -> Iterator[None]:
-    """Let the environment of this process have these values for a while; None: not to have them."""
+    """Set environment variables of this process inside the block; None unsets one."""
     before = {name: os.environ.get(name) for name in values}
     put(values)
     try:
@@ -153,7 +153,7 @@ def changed(values: Mapping[str, str | None]) -> Iterator[None]:
 
 
 def put(values: Mapping[str, str | None]) -> None:
-    """Set variables of this process; None takes one out."""
+    """Set environment variables of this process; None removes one."""
     for name, value in values.items():
         if value is None:
             os.environ.pop(name, None)

@@ -1,4 +1,4 @@
-"""What runs in a notebook: started by a cell, known by what was started, and restarted when the cell is run again."""
+"""The runs of a notebook: a cell starts a run, and running the cell again restarts it."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from rosmini.ros.scripts.streams import ScriptOutput
 
 GRACE_S = 3.0
-"""How many seconds of graph time a run has to end after Ctrl-C."""
+"""Time that a run has to end after Ctrl-C [s of graph time]."""
 
 
 class RunKey(NamedTuple):
-    """What a run is known by: its file (or ``package/executable``), and ``__ns`` and ``__name`` of its arguments."""
+    """Identifies a run: its file (or ``package/executable``), and ``__ns`` and ``__name`` of its arguments."""
 
     what: str
     namespace: str
@@ -30,29 +30,29 @@ class RunKey(NamedTuple):
 
     @classmethod
     def of(cls, what: str, words: Sequence[str]) -> RunKey:
-        """Return the key of a command line. Raises ``ROSInitException`` for a remapping that is wrong."""
+        """Return the key of a command line. Raises ``ROSInitException`` for an invalid remapping."""
         given = Remappings.from_argv(words)
         return cls(what, given.namespace or "", given.node_name or "")
 
 
 @dataclass
 class Run:
-    """A run, and what cells call it."""
+    """A run, and its name in messages."""
 
     title: str
     handle: ScriptHandle | NodeHandle
-    speaks: bool
-    """Whether its source looks as if it prints anything, or it has."""
+    may_print: bool
+    """True if its source seems to print, or if it has printed."""
 
     @property
     def node_name(self) -> str:
-        """The name of its node, or "" while it has none."""
+        """Name of its node, or "" if there is none yet."""
         node = self.handle.node
         return "" if node is None else str(node.name)
 
     @property
     def is_running(self) -> bool:
-        """True until it has ended."""
+        """True until it ends."""
         return self.handle.poll() is None
 
 
@@ -68,19 +68,19 @@ class Runs:
         self._runs: dict[RunKey, Run] = {}
         self._launches: dict[tuple[str, ...], Launch] = {}
 
-    def several_speak(self, speaker: ScriptOutput) -> bool:
-        """Return whether more than one of those that run may print, now that one of them does."""
+    def several_print(self, speaker: ScriptOutput) -> bool:
+        """Return whether several running scripts may print; ``speaker`` has just printed."""
         for run in self._runs.values():
-            run.speaks |= (
+            run.may_print |= (
                 isinstance(run.handle, ScriptHandle) and run.is_running and run.handle.writes(speaker)
             )
         launched = (made.handle for launch in self._launches.values() for made in launch.running)
-        speakers = sum(run.speaks and run.is_running for run in self._runs.values())
+        speakers = sum(run.may_print and run.is_running for run in self._runs.values())
         scripts = sum(isinstance(handle, ScriptHandle) and handle.poll() is None for handle in launched)
         return speakers + scripts > 1
 
     def launch(self, words: Sequence[str], start: Callable[[], Launch | None]) -> None:
-        """Start launch files, up to where their nodes block. What these words have launched before ends first."""
+        """Start launch files until their nodes block. An earlier launch with the same words ends first."""
         before = self._launches.pop(tuple(words), None)
         if before is not None:
             before.stop()
@@ -90,15 +90,15 @@ class Runs:
             self.graph.run(0)
 
     def start(
-        self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle], *, speaks: bool
+        self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle], *, may_print: bool
     ) -> Run:
-        """Start what ``make`` makes, up to where it blocks; no time passes. The earlier run of this key ends first.
+        """Start the result of ``make`` until it blocks; no time passes. An earlier run with this key ends first.
 
-        Raises what ``make`` raises; then nothing was ended.
+        Raises the errors of ``make``; then nothing was ended.
         """
         handle = make()
         self._end(key)
-        run = Run(title, handle, speaks)
+        run = Run(title, handle, may_print)
         handle.on_end = lambda status: self._ended(run, status)
         handle.start()
         self._runs[key] = run
@@ -110,7 +110,7 @@ class Runs:
         return run
 
     def _end(self, key: RunKey) -> None:
-        """Ask the run of a key to end, as Ctrl-C does, and end it if it does not."""
+        """Ask the run of a key to end, like Ctrl-C, and kill it if it does not."""
         run = self._runs.get(key)
         if run is None or not run.is_running:
             return
@@ -120,7 +120,7 @@ class Runs:
         except StillRunning:
             run.handle.kill()
             self._say(f"{run.title} did not end within {GRACE_S:g} s of Ctrl-C, and was killed.")
-        except KeyboardInterrupt:  # the reader will not wait for it
+        except KeyboardInterrupt:  # the reader does not want to wait
             run.handle.kill()
             raise
 

@@ -1,4 +1,4 @@
-"""``%save_package FOLDER``: what the cells of a notebook have written, as a catkin package for real ROS 1."""
+"""``%save_package FOLDER``: save the files that a notebook's cells wrote as a catkin package for real ROS 1."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from .session import Session
 
 MARK = "written by %save_package"
-"""What is in the description of a package that may be written again."""
+"""Text in the description of a package that may be overwritten."""
 
 TYPES = {"msg": "message", "srv": "service", "action": "action"}
-"""The folders of types, and what catkin's commands call them."""
+"""Folders of types, and their names in catkin's commands."""
 
 SYSTEM = {
     "cv2": "python3-opencv",
@@ -35,15 +35,15 @@ SYSTEM = {
     "numpy": "python3-numpy",
     "yaml": "python3-yaml",
 }
-"""Python modules that are packages of the system, by the names that rosdep has for them."""
+"""Python modules from system packages, and rosdep's names for these."""
 
 _PKG = re.compile(r"\bpkg\s*=\s*[\"']([^\"'$]+)[\"']|\$\(find\s+([^)\s]+)\)")
 
 
 def save_package(session: Session, line: str) -> None:
-    """Write the notebook's package into a folder, as `%save_package ~/catkin_ws/src` does.
+    """Write the notebook's package into a folder: `%save_package ~/catkin_ws/src`.
 
-    There `catkin_make` builds it, and `rosrun notebook talker.py` runs it, on a real ROS 1. One that was written before
+    On a real ROS 1, `catkin_make` builds it and `rosrun notebook talker.py` runs it. A package written earlier
     is replaced. Raises ``UsageError`` without a folder, and ``RosminiError`` if it cannot be written there.
     """
     where = line.strip().strip("\"'")
@@ -54,7 +54,7 @@ def save_package(session: Session, line: str) -> None:
     try:
         written = save(package.folder, target)
     except OSError as error:
-        raise RosminiError(f"{where}: {error.strerror}; choose a folder that can be written") from error
+        raise RosminiError(f"{where}: {error.strerror}; choose a writable folder") from error
     session.say(f"{Path(where) / package.name}: {', '.join(written)}")
     if any(
         "import rosmini" in path.read_text(encoding="utf-8")
@@ -64,17 +64,17 @@ def save_package(session: Session, line: str) -> None:
 
 
 def save(source: Path, target: Path) -> list[str]:
-    """Write the package in ``source``, with its manifest and its build file made anew; return the names of its files.
+    """Write the package in ``source`` with a new manifest and build file; return the names of its files.
 
-    Raises ``RosminiError`` if there is another package, and ``OSError`` if it cannot be written.
+    Raises ``RosminiError`` if there is a different package, and ``OSError`` if it cannot be written.
     """
     if target.exists() and MARK not in _text(target / MANIFEST):
-        raise RosminiError(
-            f"{target} is there already, and is no package that %save_package wrote: move it away"
-        )
+        raise RosminiError(f"{target} already exists, and %save_package did not write it: move it away")
     found = {kind: [path for path in sorted((source / kind).glob("*")) if path.is_file()] for kind in FOLDERS}
     if not any(found.values()):
-        raise RosminiError("no cell has written a file yet: %%node, %%launch, %%msg, %%srv and %%action do")
+        raise RosminiError(
+            "no cell has written a file yet; %%node, %%launch, %%msg, %%srv and %%action write files"
+        )
     if target.exists():
         shutil.rmtree(target)
     for kind, paths in found.items():
@@ -116,7 +116,7 @@ def launched(own: str, paths: Sequence[Path]) -> set[str]:
 
 
 def imports(text: str) -> set[str]:
-    """Return the first names of the modules that a script imports, Python's own left out; none if it is no Python."""
+    """Return the top-level modules that a script imports, without Python's own; empty if it is not valid Python."""
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError):
@@ -131,7 +131,7 @@ def imports(text: str) -> set[str]:
 
 
 def _used(own: str, kind: str, name: str) -> Iterable[str]:
-    """Yield the packages whose types a type has in it."""
+    """Yield the packages whose types a type contains."""
     types = registry()
     if kind == "srv":
         service = types.service_definition(f"{own}/{name}")
@@ -166,7 +166,7 @@ def cmake(name: str, packages: Sequence[str], found: dict[str, list[Path]]) -> s
 
 
 def _text(path: Path) -> str:
-    """Return the text of a file; nothing if there is none."""
+    """Return the text of a file; empty if it does not exist."""
     try:
         return files.read(path).decode("utf-8", "replace")
     except OSError:

@@ -1,4 +1,4 @@
-"""What one notebook has besides its variables: a graph in simulated time, a package, and what its cells started."""
+"""The session of a notebook: a graph in simulated time, a package, and the programs that its cells started."""
 
 from __future__ import annotations
 
@@ -34,19 +34,19 @@ _ATTRIBUTE = "rosmini_session"
 class Session:
     """The ROS side of one notebook; an attribute of its IPython shell.
 
-    The notebook's graph is the default graph. It does not raise what a callback of a script lets out: that is logged,
+    The notebook's graph is the default graph. It does not raise errors from callbacks of scripts, but logs them,
     as in ROS.
     """
 
     runs: Runs
-    """What runs in the graph."""
+    """The runs in the graph."""
 
     def __init__(self, shell: Any) -> None:
         self.shell = shell
         self.package = NotebookPackage()
         self._places = Places(self.package.workspace.parent)
-        self.terminals = Terminals(shell, self.look)
-        self.sink = CellSink(self._in_cell, self._several_speak)
+        self.terminals = Terminals(shell, self.attach)
+        self.sink = CellSink(self._in_cell, self._several_print)
         self._cell = contextvars.copy_context()
         self._process = os.getpid()
         self._thread = threading.get_ident()
@@ -54,33 +54,33 @@ class Session:
 
     @property
     def graph(self) -> Graph:
-        """The graph on which all commands of the notebook act."""
+        """The graph for all commands of the notebook."""
         graph = default_graph()
-        if graph is not self.runs.graph:  # the reader has chosen another
+        if graph is not self.runs.graph:  # the reader has chosen a different graph
             self.runs = Runs(graph, self.say)
         return graph
 
     def begin(self) -> None:
-        """End the graph with all that runs in it, and begin with a new one at the same time and with the same seed."""
+        """End the graph and everything in it, and start a new one with the same time and seed."""
         try:
             self._end_graph()
         finally:
             graph = Graph(strict=False)
             graph.notebook = True
-            graph.record()  # %roswhy asks about what was, and nobody knows before what that will be
+            graph.record()  # %roswhy asks about the past
             set_default_graph(graph)
             self.runs = Runs(graph, self.say)
             self.logos: dict[tuple[str, ...], Logo] = {}
-            """The interpreters of ``%%logo`` cells, by the names of their turtles."""
+            """Interpreters of ``%%logo`` cells, by the names of their turtles."""
 
     def logo(self, names: tuple[str, ...], make: Callable[[], Logo]) -> Logo:
-        """Return the interpreter that drives these turtles in this graph, made now if there is none."""
+        """Return the interpreter for these turtles in this graph; make one if there is none yet."""
         if names not in self.logos:
             self.logos[names] = make()
         return self.logos[names]
 
     def _end_graph(self) -> None:
-        """Shut all nodes down; what they print meanwhile went to terminals of theirs, and is not shown."""
+        """Shut all nodes down, and discard what they print meanwhile."""
         ended = set_default_graph(None)
         if ended is None:
             return
@@ -93,7 +93,7 @@ class Session:
             self.sink.mute(muted=False)
 
     def end(self) -> None:
-        """End the graph and remove the package. Only in the process that began; a fork of it owns nothing."""
+        """End the graph and remove the package. A fork of the process does nothing, since it owns neither."""
         if os.getpid() == self._process:
             try:
                 self._end_graph()
@@ -104,37 +104,37 @@ class Session:
     # -- cells ---------------------------------------------------------------------------------------------------
 
     def require_main(self, what: str) -> None:
-        """Raise ``RosminiError`` in a subshell of the kernel, where widgets and consoles ask, and no node can begin."""
+        """Raise ``RosminiError`` in a subshell of the kernel (for widgets and consoles), which cannot start nodes."""
         if threading.get_ident() != self._thread:
             raise RosminiError(f"{what} works in the notebook itself, not in a subshell of its kernel")
 
     def begin_cell(self, *_: object) -> None:
-        """Note that another cell runs: the caller's."""
+        """Send output to the cell of the caller, which has just started."""
         self.sink.begin_cell()
-        self.look()
+        self.attach()
 
-    def look(self) -> None:
-        """Note where the caller's output goes, and where its reader types."""
+    def attach(self) -> None:
+        """Send output to the caller's cell, and read input there."""
         self._cell = contextvars.copy_context()
-        self.sink.look()
+        self.sink.attach()
 
     def say(self, text: str) -> None:
-        """Print a line of the notebook's own into the cell."""
+        """Print a line of the notebook itself into the cell."""
         self.sink.say(text)
 
     def warn(self, text: str) -> None:
-        """Print what is amiss: into the cell, in order, also where a terminal writes what is said into a file."""
+        """Print a warning into the cell, in order, even if a terminal redirects its output to a file."""
         if isinstance(sys.stderr, ShownStream):
             print(text, file=sys.stderr)
         else:
             self.say(text)
 
     def raising(self) -> BookErrors:
-        """Return what gives errors of ours the book's form on their way into a cell, where cells have that."""
+        """Return a context that gives rosmini's errors the book's form, if the notebook uses it."""
         return BookErrors(self._in_cell)
 
     def typed(self, advice: str) -> TypedFeed:
-        """Return standard input from the reader, who types below the cell; ``advice`` is for where nobody can."""
+        """Return standard input that the reader types below the cell; ``advice`` is shown where this is impossible."""
         return TypedFeed(self._ask, advice)
 
     def _ask(self, ask: Callable[[], str]) -> str:
@@ -142,22 +142,22 @@ class Session:
         with nullcontext() if script is None else script.put_aside():
             return self._cell.copy().run(ask)
 
-    def _several_speak(self, speaker: ScriptOutput) -> bool:
-        return self.runs.several_speak(speaker)
+    def _several_print(self, speaker: ScriptOutput) -> bool:
+        return self.runs.several_print(speaker)
 
     def _in_cell(self, text: str) -> str:
         return book_text(text, self._places) if book_form() else text
 
 
 def begin_session(shell: Any) -> Session:
-    """Return the session of an IPython shell, made now if it has none."""
+    """Return the session of an IPython shell; make one if it has none."""
     if vars(shell).get(_ATTRIBUTE) is None:
         vars(shell)[_ATTRIBUTE] = Session(shell)
     return session_of(shell)
 
 
 def session_of(shell: Any) -> Session:
-    """Return the session of an IPython shell. Raises ``RosminiError`` where ``%load_ext rosmini`` has not run."""
+    """Return the session of an IPython shell. Raises ``RosminiError`` if ``%load_ext rosmini`` has not run."""
     found: Session | None = vars(shell).get(_ATTRIBUTE)
     if found is None:
         raise RosminiError("this notebook has no graph: begin it with %load_ext rosmini")

@@ -1,6 +1,6 @@
-"""Lines of a shell, read without one: words, quotation marks, ``&&``, ``|``, ``>`` and heredocs.
+"""A parser of shell lines: words, quotation marks, ``&&``, ``|``, ``>`` and heredocs.
 
-The grammar is the part of POSIX's shell language that the first hours with ROS need. What is beyond it (``if``,
+The grammar is the part of POSIX's shell language that beginners with ROS need. Everything else (``if``,
 ``$(...)``, ``<``) is refused by name, never misunderstood.
 """
 
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from rosmini.core.errors import UsageError
 
 OPERATORS = ("&&", "||", ";", "|", ">", ">>", "&")
-"""The operators that are understood; a ``&`` only at the end of a command, where it means nothing in a cell."""
+"""Supported operators; ``&`` only at the end of a command, where it has no effect in a cell."""
 
 _TOKEN = re.compile(
     r"(?P<space>\s+)|(?P<comment>\#.*)|(?P<operator>&&|\|\||>>|<<-?|[12&]>&?[12]?|[|;&<>()])"
@@ -28,7 +28,7 @@ _SUBSTITUTION = re.compile(r"\$\(|`")
 
 @dataclass(frozen=True)
 class Redirection:
-    """Where the output of a command goes: a file, as it is written in the line."""
+    """The file for the output of a command, as written in the line."""
 
     file: str
     appends: bool
@@ -36,18 +36,18 @@ class Redirection:
 
 @dataclass(frozen=True)
 class Command:
-    """One command: its words as they are written, where its output goes, and the text that it reads."""
+    """One command: its words as written, the redirection of its output, and the text that it reads."""
 
     words: tuple[str, ...]
     to: Redirection | None = None
     text: str | None = None
     text_is_raw: bool = False
-    """Whether variables in the text stay as they are: its end was quoted."""
+    """True if variables in the text are not replaced, because its end marker was quoted."""
 
 
 @dataclass(frozen=True)
 class Pipeline:
-    """Commands, each of which reads what the one before writes, and the operator before them (empty: the first)."""
+    """Commands, each of which reads the output of the previous one, and the operator before them (empty: the first)."""
 
     after: str
     commands: tuple[Command, ...]
@@ -55,7 +55,7 @@ class Pipeline:
 
 @dataclass(frozen=True)
 class Line:
-    """A line as it was typed, and what it does."""
+    """A line as typed, and its pipelines."""
 
     number: int
     text: str
@@ -63,16 +63,16 @@ class Line:
 
 
 def parse(text: str) -> list[Line]:
-    """Return the lines of a cell; comments and empty lines are left out.
+    """Return the lines of a cell without comments and empty lines.
 
-    Raises ``UsageError`` with the number of the line for what this is no shell for, and what has no end.
+    Raises ``UsageError`` with the number of the line for unsupported syntax and for text without an end.
     """
     rows = iter(enumerate(text.splitlines(), 1))
     return [line for number, row in rows if (line := _line(number, row, rows)) is not None]
 
 
 def _line(number: int, row: str, rows: Iterator[tuple[int, str]]) -> Line | None:
-    """Return one line, with the rows that belong to it taken from ``rows``; None if it does nothing."""
+    """Return one line, taking its continuation rows from ``rows``; None if it is empty."""
     while row.endswith("\\"):
         row = row[:-1] + next(rows, (0, ""))[1].lstrip()
     tokens = list(_tokens(number, row))
@@ -87,7 +87,7 @@ def _tokens(number: int, row: str) -> Iterator[tuple[str, str]]:
     while at < len(row):
         match = _TOKEN.match(row, at)
         if match is None:
-            raise UsageError(f"line {number}: the quotation mark in `{row[at:].strip()}` has no partner")
+            raise UsageError(f"line {number}: the quotation mark in `{row[at:].strip()}` is not closed")
         kind = str(match.lastgroup)
         at = match.end()
         if kind in ("word", "operator"):
@@ -106,7 +106,7 @@ def _pipelines(
     for kind, part in todo:
         if kind == "word":
             if _SUBSTITUTION.search(part) and not part.startswith("'"):
-                raise UsageError(f"line {number}: `{part}` needs a shell; write what it stands for")
+                raise UsageError(f"line {number}: `{part}` needs a shell; write its result instead")
             words.append(part)
         elif part in (">", ">>", "<<"):
             operand = next(todo)
@@ -116,7 +116,7 @@ def _pipelines(
                 here = operand[1]
             else:
                 to = Redirection(operand[1], part == ">>")
-        elif part == "2>&1":  # both go to the cell anyway
+        elif part == "2>&1":  # both go to the cell
             continue
         elif part == "\n" or part in OPERATORS:
             if not words and not (part == "\n" and not commands and after in (";", "&")):
@@ -129,26 +129,28 @@ def _pipelines(
                 yield Pipeline(after, tuple(commands))
                 after, commands = part, []
         else:
-            raise UsageError(f"line {number}: `{part}` is a shell's, and there is none behind this cell")
+            raise UsageError(f"line {number}: `{part}` needs a shell, which this cell does not have")
 
 
 def _document(number: int, end: str, rows: Iterator[tuple[int, str]]) -> str:
-    """Return the rows up to the one that ends a heredoc."""
+    """Return the rows up to the end marker of a heredoc."""
     wanted, found = unquoted(end), list[str]()
     for _, row in rows:
         if row == wanted:
             return "".join(f"{each}\n" for each in found)
         found.append(row)
-    raise UsageError(f"line {number}: the text that begins here has no end: a line with {wanted} alone")
+    raise UsageError(
+        f"line {number}: the text that begins here does not end: add a line that contains only {wanted}"
+    )
 
 
 def unquoted(word: str) -> str:
-    """Return a word without its quotation marks, variables left as they are."""
+    """Return a word without its quotation marks; variables are kept."""
     return expand(word, lambda name: f"${name}")
 
 
 def expand(word: str, value: Callable[[str], str]) -> str:
-    """Return what a word means: quotation marks gone, and each variable outside of single ones replaced."""
+    """Return a word without quotation marks, with each variable replaced except in single quotes."""
     parts = []
     for match in _PIECE.finditer(word):
         if match["double"] is not None:
@@ -166,5 +168,5 @@ def expand_variables(text: str, value: Callable[[str], str]) -> str:
 
 
 def is_quoted(word: str) -> bool:
-    """Return whether a word has quotation marks: then ``*`` in it is a star."""
+    """Return whether a word has quotation marks, so that ``*`` is not a pattern."""
     return any(mark in word for mark in "'\"\\")

@@ -1,6 +1,6 @@
-"""The words of a shell that a terminal of a notebook knows by itself: ``cd``, ``ls``, ``cat``, ``mkdir`` ...
+"""The shell commands of a notebook's terminal: ``cd``, ``ls``, ``cat``, ``mkdir`` ...
 
-Each is a function that takes the terminal, its options, its other words and what it reads, and returns what it prints.
+Each is a function that takes the terminal, options, words and input text, and returns its output.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from .prompt import Prompt
 from .waiting import wait
 
 WIDTH = 80
-"""How many characters of names `ls` puts in one line."""
+"""Line width of `ls` [characters]."""
 
 
 @dataclass(frozen=True)
 class Given:
-    """What a word is given: its options (letters), its other words, and the text that it reads."""
+    """The arguments of a word: options (letters), other words, and the input text."""
 
     name: str
     options: str
@@ -36,7 +36,7 @@ Act = Callable[[Prompt, Given], str]
 
 @dataclass(frozen=True)
 class Word:
-    """A word: its options, how many other words it takes at least, and what it does."""
+    """A word: its function, its options, and its least number of other words."""
 
     act: Act
     options: str = ""
@@ -44,11 +44,11 @@ class Word:
 
 
 WORDS: dict[str, Word] = {}
-"""The words that are known, by name."""
+"""All words by name."""
 
 
 def word(name: str, *, options: str = "", at_least: int = 0) -> Callable[[Act], Act]:
-    """Add the decorated function."""
+    """Register the decorated function."""
 
     def add(act: Act) -> Act:
         WORDS[name] = Word(act, options, at_least)
@@ -58,7 +58,7 @@ def word(name: str, *, options: str = "", at_least: int = 0) -> Callable[[Act], 
 
 
 def run(terminal: Prompt, name: str, words: Sequence[str], text: str | None) -> str:
-    """Do what a word says, and return what it prints. Raises ``UsageError`` for an option that it has not."""
+    """Run a word and return its output. Raises ``UsageError`` for an unknown option."""
     known = WORDS[name]
     letters, others = "", list(words)
     while known.options and others and re.fullmatch(r"-[A-Za-z0-9]+", others[0]):
@@ -80,7 +80,7 @@ def _missing(path: str) -> RosminiError:
 
 
 def _there(terminal: Prompt, given: Given) -> Iterator[tuple[str, Path]]:
-    """Yield the words and what they name. Raises if something is not there."""
+    """Yield the words and their paths. Raises ``RosminiError`` for a path that does not exist."""
     for each in given.words:
         path = terminal.path(each)
         if not path.exists():
@@ -89,10 +89,10 @@ def _there(terminal: Prompt, given: Given) -> Iterator[tuple[str, Path]]:
 
 
 def _text(terminal: Prompt, given: Given) -> str:
-    """Return the text of the files that are named, or what is read if none is."""
+    """Return the text of the given files, or the input text if there are none."""
     if not given.words:
         if given.text is None:
-            raise UsageError("nobody types here; name a file")
+            raise UsageError("there is no keyboard here; name a file")
         return given.text
     texts = []
     for each, path in _there(terminal, given):
@@ -102,7 +102,7 @@ def _text(terminal: Prompt, given: Given) -> str:
     return "".join(texts)
 
 
-# -- where one is ----------------------------------------------------------------------------------------------------
+# -- working folder --------------------------------------------------------------------------------------------------
 
 
 @word("cd")
@@ -120,13 +120,13 @@ def cd(terminal: Prompt, given: Given) -> str:
 
 @word("pwd")
 def pwd(terminal: Prompt, _given: Given) -> str:
-    """Say where one is."""
+    """Print the working folder."""
     return f"{terminal.folder}\n"
 
 
 @word("ls", options="a1lF")
 def ls(terminal: Prompt, given: Given) -> str:
-    """List folders: names in alphabetical order, with -l what each is and whether it can be run."""
+    """List folders in alphabetical order, with -l the kind of each name and its run bits."""
     parts = []
     named = Given(given.name, given.options, given.words or ["."], None)
     for each, path in _there(terminal, named):
@@ -138,7 +138,7 @@ def ls(terminal: Prompt, given: Given) -> str:
 
 
 def _listed(folder: Path, names: Sequence[str], options: str) -> str:
-    """Return names as they are listed."""
+    """Return the listing of names."""
     if "l" in options:
         return _lines([f"{_mode(folder / name)} {name}" for name in names])
     if "F" in options:
@@ -158,7 +158,7 @@ def _mark(path: Path) -> str:
 
 @word("tree", options="ad")
 def tree(terminal: Prompt, given: Given) -> str:
-    """Draw what is in a folder, and in the folders in it; with -d folders only."""
+    """Draw a folder and its subfolders; with -d only folders."""
     named = Given("tree", given.options, given.words or ["."], None)
     lines: list[str] = []
     counts = [0, 0]
@@ -195,7 +195,7 @@ def mkdir(terminal: Prompt, given: Given) -> str:
             raise RosminiError(f"cannot create directory '{each}': File exists")
         if not path.parent.is_dir() and "p" not in given.options:
             raise RosminiError(
-                f"cannot create directory '{each}': No such file or directory; mkdir -p makes both"
+                f"cannot create directory '{each}': No such file or directory; mkdir -p makes both folders"
             )
         path.mkdir(parents=True, exist_ok=True)
     return ""
@@ -203,7 +203,7 @@ def mkdir(terminal: Prompt, given: Given) -> str:
 
 @word("touch", at_least=1)
 def touch(terminal: Prompt, given: Given) -> str:
-    """Make files that are empty."""
+    """Make empty files."""
     for each in given.words:
         path = terminal.path(each, writes=True)
         if not path.parent.is_dir():
@@ -214,10 +214,10 @@ def touch(terminal: Prompt, given: Given) -> str:
 
 @word("chmod", at_least=2)
 def chmod(terminal: Prompt, given: Given) -> str:
-    """Allow files to be run (+x), or not (-x). Windows knows no such thing: there it does nothing."""
+    """Set (+x) or clear (-x) the run bit of files. Does nothing on Windows, which has no run bit."""
     mode = re.fullmatch(r"[ugoa]*([+-])x|0?755|0?644", given.words[0])
     if mode is None:
-        raise UsageError(f"{given.words[0]}: here are +x, u+x, a+x, -x, 755 and 644")
+        raise UsageError(f"{given.words[0]}: use +x, u+x, a+x, -x, 755 or 644")
     allows = mode[1] == "+" or given.words[0].endswith("755")
     for _, path in _there(terminal, Given("chmod", "", given.words[1:], None)):
         own = terminal.path(str(path), writes=True)
@@ -228,7 +228,7 @@ def chmod(terminal: Prompt, given: Given) -> str:
 
 @word("cp", options="r", at_least=2)
 def cp(terminal: Prompt, given: Given) -> str:
-    """Copy files, and with -r folders."""
+    """Copy files, and with -r also folders."""
     for path, target in _targets(terminal, given):
         if path.is_dir():
             if "r" not in given.options:
@@ -249,7 +249,7 @@ def mv(terminal: Prompt, given: Given) -> str:
 
 
 def _targets(terminal: Prompt, given: Given) -> list[tuple[Path, Path]]:
-    """Return what is copied or moved, and where each goes. Raises if one goes into itself."""
+    """Return pairs of source and target. Raises ``RosminiError`` if a folder would go into itself."""
     *names, last = given.words
     goal = terminal.path(last, writes=True)
     if not goal.parent.is_dir() or (len(names) > 1 and not goal.is_dir()):
@@ -264,7 +264,7 @@ def _targets(terminal: Prompt, given: Given) -> list[tuple[Path, Path]]:
 
 @word("rm", options="rf", at_least=1)
 def rm(terminal: Prompt, given: Given) -> str:
-    """Remove files, and with -r folders; the home folder itself is only emptied."""
+    """Remove files, and with -r also folders; the home folder itself is only emptied."""
     for each in given.words:
         path = terminal.path(each, writes=True)
         if not path.exists() and not path.is_symlink():
@@ -272,7 +272,9 @@ def rm(terminal: Prompt, given: Given) -> str:
                 raise RosminiError(f"cannot remove '{each}': No such file or directory")
         elif path.is_dir() and not path.is_symlink():
             if "r" not in given.options:
-                raise RosminiError(f"cannot remove '{each}': Is a directory; rm -r removes it and all in it")
+                raise RosminiError(
+                    f"cannot remove '{each}': Is a directory; rm -r removes it and its contents"
+                )
             terminal.remove(path)
         else:
             path.unlink()
@@ -290,7 +292,7 @@ def cat(terminal: Prompt, given: Given) -> str:
 
 @word("echo", options="en")
 def echo(_terminal: Prompt, given: Given) -> str:
-    """Say something."""
+    """Print text."""
     text = " ".join(given.words)
     if "e" in given.options:
         text = text.replace("\\n", "\n").replace("\\t", "\t")
@@ -299,7 +301,7 @@ def echo(_terminal: Prompt, given: Given) -> str:
 
 @word("grep", options="invE", at_least=1)
 def grep(terminal: Prompt, given: Given) -> str:
-    """Show the lines in which a pattern occurs."""
+    """Show the lines that match a pattern."""
     try:
         pattern = re.compile(given.words[0], re.IGNORECASE if "i" in given.options else 0)
     except re.error as error:
@@ -313,20 +315,20 @@ def grep(terminal: Prompt, given: Given) -> str:
 
 @word("head", options="n0123456789")
 def head(terminal: Prompt, given: Given) -> str:
-    """Show the first lines: 10, or as many as -n says."""
+    """Show the first lines: 10, or the number after -n."""
     count, named = _count(given)
     return _lines(_text(terminal, named).splitlines()[:count])
 
 
 @word("tail", options="n0123456789")
 def tail(terminal: Prompt, given: Given) -> str:
-    """Show the last lines: 10, or as many as -n says."""
+    """Show the last lines: 10, or the number after -n."""
     count, named = _count(given)
     return _lines(_text(terminal, named).splitlines()[-count:] if count else [])
 
 
 def _count(given: Given) -> tuple[int, Given]:
-    """Return how many lines are wanted, and what else is given."""
+    """Return the number of lines, and the other arguments."""
     digits, words = given.options.replace("n", ""), list(given.words)
     if "n" in given.options and not digits and words:
         digits = words.pop(0)
@@ -337,7 +339,7 @@ def _count(given: Given) -> tuple[int, Given]:
 
 @word("sort", options="r")
 def sort(terminal: Prompt, given: Given) -> str:
-    """Show lines in alphabetical order, with -r the other way round."""
+    """Sort lines alphabetically, with -r in reverse."""
     return _lines(sorted(_text(terminal, given).splitlines(), reverse="r" in given.options))
 
 
@@ -364,7 +366,7 @@ def export(terminal: Prompt, given: Given) -> str:
 
 @word("unset", at_least=1)
 def unset(terminal: Prompt, given: Given) -> str:
-    """Take variables out of the environment."""
+    """Remove variables from the environment."""
     for each in given.words:
         terminal.export(each, None)
     return ""
@@ -372,7 +374,7 @@ def unset(terminal: Prompt, given: Given) -> str:
 
 @word("printenv")
 def printenv(terminal: Prompt, given: Given) -> str:
-    """Show the environment, in alphabetical order, or the variables that are named."""
+    """Show the environment in alphabetical order, or the given variables."""
     if given.words:
         return _lines([terminal.environment[name] for name in given.words if name in terminal.environment])
     return _lines([f"{name}={value}" for name, value in sorted(terminal.environment.items())])
@@ -382,7 +384,7 @@ def printenv(terminal: Prompt, given: Given) -> str:
 def env(terminal: Prompt, given: Given) -> str:
     """Show the environment."""
     if given.words:
-        raise UsageError("here it only shows the environment")
+        raise UsageError("env only shows the environment here")
     return printenv(terminal, given)
 
 

@@ -1,4 +1,4 @@
-"""``%%terminal``: a cell whose lines are typed in a terminal, on every system, without a shell.
+"""``%%terminal``: a cell whose lines run as in a terminal, on every system, without a shell.
 
     %%terminal
     mkdir -p ~/example_ws/src
@@ -6,12 +6,12 @@
     catkin_make
     source devel/setup.bash
 
-Each line is shown after a ``$``, then what it prints. A terminal keeps its folder and its environment from cell to
-cell. It begins in ``~``, an empty temporary folder, and writes nowhere else. It knows ROS's commands by their bare
+Each line is shown after a ``$``, then its output. A terminal keeps its folder and its environment from cell to
+cell. It starts in ``~``, an empty temporary folder, and writes nowhere else. It knows ROS's commands by their bare
 names, which are the line magics, and a shell's first words, see :data:`rosmini.notebook.shell_words.WORDS`.
 
-``%%terminal --at robot`` is a second terminal, as a second window is: it has to source for itself. ``%%terminal --new``
-begins with an empty home folder. What the first terminal exports or sources holds for line magics and ``%%node``, too.
+``%%terminal --at robot`` is a second terminal with its own environment, like a second window. ``%%terminal --new``
+starts with an empty home folder. Exports of the first terminal also apply to line magics and ``%%node``.
 """
 
 from __future__ import annotations
@@ -47,39 +47,39 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
 FIRST = "1"
-"""The name of the terminal that a cell has by default."""
+"""Name of the default terminal."""
 
 _SETUP = re.compile(rf"{ROS}/setup\.(bash|sh|zsh)")
 _ASSIGNMENT = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
 
 _WRITE = "a cell has no editor: write a file with `cat > FILE << 'EOF'`, or a script with %%node"
 _NETWORK = "nothing is fetched here: write the file with `cat > FILE << 'EOF'`, or a script with %%node"
-_SYSTEM = "nothing has to be installed here"
-_PYTHON = "a script of a package is started by rosrun; a cell with %%node is one"
+_SYSTEM = "there is nothing to install here"
+_PYTHON = "use rosrun to start a script of a package; a cell with %%node is such a script"
 NOT_HERE = {
     **dict.fromkeys(("nano", "vi", "vim", "emacs", "gedit", "code"), _WRITE),
     **dict.fromkeys(("wget", "curl", "git", "ssh"), _NETWORK),
     **dict.fromkeys(("sudo", "apt", "apt-get", "pip", "rosdep"), _SYSTEM),
     **dict.fromkeys(("python", "python3"), _PYTHON),
 }
-"""Words of other terminals, and what to do here."""
+"""Commands that are missing here, and what to do instead."""
 
 
 class Terminal(Prompt):
-    """One terminal: runs lines and prints them with what they print."""
+    """One terminal: runs lines, and prints them with their output."""
 
-    def __init__(self, places: Places, shell: Any, look: Callable[[], object]) -> None:
+    def __init__(self, places: Places, shell: Any, attach: Callable[[], object]) -> None:
         super().__init__(places)
         self._shell = shell
-        self._look = look
+        self._attach = attach
         self.status = 0
-        """The exit status of the last command."""
+        """Exit status of the last command."""
         profile = places.home / ".bashrc"
         if profile.is_file():
             self.run_file(profile)
 
     def run(self, text: str) -> None:
-        """Run the lines of a cell. Raises ``UsageError``, before any is run, for what no terminal here knows."""
+        """Run the lines of a cell. Raises ``UsageError`` for an unknown command before any line runs."""
         lines = shell_lines.parse(text)
         self._check(lines)
         out = cast("TextIO", ShownStream(sys.stdout, self.places))
@@ -89,7 +89,7 @@ class Terminal(Prompt):
                     print(f"$ {line.text}")
                     self._line(line)
         finally:
-            self._look()
+            self._attach()
 
     def run_file(self, path: Path) -> None:
         """Run the lines of a file, without showing them."""
@@ -99,7 +99,7 @@ class Terminal(Prompt):
             self._line(line)
 
     def _check(self, lines: Sequence[shell_lines.Line]) -> None:
-        """Raise ``UsageError`` for a command that is not known."""
+        """Raise ``UsageError`` for an unknown command."""
         for line in lines:
             for pipeline in line.pipelines:
                 for command in pipeline.commands:
@@ -126,7 +126,7 @@ class Terminal(Prompt):
                 text = self._command(command, text, is_last=command is pipeline.commands[-1])
 
     def _command(self, command: shell_lines.Command, text: str | None, *, is_last: bool) -> str:
-        """Run one command, which reads ``text``, and return what it wrote for the next one to read."""
+        """Run one command, which reads ``text``, and return its output for the next one."""
         if command.text is not None:
             text = (
                 command.text
@@ -143,7 +143,7 @@ class Terminal(Prompt):
                 self.status = self._run(shell_lines.expand(name, self._value), rest, text, settings)
             if command.to is not None and written is not None:
                 self._write(command.to, written.getvalue())
-        except SystemExit as ended:  # a help, or words that make no sense to a tool
+        except SystemExit as ended:  # a help, or invalid arguments
             self.status = ended.code if isinstance(ended.code, int) else 0
         except VerbError as error:
             self._failed(str(error), error.status)
@@ -159,7 +159,7 @@ class Terminal(Prompt):
         self.status = status
 
     def _settings(self, words: list[str]) -> dict[str, str]:
-        """Take the ``NAME=VALUE`` before a command out of its words."""
+        """Remove the ``NAME=VALUE`` before a command from its words, and return them."""
         found = {}
         while words and (match := _ASSIGNMENT.match(words[0])):
             found[match[1]] = shell_lines.expand(match[2], self._value)
@@ -182,11 +182,11 @@ class Terminal(Prompt):
             file.write(text)
 
     def _run(self, name: str, words: list[str], text: str | None, settings: dict[str, str]) -> int:
-        """Run a command, print what it prints, and return its exit status."""
+        """Run a command, print its output, and return its exit status."""
         if not name:
             self.environment.update(settings)
             return 0
-        self._look()
+        self._attach()
         before = self.environment
         self.environment = {**before, **settings} if settings else before
         try:
@@ -199,11 +199,11 @@ class Terminal(Prompt):
             self.environment = before if settings else self.environment
 
     def _base(self) -> dict[str, str]:
-        """Return the environment in which the terminal was opened."""
+        """Return the environment around the terminal."""
         return dict(os.environ)
 
     def _tool(self, name: str, words: list[str], text: str | None) -> int:
-        """Run one of ROS's commands: what only reads files as in a terminal, what acts on the graph as a line magic."""
+        """Run one of ROS's commands: as in a terminal if it only reads files, else as a line magic on the graph."""
         for each in words:
             self._guard(each)
         words = [self.places.real(each) for each in words]
@@ -219,7 +219,7 @@ class Terminal(Prompt):
         return int(getattr(result, "status", 0))
 
     def _reach_master(self) -> None:
-        """Raise ``VerbError`` as ROS's tools end where ``ROS_MASTER_URI`` names another Master than the notebook's."""
+        """Raise ``VerbError`` with ROS's message if ``ROS_MASTER_URI`` is not the address of the notebook's Master."""
         given = self.environment.get("ROS_MASTER_URI") or MASTER_URI
         own = default_graph().master_uri.rstrip("/")
         (host, port), (own_host, own_port) = host_and_port(given, "ROS_MASTER_URI"), host_and_port(own)
@@ -231,7 +231,7 @@ class Terminal(Prompt):
             )
 
     def _guard(self, word: str) -> None:
-        """Raise `OutsideHome` for a word that is the path of a file where this terminal does not write."""
+        """Raise `OutsideHome` for the path of a file outside the folders that this terminal may use."""
         path = Path(self.places.real(word.rpartition("=")[2]))
         leaves = ".." in path.parts or (
             path.is_absolute() and path.parent != Path(path.anchor) and path.parent.is_dir()
@@ -241,7 +241,7 @@ class Terminal(Prompt):
 
 
 def _asks_master(name: str, words: Sequence[str]) -> bool:
-    """Return whether a command of ROS is one that a Master has to answer."""
+    """Return whether a ROS command needs the Master."""
     if name == "rosbag":
         return words[:1] in (["record"], ["play"])
     return name in ("rosrun", "roslaunch") or (name != "roscore" and bool(tool(name).purpose))
@@ -249,7 +249,7 @@ def _asks_master(name: str, words: Sequence[str]) -> bool:
 
 @contextmanager
 def typed(text: str) -> Iterator[None]:
-    """Let this be what is typed into a program."""
+    """Use a text as standard input inside the block."""
     before, sys.stdin = sys.stdin, io.StringIO(text)
     try:
         yield
@@ -259,7 +259,7 @@ def typed(text: str) -> Iterator[None]:
 
 @word("source", at_least=1)
 def source(terminal: Prompt, given: Given) -> str:
-    """Do what the lines of a file say, in this terminal: ``source devel/setup.bash``."""
+    """Run the lines of a file in this terminal: ``source devel/setup.bash``."""
     name = given.words[0]
     if _SETUP.fullmatch(name):
         terminal.set_up()
@@ -268,7 +268,7 @@ def source(terminal: Prompt, given: Given) -> str:
         raise RosminiError(f"{name}: No such file or directory; the ROS of this book is {ROS}")
     path = terminal.path(name)
     if not path.is_file():
-        hint = "; catkin_make makes it, in the workspace's folder" if path.parent.name == "devel" else ""
+        hint = "; run catkin_make in the workspace's folder to make it" if path.parent.name == "devel" else ""
         raise RosminiError(f"{name}: No such file or directory{hint}")
     folders = folders_in(path)
     if folders is not None:
@@ -283,7 +283,7 @@ WORDS["."] = WORDS["source"]
 
 @word("roscd")
 def roscd(terminal: Prompt, given: Given) -> str:
-    """Go to the folder of a package, or without a word to the workspace."""
+    """Go to the folder of a package, or without arguments to the workspace."""
     found = located(given.words[0], "cd to") if given.words else workspace(os.environ)
     path = terminal.path(str(found))
     if not path.is_dir():
@@ -295,12 +295,12 @@ def roscd(terminal: Prompt, given: Given) -> str:
 class Terminals:
     """The terminals of a notebook. They share a home folder, which is removed when the kernel ends.
 
-    ``look`` is called when what is printed goes elsewhere: into a file, or back into the cell.
+    ``attach`` is called when output goes elsewhere: to a file, or back to the cell.
     """
 
-    def __init__(self, shell: Any, look: Callable[[], object] = lambda: None) -> None:
+    def __init__(self, shell: Any, attach: Callable[[], object] = lambda: None) -> None:
         self._shell = shell
-        self._look = look
+        self._attach = attach
         self._folder: TemporaryFolder | None = None
         self._places: Places | None = None
         self._open: dict[str, Terminal] = {}
@@ -309,7 +309,7 @@ class Terminals:
     def run(self, line: str, cell: str) -> None:
         """Run the lines of a cell in a terminal.
 
-        ``%%terminal --at NAME`` is another one, ``%%terminal --new`` begins with an empty home folder.
+        ``%%terminal --at NAME`` uses a different terminal, ``%%terminal --new`` starts with an empty home folder.
         """
         words = shlex.split(line)
         name = FIRST
@@ -349,11 +349,11 @@ class Terminals:
             home.mkdir()
             self._places = Places(home)
         if name not in self._open:
-            self._open[name] = Terminal(self._places, self._shell, self._look)
+            self._open[name] = Terminal(self._places, self._shell, self._attach)
         return self._open[name]
 
     def _publish(self) -> None:
-        """Let the notebook's other cells have the environment of the first terminal."""
+        """Give the notebook's other cells the environment of the first terminal."""
         if FIRST not in self._open:
             return
         wanted = self._open[FIRST].real_environment(os.environ)

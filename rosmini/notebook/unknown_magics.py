@@ -1,6 +1,6 @@
-"""What to do about a magic that IPython does not find: load rosmini first, or correct the name.
+"""Advice on a magic that IPython does not find: load rosmini first, or correct the name.
 
-An IPython extension of its own, because the first of these occurs before ``%load_ext rosmini``: ``rosmini lab`` starts
+It is a separate IPython extension, because the first case occurs before ``%load_ext rosmini``: ``rosmini lab`` starts
 its kernels with it. ``%load_ext rosmini`` registers it as well.
 """
 
@@ -15,12 +15,12 @@ _UNKNOWN = re.compile(r"`(%%?\w+)`")
 
 
 def load_ipython_extension(shell: Any) -> None:
-    """Give advice after each cell of a shell that fails for an unknown magic; harmless when repeated."""
+    """Give advice after each cell of a shell that fails with an unknown magic; harmless when repeated."""
     shell.events.register("post_run_cell", advise)
 
 
 def advise(result: Any) -> None:
-    """Print what to do about the unknown magic that a cell failed for, if rosmini has one like it."""
+    """Print advice on the unknown magic in a failed cell, if rosmini has a similar one."""
     if type(result.error_in_exec).__name__ == "UsageError":
         from IPython.core.getipython import get_ipython
 
@@ -30,7 +30,7 @@ def advise(result: Any) -> None:
 
 
 def advice_on(message: str, shell: Any) -> str:
-    """Return what to do about IPython's error message; empty if it names no magic like one of rosmini's."""
+    """Return advice on IPython's error message; empty if it names no magic similar to one of rosmini's."""
     from rosmini.core.errors import nearest
     from rosmini.tools.main import COMMANDS
 

@@ -1,4 +1,4 @@
-"""Letting time pass, in a cell or in a program."""
+"""Let time pass, in a cell or in a program."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from rosmini.core.graph.event_queue import span_ns
 
 
 def wait(seconds: float) -> None:
-    """Let ``seconds`` of graph time pass: nodes run meanwhile, and what they print appears here.
+    """Let ``seconds`` of graph time pass: nodes run meanwhile, and their output appears here.
 
-    An interrupt ends the wait; the nodes are still there. In a script or callback this sleeps, as ``rospy.sleep`` does.
-    Raises ``RosminiError`` for what is no number of seconds from zero on.
+    An interrupt ends the wait, but not the nodes. In a script or callback this sleeps like ``rospy.sleep``.
+    Raises ``RosminiError`` unless ``seconds`` is a number of at least zero.
     """
     scheduler = running_graph().scheduler
     scheduler.sleep_until(scheduler.now_ns() + span_ns(seconds, "the time to wait"))
-    scheduler.give_way()  # what was published at this moment arrives
+    scheduler.give_way()  # messages published at this moment arrive

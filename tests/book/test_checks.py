@@ -111,7 +111,7 @@ def test_an_answer_of_another_form_is_not_code_that_raised():
     lower = Exercise("98.3", "Good.", operator.methodcaller("lower"))  # no frame of a reader
     assert lower.grade("A").status is Status.RIGHT
     assert lower.grade({1: 2}).text == (
-        "Exercise 98.3: not right yet. {1: 2} does not have the form that is asked for: "
+        "Exercise 98.3: not right yet. {1: 2} does not have the expected form: "
         "AttributeError: 'dict' object has no attribute 'lower'\nHint: compare it with the stub"
     )
     assert (

@@ -40,7 +40,7 @@ def test_another_definition_is_told_and_taken(notebook: Any) -> None:
     notebook.ok("from notebook.msg import Num, Pair\nold = Pair(Num(1), Num(2))")
     assert notebook.ok("%%msg Num\nint64 num  # a comment\n") == ""
     assert notebook.ok("from notebook.msg import Num as Same\nprint(Same is Num)") == "True\n"
-    assert "notebook/Num is another type from now on" in notebook.ok("%%msg Num\nfloat64 value\n")
+    assert "notebook/Num is now a different type" in notebook.ok("%%msg Num\nfloat64 value\n")
     written = notebook.ok("from notebook.msg import Num, Pair\nprint(Pair(Num(1.5), Num(2)).a, old.a)")
     assert written == "value: 1.5 num: 1\n"
 
@@ -50,7 +50,7 @@ def test_another_definition_is_told_and_taken(notebook: Any) -> None:
     [
         ("%%msg Num\nint64 num\nint65 x\n", "Num.msg:3: "),
         ("%%srv Add\nint64 a\n", "Add.srv"),
-        ("%%msg num\nint64 a\n", "begins with a capital letter"),
+        ("%%msg num\nint64 a\n", "begin with a capital letter"),
         ("%%msg Num Two\nint64 a\n", "usage: %%msg NAME"),
         ("%%msg ../Num\nint64 a\n", "is not a file name"),
         ("%%launch a.launch\n<launch>\n  <param/>\n</launch>", "a.launch:3: "),

@@ -201,7 +201,7 @@ def test_where_nobody_can_type_the_script_fails_and_says_what_to_do(
         ("talker.sh", "call it talker.py"),
         ("../talker.py", "is not a file name"),
         (".talker.py", "is not a file name"),
-        ("talker.py --stdin", "takes the text to be typed"),
+        ("talker.py --stdin", "takes the text to type"),
         ("talker.py a:=b:=c", "one ':=' is enough"),
         ("talker.py | head", "runs no shell"),
         ("$nope.py", "no variable nope"),

@@ -54,7 +54,7 @@ def test_it_is_written_again_and_another_package_is_left_alone(notebook: Any, tm
     own = tmp_path / "mine" / "notebook"
     own.mkdir(parents=True)
     (own / "kept").touch()
-    assert "is there already" in notebook.fails(f"%save_package {own.parent}")
+    assert "already exists" in notebook.fails(f"%save_package {own.parent}")
     assert [path.name for path in own.iterdir()] == ["kept"]
 
 
@@ -63,7 +63,7 @@ def test_what_is_refused(notebook: Any, tmp_path: Path) -> None:
     assert "no cell has written a file yet" in notebook.fails(f"%save_package {tmp_path}")
     write(notebook)
     (tmp_path / "file").touch()
-    assert "choose a folder that can be written" in notebook.fails(f"%save_package {tmp_path}/file")
+    assert "choose a writable folder" in notebook.fails(f"%save_package {tmp_path}/file")
 
 
 def test_imports() -> None:

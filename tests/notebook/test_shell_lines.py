@@ -64,17 +64,17 @@ def test_a_heredoc_keeps_its_lines() -> None:
 @pytest.mark.parametrize(
     ("text", "what"),
     [
-        ("ls\necho 'a", r"line 2: the quotation mark in `'a` has no partner"),
-        ("cd $(rospack find x)", r"`\(` is a shell's"),
+        ("ls\necho 'a", r"line 2: the quotation mark in `'a` is not closed"),
+        ("cd $(rospack find x)", r"`\(` needs a shell"),
         ('cd "$(rospack find x)"', "needs a shell"),
         ("echo `date`", "needs a shell"),
-        ("cat < file", "`<` is a shell's"),
-        ("rosrun a b 2> log", "`2>` is a shell's"),
-        ("(ls)", r"`\(` is a shell's"),
+        ("cat < file", "`<` needs a shell"),
+        ("rosrun a b 2> log", "`2>` needs a shell"),
+        ("(ls)", r"`\(` needs a shell"),
         ("&& ls", "no command before `&&`"),
         ("ls |", "no command before `the end`"),
         ("ls >", "a word is missing"),
-        ("cat > x << EOF\nls", "has no end: a line with EOF alone"),
+        ("cat > x << EOF\nls", "does not end: add a line that contains only EOF"),
     ],
 )
 def test_what_is_refused(text: str, what: str) -> None:

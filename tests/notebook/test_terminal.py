@@ -163,7 +163,7 @@ def test_an_error_is_printed_and_the_next_line_runs(cell: Cell) -> None:
     ) == [
         "cd: nowhere: No such file or directory",
         "~",
-        "mkdir: cannot create directory 'a/b': No such file or directory; mkdir -p makes both",
+        "mkdir: cannot create directory 'a/b': No such file or directory; mkdir -p makes both folders",
         "ls: nowhere: No such file or directory",
         "none",
         "0",
@@ -224,10 +224,10 @@ def test_time_passes_with_sleep(cell: Cell, graph: Graph) -> None:
     [
         ("touch x\nnano x", "line 2: there is no command 'nano' here; a cell has no editor"),
         ("rosmmsg show x", "did you mean rosmsg"),
-        ("sudo apt install x", "nothing has to be installed"),
+        ("sudo apt install x", "nothing to install"),
         ("for x in *", "there is no command 'for'"),
         ("frobnicate", "it knows ROS's commands .*cat, cd"),
-        ("echo 'a", "has no partner"),
+        ("echo 'a", "is not closed"),
     ],
 )
 def test_what_is_not_known_is_refused_before_anything_is_done(cell: Cell, text: str, what: str) -> None:

@@ -1,1 +1,1 @@
-"""What a right answer is: one module per chapter, `chapter_NN`, with the exercises of that notebook."""
+"""Checks of the exercises: one module for each chapter, `chapter_NN`."""

@@ -1,4 +1,4 @@
-"""What is right in the exercise of the first steps: a script that stops a robot before a wall."""
+"""Check of the exercise in the first steps: a script that stops a robot in front of a wall."""
 
 from __future__ import annotations
 

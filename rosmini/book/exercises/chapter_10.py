@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 10, Files: packages, manifests and stacks."""
+"""Checks of the exercises in chapter 10, Files: packages, manifests and stacks."""
 
 from __future__ import annotations
 
@@ -41,19 +41,19 @@ while not rospy.is_shutdown():
 """
 
 
-@exercise("10.1", praise="Whoever changes a description has to think of these.")
+@exercise("10.1", praise="These packages may break when the description changes.")
 def users(answer: object) -> None:
     """The packages that need turtlebot3_description, sorted."""
-    expect_type(answer, (list, tuple), "users is", "a list", 'the names between brackets: ["one", "another"]')
+    expect_type(answer, (list, tuple), "users is", "a list", 'write names in brackets: ["one", "another"]')
     names = [str(each) for each in answer]  # type: ignore[attr-defined]
     for name in OTHERS:
-        expect(name in names, "One package is missing.", "rospack depends-on turtlebot3_description")
+        expect(name in names, "A package is missing.", "try rospack depends-on turtlebot3_description")
     extra = [name for name in names if name not in OTHERS]
-    expect(not extra, f"{', '.join(extra)} does not belong there.", "who needs it, not what it needs")
-    expect(names == sorted(names), "They are not in alphabetical order.", "sorted(...)")
+    expect(not extra, f"{', '.join(extra)} does not belong there.", "list those that need it, not its needs")
+    expect(names == sorted(names), "They are not in alphabetical order.", "use sorted(...)")
 
 
-@exercise("10.2", praise="From this text ROS makes a class for each language.")
+@exercise("10.2", praise="From this text, ROS generates a class for each language.")
 def definition(answer: object) -> None:
     """The text of a message with two constants and four fields."""
     expect_type(answer, str, "definition is", "a text")
@@ -63,30 +63,30 @@ def definition(answer: object) -> None:
         value = getattr(given, name, None)
         expect(value is not None, f"There is no constant {name}.", "a constant is 'type NAME = value'")
         expect(value == getattr(wanted, name), f"{name} is {value!r}, not {getattr(wanted, name)}.")
-    expect(given._md5sum == wanted._md5sum, "The constants are of another type, or in another order.")
+    expect(given._md5sum == wanted._md5sum, "The types or the order of the constants are wrong.")
 
 
 def _message(text: str) -> Any:
     try:
         return define_message("exercise/Feeling", text)
     except RosminiError as error:
-        raise Wrong(f"This is no message: {error}") from error
+        raise Wrong(f"This is not a message definition: {error}") from error
 
 
-@exercise("10.3", praise="It needs what it imports, and nothing else.")
-def mended(answer: object) -> None:
+@exercise("10.3", praise="It now declares every package that it imports, and no other.")
+def repaired(answer: object) -> None:
     """The manifest of patrol: a licence, and the three packages that it imports."""
     expect_type(answer, str, "mended is", "a text")
-    expect("<license>" in str(answer), "It has no licence.", "<license>MIT</license>")
-    expect(">TODO<" not in str(answer), "TODO is no licence.", "<license>MIT</license>")
+    expect("<license>" in str(answer), "It has no licence.", "add <license>MIT</license>")
+    expect(">TODO<" not in str(answer), "TODO is not a licence.", "write <license>MIT</license>")
     package = _package(str(answer))
-    expect(package.name == "patrol", f"The package is called {package.name!r} now, not patrol.")
+    expect(package.name == "patrol", f"The package is now called {package.name!r}, not 'patrol'.")
     missing = [name for name in NEEDS if name not in package.exec_depends]
     expect(
-        not missing, f"It does not say that it needs {', '.join(missing)} to run.", "exec_depend, or depend"
+        not missing, f"It does not declare that it needs {', '.join(missing)} to run.", "use <exec_depend>"
     )
     extra = [name for name in package.exec_depends if name not in NEEDS]
-    expect(not extra, f"It does not need {', '.join(extra)}.", "look at what the script imports")
+    expect(not extra, f"It does not need {', '.join(extra)}.", "compare with the imports of the script")
 
 
 def _package(text: str) -> Package:
@@ -96,22 +96,22 @@ def _package(text: str) -> Package:
             return read_package(Path(folder))
         except RosminiError as error:
             said = str(error).replace(f"{folder}/", "")
-            raise Wrong(f"This is no manifest: {said}") from error
+            raise Wrong(f"This is not a valid manifest: {said}") from error
 
 
-@exercise("10.4", praise="Your file, and a Waffle in the maze.")
+@exercise("10.4", praise="Your launch file puts a Waffle into the maze.")
 def launch(answer: object) -> Any:
     """A launch file that starts the simulator with a Waffle in the maze."""
     expect_type(answer, str, "launch is", "a text")
     try:
         plan = read(text=str(answer))
     except RosminiError as error:
-        raise Wrong(f"roslaunch would refuse it: {error}") from error
+        raise Wrong(f"roslaunch refuses this file: {error}") from error
     executables = [node.executable for node in plan.nodes]
     expect(
         executables == ["rosmini_sim/simulator"],
         f"It starts {', '.join(executables) or 'no node'}, not just rosmini_sim/simulator.",
-        '<node pkg="rosmini_sim" type="simulator" name="simulator">',
+        'write one <node pkg="rosmini_sim" type="simulator" name="simulator">',
     )
     given = {name.rpartition("/")[2]: value for name, value in plan.parameters.items()}
     space = plan.nodes[0].full_name
@@ -122,9 +122,9 @@ def launch(answer: object) -> Any:
         said = f"~{name} is {value!r}, not {wanted!r}." if value else f"The node has no parameter {name}."
         elsewhere = name in given and value is None
         hint = (
-            "put <param> inside of <node>: it is the node's own"
+            "put <param> inside <node>: it is a private parameter of the node"
             if elsewhere
-            else '<param name="..." value="..."/>'
+            else 'use <param name="..." value="..."/>'
         )
         expect(value == wanted, said, hint)
     with Trial("maze", "_model:=waffle") as trial:

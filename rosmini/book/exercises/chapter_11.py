@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 11, Nodes and the Master: scripts, each tried on a robot of its own."""
+"""Checks of the exercises in chapter 11, Nodes and the Master: each runs a script with a separate robot."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from rosmini.book.trials import Trial
 from rosmini.msgs.geometry_msgs.msg import Twist
 
 WALL_X = 3.3
-"""Where the east wall of the room begins [m]; a robot in the origin looks at it."""
+"""x coordinate of the east wall [m]; a robot at the origin faces it."""
 
 NEAR_M, TOUCH_M = 0.5, 0.11
-"""How far from the wall the middle of the robot may stand at most, and where its front touches [m]."""
+"""Largest distance of the robot's centre from the wall, and its distance on contact [m]."""
 
 DRIVER = """
 import rospy
@@ -36,8 +36,8 @@ def driver(name: str = "driver.py", speed: float = 0.2, turn: float = 0.0) -> Sc
     return Script(name, DRIVER.format(speed=speed, turn=turn))
 
 
-def way(trial: Trial, seconds: float) -> float:
-    """Let time pass, and return how far the robot is then from where it was [m]."""
+def distance(trial: Trial, seconds: float) -> float:
+    """Let time pass, and return the distance that the robot moved [m]."""
     x, y, _ = trial.robot.truth()
     trial.run(seconds)
     new_x, new_y, _ = trial.robot.truth()
@@ -47,9 +47,9 @@ def way(trial: Trial, seconds: float) -> float:
 # ---- 11.1: stop before the wall ----
 
 
-@exercise("11.1", praise="From two starts it came near the wall, and stood. It looks where it goes.")
+@exercise("11.1", praise="From two different starts, it came close to the wall and stopped there.")
 def stop(answer: Script) -> Any:
-    """The robot drives up to a wall and stands before it, wherever it starts."""
+    """The robot drives up to a wall and stops in front of it, wherever it starts."""
     stops_from(answer, 1.2)
     return stops_from(answer, 0.0)
 
@@ -59,27 +59,31 @@ def stops_from(answer: Script, start: float) -> Any:
     with Trial("room", f"_x:={start}") as trial:
         trial.start(answer)
         trial.run(25.0)
-        moved = way(trial, 1.0)
+        moved = distance(trial, 1.0)
         if moved > 0.01:  # a careful robot is still on its way
             trial.run(35.0)
-            moved = way(trial, 1.0)
+            moved = distance(trial, 1.0)
         x, _, _ = trial.robot.truth()
         expect(
             x > start + 0.1,
             "The robot did not drive, although the wall was far away.",
-            "compare scan.ranges[0] with a distance, and publish at every scan",
+            "compare scan.ranges[0] with a distance, and publish a command for every scan",
         )
         gap = WALL_X - x
-        expect(gap > TOUCH_M, "The robot ran against the wall.", "compare scan.ranges[0] with a distance")
+        expect(
+            gap > TOUCH_M,
+            "The robot ran into the wall.",
+            "compare scan.ranges[0] with a distance, and publish zero when it is smaller",
+        )
         expect(
             moved < 0.01,
             "The robot is still driving, long after it should have reached the wall.",
-            "a command of zero stops it",
+            "publish a command of zero to stop it",
         )
         expect(
             gap < NEAR_M + 0.01,
-            f"The robot stopped {gap:.2f} m from the wall; it should come nearer than half a metre.",
-            "beam 0 looks straight ahead; it starts 3 cm behind the middle of the robot",
+            f"The robot stopped {gap:.2f} m from the wall; it should stop less than half a metre from it.",
+            "beam 0 points straight ahead; it starts 3 cm behind the robot's centre",
         )
         trial.expect_no_errors()
         return trial.view()
@@ -90,9 +94,9 @@ def stops_from(answer: Script, start: float) -> Any:
 WISHES = ((0.2, 0.0), (0.1, 1.0), (-0.08, -0.6), (0.0, 0.0))
 
 
-@exercise("11.2", praise="Neither the driver nor the robot knows that your node is between them.", gaps=2)
+@exercise("11.2", praise="Neither the driver nor the robot had to change: your node fits in between.", gaps=2)
 def gentle(answer: Script) -> Any:
-    """What comes on /wish goes to /cmd_vel at half the speed."""
+    """The node passes messages from /wish to /cmd_vel at half the speed."""
     got: list[tuple[float, float]] = []
     with Trial("arena") as trial:
         trial.start(answer)
@@ -100,8 +104,8 @@ def gentle(answer: Script) -> Any:
         listener.subscriber("cmd_vel", Twist, lambda m: got.append((m.linear.x, m.angular.z)))
         wish = wisher.publisher("wish", Twist, queue_size=10)
         trial.run(2.0)
-        expect(not got, "It sent a command before anybody wished for one.", "publish in the callback only")
-        expect(wish.num_connections(), "Nobody subscribes to /wish.", "rospy.Subscriber, with the type Twist")
+        expect(not got, "It sent a command without a message on /wish.", "publish only in the callback")
+        expect(wish.num_connections(), "No node subscribes to /wish.", "use rospy.Subscriber with type Twist")
         for speed, turn in WISHES:
             command = Twist()
             command.linear.x, command.angular.z = speed, turn
@@ -109,12 +113,12 @@ def gentle(answer: Script) -> Any:
             trial.run(0.2)
         wanted = [(speed / 2, turn / 2) for speed, turn in WISHES]
         said = f"For {len(WISHES)} wishes it sent {len(got)} commands, not {len(WISHES)}."
-        expect(len(got) == len(wanted), said, "one command for each wish, published in the callback")
+        expect(len(got) == len(wanted), said, "publish one command for each wish, in the callback")
         for (speed, turn), sent in zip(WISHES, got, strict=True):
             expect(
                 math.isclose(sent[0], speed / 2) and math.isclose(sent[1], turn / 2),
                 f"For the wish {speed} m/s, {turn} rad/s it sent {sent[0]:g} m/s, {sent[1]:g} rad/s.",
-                "half of linear.x, and half of angular.z",
+                "halve both linear.x and angular.z",
             )
         trial.start(driver(turn=0.5), "cmd_vel:=wish")
         trial.run(12.0)
@@ -124,9 +128,9 @@ def gentle(answer: Script) -> Any:
 # ---- 11.3: the reader as the Master ----
 
 
-@exercise("11.3", praise="One call, and the robot drives. It is all that the Master would have done.")
+@exercise("11.3", praise="One call made the robot drive; it is the same call that the Master makes.")
 def introduce(answer: Script) -> Any:
-    """A driver and a robot are brought together, of which the Master has forgotten what they have in common."""
+    """Connect a driver and a robot after the Master has forgotten both."""
     with Trial("arena") as trial:
         graph = trial.graph
         simulator = graph.nodes["/simulator"].uri
@@ -135,7 +139,7 @@ def introduce(answer: Script) -> Any:
         trial.run(1.0)
         graph.ask_as("/driver").call("unregisterPublisher", "/cmd_vel", graph.nodes["/driver"].uri)
         trial.start(answer)
-        moved = way(trial, 3.0)
+        moved = distance(trial, 3.0)
         state = graph.ask_as("/check").call("getSystemState")[2]
         known = {
             node
@@ -146,13 +150,13 @@ def introduce(answer: Script) -> Any:
         }
         expect(
             not known & {"/simulator", "/driver"},
-            "You registered them at the Master. Leave the Master's directory alone.",
-            "speak to the subscriber itself: rospy.core.xmlrpcapi(address)",
+            "You registered them with the Master. Connect them without changing its registrations.",
+            "call the subscriber itself: rospy.core.xmlrpcapi(address)",
         )
         expect(
             moved > 0.2,
-            "The robot does not drive: it still does not know the driver.",
-            'publisherUpdate("/master", "/cmd_vel", [address of the driver]), called at the address of the subscriber',
+            "The robot does not drive: it does not know the driver's address yet.",
+            'call publisherUpdate("/master", "/cmd_vel", [address of the driver]) at the address of the subscriber',
         )
         return trial.view()
 
@@ -160,9 +164,9 @@ def introduce(answer: Script) -> Any:
 # ---- 11.4: too many drivers ----
 
 
-@exercise("11.4", praise="One driver is left, and the robot does what it says.")
+@exercise("11.4", praise="Only one driver is left, and the robot follows it.")
 def referee(answer: Script) -> Any:
-    """Every publisher of /cmd_vel but /driver is asked to shut down."""
+    """The script asks every publisher of /cmd_vel except /driver to shut down."""
     with Trial("room") as trial:
         trial.start(driver(speed=0.15))
         strangers = {"prankster": 2.0, "imp": -1.0}
@@ -172,17 +176,21 @@ def referee(answer: Script) -> Any:
         trial.start(answer)
         trial.run(1.0)
         there = trial.graph.nodes
-        expect("/driver" in there, "You ended /driver too.", "compare each name with the one that may stay")
+        expect(
+            "/driver" in there,
+            "You ended /driver too.",
+            "leave out the node that may stay: compare each name with /driver",
+        )
         expect(
             "/simulator" in there,
-            "You ended the robot itself.",
-            "the first list of getSystemState has the publishers, the second one the subscribers",
+            "You ended the simulator, and the robot with it.",
+            "the first list of getSystemState contains the publishers, the second the subscribers",
         )
         left = [name for name in strangers if f"/{name}" in there]
         expect(
             not left,
-            f"Somebody still drives beside /driver: /{', /'.join(left)}.",
-            "ask the Master who publishes /cmd_vel, look up each one's address, and call shutdown there",
+            f"Other nodes than /driver still publish commands: /{', /'.join(left)}.",
+            "ask the Master for the publishers of /cmd_vel, look up the address of each, and call shutdown there",
         )
         trial.run(4.0)
         return trial.view()

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 12, Topics and messages."""
+"""Checks of the exercises in chapter 12, Topics and messages."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ float32[4] speeds
 """
 
 
-@exercise("12.1", praise="Its md5 sum is that of every other text with these lines.")
+@exercise("12.1", praise="Every definition with these lines has the same md5 sum.")
 def definition(answer: Any) -> None:
     """The definition of a message with constants, a header, and an array of a fixed length."""
-    expect_type(answer, str, "definition is", "a text", 'use """three quotes"""')
+    expect_type(answer, str, "definition is", "a string", 'write it between """three quotes"""')
     try:
         cls = define_message("my_robot/Wheel", answer)
     except RosminiError as error:
-        expect(False, f"This is no definition: {error}")
+        expect(False, f"This is not a message definition: {error}")
         return
     wanted = define_message("my_robot/Wheel", WHEEL)
     given = {constant.name: (constant.type, constant.value) for constant in cls._spec.constants}
@@ -42,7 +42,7 @@ def definition(answer: Any) -> None:
             "a constant is 'type NAME=value'",
         )
     expect_fields(cls, wanted, "definition")
-    expect(cls._md5sum == wanted._md5sum, "There is a constant that was not asked for.")
+    expect(cls._md5sum == wanted._md5sum, "It has a constant that the task does not mention.")
 
 
 # ---- 12.2: md5 sums ----
@@ -56,20 +56,22 @@ TEXTS = (
 )
 
 
-@exercise("12.2", praise="With nested types in it, it would be all that ROS compares.")
+@exercise("12.2", praise="Add nested types, and you have exactly what ROS compares when nodes connect.")
 def fingerprint(answer: Any) -> None:
     """The md5 sum of a definition without nested types."""
     hints = (
-        "md5(...) of this chapter makes the digits of a text",
-        "is there a newline at the end, which does not belong to it?",
-        "comments, empty lines and spaces beyond one do not count",
-        "constants come first, and have no spaces around the =",
-        "what stands behind a # is a comment, also if there is a = in it",
+        "the function md5(...) of this chapter returns the digits for a text",
+        "remove the newline at the end",
+        "remove comments and empty lines, and reduce several spaces to one",
+        "put constants first, without spaces around the =",
+        "everything after a # is a comment, even if it contains a =",
     )
     for text, hint in zip(TEXTS, hints, strict=True):
         found = answer(text)
-        expect(isinstance(found, str), f"It returned {found!r}, not a text of 32 digits.", hints[0])
-        expect(found == define_message("demo/Type", text)._md5sum, f"Not the md5 sum of {text!r}.", hint)
+        expect(isinstance(found, str), f"It returned {found!r}, not a string of 32 digits.", hints[0])
+        expect(
+            found == define_message("demo/Type", text)._md5sum, f"It is not the md5 sum of {text!r}.", hint
+        )
 
 
 # ---- 12.3: bytes ----
@@ -87,7 +89,7 @@ def _encode(table: dict[str, float]) -> bytes:
     return b"".join(parts) + struct.pack(f"<I{len(table)}d", len(table), *table.values())
 
 
-@exercise("12.3", praise="You can read what a node of any language sends.")
+@exercise("12.3", praise="You can now decode messages from a node in any language.")
 def decode(answer: Any) -> None:
     """The names and values of a message, from its bytes."""
     for table in TABLES:
@@ -97,16 +99,16 @@ def decode(answer: Any) -> None:
         expect(
             found == table,
             f"For the {len(data)} bytes of {table} it returned {found}.",
-            "the count, then each name with its length in bytes; then the count again, and the numbers",
+            "read the count, then each name after its length in bytes, then the count again, then the numbers",
         )
 
 
 # ---- 12.4: many writers ----
 
 
-@exercise("12.4", praise="Latched, it never has to be asked for.")
+@exercise("12.4", praise="The topic is latched, so every new subscriber receives the board at once.")
 def board(answer: Any) -> None:
-    """A node that publishes, latched, what each writer said last."""
+    """A node that publishes the latest note of each writer on a latched topic."""
     early: list[str] = []
     late: list[str] = []
     with Graph() as graph:
@@ -128,9 +130,9 @@ def board(answer: Any) -> None:
         expect(
             found == after,
             f"After {place + 1} of three notes the board says {found!r}, not {after!r}.",
-            "a dictionary from the writer's name to the last note"
+            "keep a dictionary from the writer's name to its last note"
             if before
-            else "the writer is message._connection_header['callerid']",
+            else "the writer's name is message._connection_header['callerid']",
         )
-    expect(len(early) == len(steps), f"After three notes it published {len(early)} times.")
-    expect(late == steps[-1:], f"A late reader gets {late!r}.", "latch=True")
+    expect(len(early) == len(steps), f"It published {len(early)} times for three notes.")
+    expect(late == steps[-1:], f"A subscriber that starts late receives {late!r}.", "publish with latch=True")

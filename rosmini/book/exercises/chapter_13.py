@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 13, Services."""
+"""Checks of the exercises in chapter 13, Services."""
 
 from __future__ import annotations
 
@@ -23,28 +23,26 @@ sensor_msgs/Image image
 """
 
 
-@exercise("13.1", praise="A client in any language can be built from these six lines.")
+@exercise("13.1", praise="These six lines are enough to write a client in any language.")
 def definition(answer: Any) -> None:
     """The definition of a service with two fields in its request and three in its response."""
-    expect_type(answer, str, "definition is", "a text", 'use """three quotes"""')
+    expect_type(answer, str, "definition is", "a string", 'write it between """three quotes"""')
     try:
         given = define_service("my_robot/TakePicture", answer)
     except RosminiError as error:
-        expect(
-            False, f"This is no definition: {error}", "a field is 'type name', and --- is a line of its own"
-        )
+        expect(False, f"This is not a service definition: {error}", "a field is 'type name', --- separates")
         return
     wanted = define_service("my_robot/TakePicture", PICTURE)
     expect_fields(given._request_class, wanted._request_class, "request")
     expect_fields(given._response_class, wanted._response_class, "response")
-    expect(given._md5sum == wanted._md5sum, "There is a constant that was not asked for.")
+    expect(given._md5sum == wanted._md5sum, "It has a constant that the task does not mention.")
 
 
 def _offered(graph: Graph, node: str, name: str, kind: Any) -> None:
     """Expect that a node is there and offers a service of a type."""
-    expect(node in graph.nodes, f"There is no node {node}.", f'graph.node("{node.lstrip("/")}")')
+    expect(node in graph.nodes, f"There is no node {node}.", f'make it with graph.node("{node.lstrip("/")}")')
     server = graph.nodes[node].services.get(name)
-    expect(server, f"{node} offers no service {name}.", "node.service(name, type, handler)")
+    expect(server, f"{node} offers no service {name}.", "use node.service(name, type, handler)")
     if server is not None:
         found = server.service_class._type
         expect(found == kind._type, f"{name} is a {found}, not a {kind._type}.")
@@ -53,9 +51,9 @@ def _offered(graph: Graph, node: str, name: str, kind: Any) -> None:
 # ---- 13.2: two services that share something ----
 
 
-@exercise("13.2", praise="Both handlers share one variable, and nobody else can touch it.")
+@exercise("13.2", praise="Both handlers share one variable, and no other node can change it.")
 def counter(answer: Any) -> None:
-    """A service that counts its calls, and one that begins again."""
+    """A service that counts its calls, and one that resets the counter."""
     with Graph(strict=False) as graph:
         answer(graph)
         _offered(graph, "/counter", "/count", Trigger)
@@ -67,7 +65,7 @@ def counter(answer: Any) -> None:
         answers = [count(), count(), count()]
         clear()
         answers.append(count())
-    expect(all(found.success for found in answers), "success is false.", "return True and the text")
+    expect(all(found.success for found in answers), "The field success is false.", "return True and the text")
     messages = [found.message for found in answers]
     expect(messages[:3] == ["1", "2", "3"], f"Three calls gave {messages[:3]}, not '1', '2', '3'.")
     expect(messages[3] == "1", f"After clear the next call gave {messages[3]!r}, not '1'.")
@@ -76,9 +74,9 @@ def counter(answer: Any) -> None:
 # ---- 13.3: a client that is ready for everything ----
 
 
-@exercise("13.3", praise="Three ways to fail, and none of them ends your program.")
+@exercise("13.3", praise="Your program survives all three failures.")
 def who_is_it(answer: Any) -> None:
-    """A call that waits for its server, but not for ever, and that may fail."""
+    """A call that waits a limited time for its server, and handles failures."""
 
     def refuse(_: Any) -> tuple[bool, str]:
         return False, "I do not say"
@@ -91,10 +89,10 @@ def who_is_it(answer: Any) -> None:
 
     cases = (
         (tell, 0.0, "it is me", "the server is there from the start"),
-        (tell, 3.0, "it is me", "the server comes after 3 s, and 5 s may be waited"),
-        (tell, 9.0, "nobody", "the server comes after 9 s, and 5 s may be waited"),
-        (refuse, 0.0, "no answer", "the answer has success false"),
-        (fail, 0.0, "no answer", "the handler raises"),
+        (tell, 3.0, "it is me", "the server starts after 3 s, and the limit is 5 s"),
+        (tell, 9.0, "nobody", "the server starts after 9 s, and the limit is 5 s"),
+        (refuse, 0.0, "no answer", "the field success of the response is false"),
+        (fail, 0.0, "no answer", "the handler raises an error"),
     )
     for handler, delay, expected, case in cases:
         with Graph(strict=False) as graph:
@@ -113,7 +111,7 @@ def who_is_it(answer: Any) -> None:
         expect(
             found == expected,
             f"When {case} it returned {found!r}, not {expected!r}.",
-            "wait_for_service raises ROSException, the call ServiceException",
+            "wait_for_service raises ROSException, and the call raises ServiceException",
         )
         expect(waited <= 5.0, f"When {case} it took {waited:g} s.", "wait_for_service(..., timeout=seconds)")
 
@@ -121,9 +119,9 @@ def who_is_it(answer: Any) -> None:
 # ---- 13.4: a service that remembers a topic ----
 
 
-@exercise("13.4", praise="It answers at once, whatever the others do.")
+@exercise("13.4", praise="It answers at once, even while other nodes are busy.")
 def secretary(answer: Any) -> None:
-    """A node that keeps the last message of a topic and tells it to who asks."""
+    """A node that stores the last message of a topic and returns it on request."""
     with Graph(strict=False) as graph:
         answer(graph)
         _offered(graph, "/secretary", "/last_status", Trigger)
@@ -141,14 +139,12 @@ def secretary(answer: Any) -> None:
             waited += (graph.now() - start).to_sec()
     found = [(each.success, each.message) for each in answers]
     expect(
-        waited == 0,
-        f"The answers took {waited:g} s.",
-        "the callback writes the status down, the handler reads it",
+        waited == 0, f"The answers took {waited:g} s.", "store the status in the callback, for the handler"
     )
     expect(
         found[0] == (False, "nothing yet"),
         f"Before any status it answers {found[0]}.",
-        "success false, and the message 'nothing yet'",
+        "return False and the message 'nothing yet'",
     )
     expect(found[1] == (True, "starting"), f"After the status 'starting' it answers {found[1]}.")
     expect(found[2] == (True, "driving"), f"After 'starting' and 'driving' it answers {found[2]}.")

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 14, The Parameter Server."""
+"""Checks of the exercises in chapter 14, The Parameter Server."""
 
 from __future__ import annotations
 
@@ -13,36 +13,34 @@ from rosmini.msgs.std_msgs.msg import Float32
 NAMES = ["/robot2/wheel/radius", "/robot2/driver/gain", "/use_sim_time"]
 
 
-@exercise("14.1", praise="The same three lines of a program find other values in another namespace.")
+@exercise("14.1", praise="In another namespace, the same three lines read other parameters.")
 def names(answer: Any) -> None:
-    """What wheel/radius, ~gain and /use_sim_time mean for /robot2/driver."""
+    """The full names of wheel/radius, ~gain and /use_sim_time for /robot2/driver."""
     expect_type(answer, list, "names is", "a list", '["/...", "/...", "/..."]')
-    expect(len(answer) == 3, f"The list has {len(answer)} entries, not three.", "one for each of the names")
+    expect(len(answer) == 3, f"The list has {len(answer)} entries, not three.", "write one for each name")
     said = ["wheel/radius", "~gain", "/use_sim_time"]
     hints = [
         "the namespace of /robot2/driver is /robot2; a relative name starts there",
-        "a private name is below the node's own name",
+        "a private name starts with the node's full name",
         "a name that begins with / stays as it is",
     ]
     for short, given, right, hint in zip(said, answer, NAMES, hints, strict=True):
-        expect(given == right, f"{short} does not mean {given!r} there.", hint)
+        expect(given == right, f"{short} does not resolve to {given!r} there.", hint)
 
 
 # ---- 14.2: the nearest gain ----
 
 
-@exercise(
-    "14.2", praise="One value for all, exceptions where you need them, and a default if there is neither."
-)
+@exercise("14.2", praise="One value serves all nodes, a nearer one makes an exception; a default remains.")
 def gain_of(answer: Any) -> None:
-    """The value of the nearest gain upwards, as a float; 1.0 if there is none."""
+    """The value of the nearest gain above the node, as a float; 1.0 by default."""
     with Graph() as graph:
         node = graph.node("driver", namespace="/robot2/base")
         steps = [
-            (None, None, 1.0, "nobody has set a gain"),
+            (None, None, 1.0, "no gain is set"),
             ("/gain", 2, 2.0, "/gain is 2"),
             ("/robot2/gain", 3.5, 3.5, "/robot2/gain is 3.5 and /gain is 2"),
-            ("/robot2/base/driver/gain", 0, 0.0, "~gain is 0, and others are set above"),
+            ("/robot2/base/driver/gain", 0, 0.0, "~gain is 0, and other gains are set above it"),
         ]
         for name, value, right, case in steps:
             if name is not None:
@@ -51,45 +49,45 @@ def gain_of(answer: Any) -> None:
             expect(
                 isinstance(found, (int, float)) and found == right,
                 f"For the node {node.name}, when {case}, it returned {found!r}, not {right}.",
-                "search_param returns the full name of the nearest one, or None; get_param its value",
+                "search_param returns the full name of the nearest one, or None; get_param returns its value",
             )
             expect(
                 type(found) is float,
                 f"When {case}, it returned the {type(found).__name__} {found!r}, not a float.",
-                "get_param(name, expect=float), or float(...)",
+                "use get_param(name, expect=float), or float(...)",
             )
 
 
 # ---- 14.3: merging ----
 
 
-@exercise("14.3", praise="This is what `rosparam load` and `rosparam set` do with a dictionary.")
+@exercise("14.3", praise="`rosparam load` and `rosparam set` treat a dictionary in the same way.")
 def merge(answer: Any) -> None:
-    """A dictionary is set in a namespace, and what else is there stays."""
+    """Merge a dictionary into a namespace and keep its other parameters."""
     with Graph() as graph:
         node = graph.node("node")
         node.set_param("/arm", {"name": "left", "joint": {"min": -1.0, "max": 1.0}, "links": [1, 2, 3]})
         answer(node, "/arm", {"joint": {"max": 2.0}, "links": [4], "tool": {"grip": {"force": 5}}})
         found = node.get_param("/arm", {})
         stray = [name for name in node.param_names() if not name.startswith(("/arm", "/ros", "/run_id"))]
-    expect(not stray, f"It set {', '.join(stray)}, outside of /arm.", 'the full name is f"{name}/{key}"')
-    expect(found.get("name") == "left", "/arm/name is gone.", "do not set the namespace as a whole")
-    joint = found.get("joint", {})
+    expect(not stray, f"It set {', '.join(stray)}, outside /arm.", 'the full name is f"{name}/{key}"')
     expect(
-        joint.get("min") == -1.0,
-        "/arm/joint/min is gone.",
-        "a dictionary within the dictionary is merged in the same way: let merge call itself",
+        found.get("name") == "left",
+        "/arm/name is gone.",
+        "setting the whole namespace deletes the rest; set each parameter",
     )
-    expect(joint.get("max") == 2.0, f"/arm/joint/max is {joint.get('max')!r}, not 2.0.", "set_param")
+    joint = found.get("joint", {})
+    expect(joint.get("min") == -1.0, "/arm/joint/min is gone.", "merge a nested dictionary in the same way")
+    expect(joint.get("max") == 2.0, f"/arm/joint/max is {joint.get('max')!r}, not 2.0.", "use set_param")
     expect(
         found.get("links") == [4],
         f"/arm/links is {found.get('links')!r}, not [4].",
-        "a list is one value, which replaces what was there",
+        "a list is one value; it replaces the old one",
     )
     expect(
         found.get("tool") == {"grip": {"force": 5}},
         f"/arm/tool is {found.get('tool')!r}, not {{'grip': {{'force': 5}}}}.",
-        "a new namespace is made by setting what is in it",
+        "to make a namespace, set the parameters in it",
     )
 
 
@@ -97,7 +95,7 @@ def merge(answer: Any) -> None:
 
 
 class _Counted:
-    """Counts how often a Master is asked for parameters."""
+    """A Master that counts the requests for parameters."""
 
     def __init__(self, master: Any) -> None:
         self._master = master
@@ -108,7 +106,7 @@ class _Counted:
         return getattr(self._master, name)
 
 
-@exercise("14.4", praise="The node asks once and is told the rest: this scales to any number of messages.")
+@exercise("14.4", praise="The node asks once and is notified of changes, so messages cost nothing.")
 def limiter(answer: Any) -> None:
     """A node that limits speeds to a parameter that changes while it runs."""
     got: list[float] = []
@@ -133,12 +131,13 @@ def limiter(answer: Any) -> None:
                 graph.run(0.1)
             expect(
                 counted.count == 0,
-                "The Master is asked for the parameter when a message comes.",
-                "on_param tells the node when the parameter changes",
+                "The node asks the Master for the parameter at every message.",
+                "on_param notifies the node when the parameter changes",
             )
     right = [0.25, 1.0, -4.0, 0.25, 0.5, -4.0, 0.25, 2.0, -4.0]
     expect(
         got == right,
         f"For 0.25, 4 and -4, with the limits 1.0, then 0.5, then 2.0, it published {got or 'nothing'}, not {right}.",
-        "min(message.data, limit), with the limit of now: on_param returns the first, and calls back with the others",
+        "use min(message.data, limit) with the current limit: on_param returns the first one and passes each "
+        "new one to your callback",
     )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 15, Bags."""
+"""Checks of the exercises in chapter 15, Bags."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def _bag(messages: Iterable[tuple[str, Any, float]]) -> Bag:
-    """A bag in memory, with messages recorded at times [s]."""
+    """Return a bag in memory, with messages recorded at the given times [s]."""
     file = BytesIO()
     with Bag(file, "w") as bag:
         for topic, message, time in messages:
@@ -36,27 +36,28 @@ def _odometry(x: float, y: float) -> Any:
 # ---- 15.1: how many messages on which topic ----
 
 
-@exercise("15.1", praise="One line of `rosbag info` for each topic.")
+@exercise("15.1", praise="`rosbag info` prints the same numbers, one line for each topic.")
 def message_counts(answer: Any) -> None:
-    """A dictionary from topics to numbers of messages."""
+    """A dictionary from topics to their message counts."""
     bag = _bag([("/chatter", String("x"), float(i)) for i in range(5)] + [("/news", String("x"), 2.5)])
     found = answer(bag)
     expect_type(found, dict, "It returned", "a dictionary")
     expect(
         set(found) == {"/chatter", "/news"},
-        f"The topics of my bag are /chatter and /news, not {sorted(found)}.",
+        f"The topics of the test bag are /chatter and /news, not {sorted(found)}.",
     )
     expect(
         found == {"/chatter": 5, "/news": 1},
-        f"My bag has 5 messages on /chatter and 1 on /news; you counted {found['/chatter']} and {found['/news']}.",
-        "add one for each message that read_messages() gives",
+        f"The test bag has 5 messages on /chatter and 1 on /news; you counted {found['/chatter']} and "
+        f"{found['/news']}.",
+        "add one for each message from read_messages()",
     )
 
 
 # ---- 15.2: the longest silence ----
 
 
-@exercise("15.2", praise="The timeline frames it; your function measures it.")
+@exercise("15.2", praise="The timeline shows the gap; your function measures it.")
 def longest_silence(answer: Any) -> None:
     """The longest time between two messages of one topic."""
     times = (10.0, 10.5, 14.25, 15.0)
@@ -66,24 +67,24 @@ def longest_silence(answer: Any) -> None:
     expect_type(found, int | float, "It returned", "a number of seconds")
     expect(
         math.isclose(found, 3.75, abs_tol=1e-6),
-        f"/chatter of my bag is silent from 10.5 to 14.25 s, for 3.75 s; you say {found:g} s.",
-        "the times of one topic only, and the largest difference of two that follow each other",
+        f"In the test bag, /chatter is silent from 10.5 to 14.25 s, for 3.75 s; your result is {found:g} s.",
+        "use the times of one topic only, and take the largest difference between consecutive ones",
     )
     other = answer(bag, "/news")
     expect(
         math.isclose(other, 1.0, abs_tol=1e-6),
-        f"/news has a message each second; you say {other:g} s.",
-        "use the topic that you are given",
+        f"/news has a message every second; your result is {other:g} s.",
+        "use the topic in the argument",
     )
 
 
 # ---- 15.3: a filter ----
 
 
-@exercise("15.3", praise="And `and` looks at the field only where the topic has it.")
+@exercise("15.3", praise="`and` evaluates the right side only for the topic that has this field.")
 def fast_commands(answer: Any) -> None:
-    """An expression that keeps the commands to drive ahead faster than 0.1 m/s."""
-    expect(isinstance(answer, str), f"The expression is text between quotes, not a {type(answer).__name__}.")
+    """An expression that keeps commands to drive forwards faster than 0.1 m/s."""
+    expect(isinstance(answer, str), f"The expression must be a string, not a {type(answer).__name__}.")
     cases = [
         ("/cmd_vel", Twist(linear=Vector3(x=0.2)), True, "a command of 0.2 m/s"),
         ("/cmd_vel", Twist(linear=Vector3(x=0.05)), False, "a command of 0.05 m/s"),
@@ -100,18 +101,18 @@ def fast_commands(answer: Any) -> None:
         return
     for found, (_, _, wanted, what) in zip(results, cases, strict=True):
         expect(
-            found == wanted, f"It {'keeps' if found else 'drops'} {what}.", "topic == ... and m. ... > ..."
+            found == wanted,
+            f"It {'keeps' if found else 'drops'} {what}.",
+            "it has the form: topic == ... and m. ... > ...",
         )
 
 
 # ---- 15.4: how far did it drive ----
 
 
-@exercise(
-    "15.4", praise="Small steps add up to the way; the distance between its ends would forget every turn."
-)
+@exercise("15.4", praise="The sum of small steps counts every turn; the distance between the ends would not.")
 def distance_driven(answer: Any) -> None:
-    """The length of the way that /odom tells, in metres."""
+    """The length of the path recorded on /odom [m]."""
     square = [(0, 0), (1, 0), (1, 2), (-0.5, 2), (-0.5, 0)]
     bag = _bag(
         [("/odom", _odometry(x, y), float(i)) for i, (x, y) in enumerate(square)]
@@ -121,6 +122,6 @@ def distance_driven(answer: Any) -> None:
     expect_type(found, int | float, "It returned", "a number of metres")
     expect(
         math.isclose(found, 6.5, abs_tol=1e-6),
-        f"In my bag the robot drives 1 + 2 + 1.5 + 2 = 6.5 m; you say {found:.2f} m.",
+        f"In the test bag the robot drives 1 + 2 + 1.5 + 2 = 6.5 m; your result is {found:.2f} m.",
         "add up the distances from each position to the next: math.dist((x0, y0), (x1, y1))",
     )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 17, Names."""
+"""Checks of the exercises in chapter 17, Names."""
 
 from __future__ import annotations
 
@@ -31,17 +31,19 @@ CASES = [
 ]
 
 
-@exercise("17.1", praise="Three cases, distinguished by the first character, and that is all there is to it.")
+@exercise("17.1", praise="The first character decides between the three cases; ROS needs no other rule.")
 def resolve(answer: Any) -> None:
-    """The full name that a name stands for."""
+    """The full name to which a name resolves."""
     for name, namespace, node in CASES:
         found, right = answer(name, namespace, node), names.resolve(name, namespace, node)
         hint = {
-            "/": "a global name is the full name already",
-            "~": "a private name is below the node's own full name, and the ~ goes away",
-        }.get(name[0], "the namespace / ends with a slash already, the others do not")
+            "/": "a global name is already the full name",
+            "~": "a private name follows the node's full name, without the ~",
+        }.get(name[0], "the namespace / already ends with a slash, the others do not")
         expect(
-            found == right, f"{name} means {right} to {node} (namespace {namespace}), not {found!r}.", hint
+            found == right,
+            f"{name} resolves to {right} for {node} (namespace {namespace}), not to {found!r}.",
+            hint,
         )
 
 
@@ -58,47 +60,41 @@ print(rospy.get_name(), chatter.resolved_name, rospy.get_param("~text", "hello")
 
 
 def _started(arguments: Sequence[str]) -> list[str]:
-    """The node, the topic and the text of a talker that was started with these arguments."""
+    """Start a talker with these arguments; return its node, its topic and its text."""
     out, err = StringIO(), StringIO()
     run_source(TALKER, arguments, name="talker.py", stdout=out, stderr=err, prefix=False)
     lines = out.getvalue().strip().splitlines()
     last = (err.getvalue().strip().splitlines() or ["it printed nothing"])[-1]
-    expect(bool(lines), f"The talker did not start with these arguments: {last}", "one := in each")
+    expect(bool(lines), f"The talker does not accept them: {last}", "each argument contains one :=")
     return lines[-1].split("|")
 
 
-@exercise("17.2", praise="The namespace stands in one place, and everything else is relative to it.")
+@exercise("17.2", praise="Only one argument contains the namespace, and everything else is relative to it.")
 def arguments(answer: Any) -> None:
-    """The command line that gives a talker its node name, its topic and its text."""
+    """The arguments that set the node name, the topic and the text of a talker."""
     expect_type(answer, (list, tuple), "arguments is", "a list", "[...]")
-    expect(all(isinstance(word, str) for word in answer), "Each argument is a string.", '"from:=to"')
+    expect(all(isinstance(word, str) for word in answer), "All arguments are strings.", 'such as "from:=to"')
     node, topic, text = _started(answer)
+    expect(node == "/crew/eve", f"The node is called {node}, not /crew/eve.", "use __ns:= and __name:=")
+    expect(text == "landed", f"It says {text!r}, not 'landed'.", "use _text:=, with one underscore")
     expect(
-        node == "/crew/eve",
-        f"The node is called {node}, not /crew/eve.",
-        "__ns:= and __name:=, two underscores",
-    )
-    expect(text == "landed", f"It says {text!r}, not 'landed'.", "_text:=, one underscore")
-    expect(
-        topic == "/crew/radio/news",
-        f"It publishes on {topic}, not on /crew/radio/news.",
-        "chatter:= something",
+        topic == "/crew/radio/news", f"It publishes on {topic}, not on /crew/radio/news.", "use chatter:=..."
     )
     moved = ["__ns:=/team" if word.startswith("__ns:=") else word for word in answer]
     node, topic, _ = _started(moved)
     expect(
         (node, topic) == ("/team/eve", "/team/radio/news"),
         f"With the namespace /team instead, it runs as {node} and publishes on {topic}.",
-        "the right side of a remapping may be a relative name",
+        "write a relative name on the right side of the remapping",
     )
 
 
 # ---- 17.3: one report for all ----
 
 
-@exercise("17.3", praise="A third robot costs one more call, and the screen need not know of it.")
+@exercise("17.3", praise="A third robot needs one more call, and no change to the screen.")
 def start_reporter(answer: Any) -> None:
-    """One node for each robot, with a topic of its own to read and a common one to write."""
+    """One node for each robot, which reads that robot's topic and writes to a common one."""
     got: list[str] = []
     robots = ["/robot1", "/robot2", "/lab/robot3"]
     with Graph() as graph:
@@ -112,12 +108,12 @@ def start_reporter(answer: Any) -> None:
             expect(
                 f"{robot}/reporter" in graph.nodes,
                 f"There is no node {robot}/reporter.",
-                'graph.node("reporter", namespace=...)',
+                'make it with graph.node("reporter", namespace=...)',
             )
             expect(
                 feed.num_connections() == 1,
-                f"{feed.num_connections()} nodes listen to {robot}/battery, not 1.",
-                "battery is a relative name: each reporter has its own",
+                f"{feed.num_connections()} nodes subscribe to {robot}/battery, not 1.",
+                "use the relative name battery, so that each reporter reads its own robot's",
             )
         for robot, volts in zip(robots, (11.5, 12.04, 10.96), strict=True):
             feeds[robot].publish(volts)
@@ -125,8 +121,8 @@ def start_reporter(answer: Any) -> None:
     right = ["/robot1: 11.5 V", "/robot2: 12.0 V", "/lab/robot3: 11.0 V"]
     expect(
         got == right,
-        f"On /report came {got or 'nothing'}, not {right}.",
-        "the topic is global; the text is node.namespace and the number with :.1f",
+        f"The messages on /report were {got or 'none'}, not {right}.",
+        "use a global topic name; the text is node.namespace and the number formatted with :.1f",
     )
 
 
@@ -134,11 +130,10 @@ def start_reporter(answer: Any) -> None:
 
 
 @exercise(
-    "17.4",
-    praise="The reader of such an address need not know where the package lies, and an overlay can take its place.",
+    "17.4", praise="Such an address works wherever the package is, and an overlay can replace the package."
 )
 def find_file(answer: Any) -> None:
-    """What an address package://NAME/PATH means in a list of folders."""
+    """The file that package://NAME/PATH means, given a list of folders."""
     with TemporaryDirectory() as made:
         root = Path(made)
         files = [
@@ -158,8 +153,16 @@ def find_file(answer: Any) -> None:
         for url, right, hint in [
             ("package://robot/readme", "a/robot/readme", "search the folders in turn"),
             ("package://arm/readme", "b/arm/readme", "search the folders in turn"),
-            ("package://arm/meshes/left/hand.stl", "b/arm/meshes/left/hand.stl", "no manifest, no package"),
-            ("package://robot/maps/floor.yaml", None, "the first package wins, with all that it lacks"),
+            (
+                "package://arm/meshes/left/hand.stl",
+                "b/arm/meshes/left/hand.stl",
+                "a folder without a manifest is not a package",
+            ),
+            (
+                "package://robot/maps/floor.yaml",
+                None,
+                "only the first package of a name counts, even if the file is missing in it",
+            ),
             ("package://leg/readme", None, "there is no such package"),
         ]:
             found = answer(url, list(folders))

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 18, From scratch: files that are built, and scripts that are run."""
+"""Checks of the exercises in chapter 18, From scratch: they build the files and run the scripts."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from rosmini.ros.catkin import Workspace, make
 if TYPE_CHECKING:
     from rosmini.core.graph import Publisher
 
-# ---- 18.1: which command mends it ----
+# ---- 18.1: which command fixes it ----
 
 CURES = {1: "c", 2: "a", 3: "e", 4: "b"}
-"""The command, of those in the text, that mends what each message complains of."""
+"""The command that fixes the cause of each message."""
 
 COMMANDS = {
     "chmod +x scripts/drive.py": "a",
@@ -28,22 +28,22 @@ COMMANDS = {
     "roscore": "d",
     "mkdir src": "e",
 }
-"""The letter of each command: who answers with the command itself is right, too."""
+"""The letter of each command; the command itself is accepted as well."""
 
 
-@exercise("18.1", praise="Who reads the message is half way out.")
+@exercise("18.1", praise="Each message names its own cause.")
 def cures(answer: object) -> None:
     """The letter of a command for each of four messages."""
     expect_type(answer, dict, "cures is", "a dictionary")
     given: dict[object, object] = dict(answer)  # type: ignore[call-overload]
     missing = [number for number in CURES if number not in given]
-    expect(not missing, f"Message {next(iter(missing), None)} has no command.")
+    expect(not missing, f"There is no command for message {next(iter(missing), None)}.")
     letters = {
         number: COMMANDS.get(str(word).strip(), str(word).strip().lower()) for number, word in given.items()
     }
     wrong = [number for number, letter in CURES.items() if letters[number] != letter]
-    said = f"{len(wrong)} of 4 would not help; look at message {next(iter(wrong), None)} first."
-    expect(not wrong, said, "read it aloud")
+    said = f"{len(wrong)} of 4 commands would not help; start with message {next(iter(wrong), None)}."
+    expect(not wrong, said, "read which file or command the message names")
 
 
 # ---- 18.2: a message and a service ----
@@ -68,10 +68,10 @@ FILES = {
     "msg/Spot.msg": "geometry_msgs/Point where\nstring name\n",
     "srv/Visit.srv": "string name\n---\nbool found\n",
 }
-"""The package as it is before there is a CMakeLists.txt."""
+"""The files of the package, without a CMakeLists.txt."""
 
 
-@exercise("18.2", praise="catkin_make has built it, without a warning.")
+@exercise("18.2", praise="catkin_make built the package without a warning.")
 def cmake(answer: object) -> None:
     """The CMakeLists.txt of a package with a message and a service."""
     expect_type(answer, str, "cmake is", "a text")
@@ -88,23 +88,23 @@ def cmake(answer: object) -> None:
         for found in sorted(report.findings, key=lambda each: not each.is_error):
             raise Wrong(
                 f"catkin_make says: {str(found).replace(str(package), 'survey')}",
-                "the manifest is right: look into your CMakeLists.txt",
+                "the manifest is correct; the mistake is in CMakeLists.txt",
             )
-        expect(report.built, "Nothing was built.", "project(survey)")
+        expect(report.built, "Nothing was built.", "begin with project(survey)")
     said = "\n".join(lines)
     for kind, file in (("MSG", "Spot"), ("SRV", "Visit")):
-        expect(f"{kind} survey/{file}" in said, f"No code was made of {file}.{kind.lower()}.")
+        expect(f"{kind} survey/{file}" in said, f"No code was generated from {file}.{kind.lower()}.")
 
 
 # ---- 18.3: a robot that obeys ----
 
 ORDERS = (("ahead", 1, 0), ("left", 0, 1), ("stop", 0, 0), ("right", 0, -1), ("dance", 0, 0))
-"""Words, and the signs of the speeds ahead and to the left that they ask for."""
+"""Words, and the signs of the forward and left-turn speeds that they request."""
 
 
-@exercise("18.3", praise="One callback, and the robot does as it is told.")
+@exercise("18.3", praise="One callback is enough to make the robot obey.")
 def obey(answer: Script) -> Any:
-    """A word on /order becomes a movement of the robot."""
+    """The robot moves as the word on /order says."""
     with Trial("room") as trial:
         trial.start(answer)
         captain = trial.graph.node("captain")
@@ -118,28 +118,29 @@ def obey(answer: Script) -> Any:
             commands.clear()
             _say(trial, order, word, 0.5)
             expect(
-                commands, f"At the word {word!r} nothing comes on /cmd_vel.", "publish a command at each word"
+                commands, f"There is no message on /cmd_vel after the word {word!r}.", "publish one for each"
             )
             moved = _moved(before, trial.robot.truth())
             for wanted, got, what in ((ahead, moved[0], "drive ahead"), (left, moved[1], "turn left")):
                 sign = (got > 0.005) - (got < -0.005)
                 expect(
                     sign == wanted,
-                    f"At the word {word!r} the robot does {'not ' if wanted else ''}{_said(what, wanted or sign)}.",
-                    "ahead: linear.x; left and right: angular.z, positive and negative; every other word: zeros",
+                    f"After the word {word!r} the robot does {'not ' if wanted else ''}{_said(what, wanted or sign)}.",
+                    "ahead sets linear.x; left and right set angular.z, positive and negative; every other "
+                    "word stops the robot",
                 )
         return trial.view()
 
 
 def _say(trial: Trial, order: Publisher, word: str, seconds: float) -> None:
-    """Say a word ten times a second."""
+    """Publish a word ten times a second."""
     for _ in range(round(seconds * 10)):
         order.publish(String(word))
         trial.run(0.1)
 
 
 def _moved(before: tuple[float, ...], after: tuple[float, ...]) -> tuple[float, float]:
-    """Return how far a robot went [m], without a sign, and how far it turned to the left [rad]."""
+    """Return the distance between two poses [m] and the turn to the left [rad]."""
     way = ((after[0] - before[0]) ** 2 + (after[1] - before[1]) ** 2) ** 0.5
     return way, after[2] - before[2]
 
@@ -151,7 +152,7 @@ def _said(what: str, sign: int) -> str:
 # ---- 18.4: a listener in many copies ----
 
 
-@exercise("18.4", praise="Each copy has a name of its own, and both answer.")
+@exercise("18.4", praise="Each copy has a unique name, so both run and answer.")
 def parrot(answer: Script) -> None:
     """Two copies of one script run at once, and each repeats what it hears."""
     heard: list[str] = []
@@ -165,6 +166,8 @@ def parrot(answer: Script) -> None:
         for word in ("hello", "robot"):
             chatter.publish(String(word))
             trial.run(1.0)
-    expect(heard, "Nothing came on /echo.", "publish the message that the callback is given")
-    expect(len(heard) > 2, "Only one copy has answered.", "anonymous=True lets each find a name of its own")
-    expect(heard == ["hello", "hello", "robot", "robot"], f"On /echo came {', '.join(heard[:6])}.")
+    expect(heard, "There was no message on /echo.", "publish the message that the callback receives")
+    expect(len(heard) > 2, "Only one copy has answered.", "anonymous=True gives each a unique name")
+    expect(
+        heard == ["hello", "hello", "robot", "robot"], f"The messages on /echo were {', '.join(heard[:6])}."
+    )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 22, rqt."""
+"""Checks of the exercises in chapter 22, rqt."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from rosmini.viz.rqt.plot import rqt_plot
 from rosmini.viz.view import ViewError
 
 MEASURED = ("/odom/twist/twist/angular/z", "/imu/angular_velocity/z")
-"""The fields in which the robot says how fast it turns."""
+"""Fields with the robot's measured angular velocity."""
 
 SWING_RAD, FAR_M = 0.3, 1.0
-"""How far the robot has to look to either side, and how far it has to come."""
+"""Smallest turn to either side [rad] and smallest forward distance [m]."""
 
 
-@exercise("22.1", praise="The node speaks, and nobody listens.")
+@exercise("22.1", praise="The picture shows a node that publishes without a subscriber.")
 def options(answer: object) -> Any:
-    """Options of rqt_graph that draw the spare node with its topic, and nothing that only the simulator says."""
-    expect_type(answer, dict, "options is", "a dictionary: an option, and what follows it")
+    """Options of rqt_graph that draw the spare node and its topic, and no topics of the simulator."""
+    expect_type(answer, dict, "options is", "a dictionary from option to value")
     with Trial("maze", is_shown=False) as trial:
         node = trial.graph.node
         for name, topic in (("eyes", "nearest"), ("spare", "closest")):
@@ -39,21 +39,23 @@ def options(answer: object) -> Any:
         expect(
             {"/spare", "/closest"} <= drawn,
             "/spare and its topic are not in the picture.",
-            "a topic without a subscriber is a leaf: choose a mode, and what is hidden",
+            "a topic without a subscriber is a leaf: choose the mode, and what to hide",
         )
         for topic in ("/rosout", "/imu", "/tf"):
             expect(
-                topic not in drawn, f"{topic} is in the picture, too.", "hide debug; --nodes /eyes,/pilot,..."
+                topic not in drawn,
+                f"{topic} is in the picture, too.",
+                "hide debug, and choose the nodes: --nodes /eyes,/pilot,...",
             )
         return shown
 
 
 def _graph(given: dict[str, Any], trial: Trial) -> Any:
-    """Draw what the command would with these options."""
+    """Draw the picture of the command with these options."""
     extra = given.keys() - {"mode", "hide", "nodes", "topics"}
-    expect(not extra, f"{', '.join(map(str, extra))} is not asked for.", "mode, hide and nodes suffice")
+    expect(not extra, f"{', '.join(map(str, extra))} is not needed.", "mode, hide and nodes are enough")
     mode = str(given.get("mode", "nodes"))
-    expect(mode in ("nodes", "active", "all"), f"There is no mode {mode!r}.", "nodes, active or all")
+    expect(mode in ("nodes", "active", "all"), f"There is no mode {mode!r}.", "use nodes, active or all")
     words: dict[str, Any] = {"mode": "nodes_only" if mode == "nodes" else f"nodes_topics_{mode}"}
     if "hide" in given:
         words["hide"] = tuple(part for part in str(given["hide"]).split(",") if part != "none")
@@ -64,9 +66,9 @@ def _graph(given: dict[str, Any], trial: Trial) -> Any:
         raise Wrong(f"rqt_graph refuses these options: {error}") from error
 
 
-@exercise("22.2", praise="The wheels need a moment to do what the command says.")
+@exercise("22.2", praise="The plot shows that the wheels follow the command with a delay.")
 def field(answer: object) -> Any:
-    """The field that says how fast the robot turns in fact."""
+    """The field with the robot's actual angular velocity."""
     expect_type(answer, str, "field is", "a text")
     name = "/" + str(answer).lstrip("/")
     with Trial("arena", is_shown=False) as trial:
@@ -79,16 +81,16 @@ def field(answer: object) -> Any:
             view = rqt_plot(trial.graph, "/cmd_vel/angular/z", name, duration=2.0, title="Command and robot")
         except ViewError as error:
             raise Wrong(f"rqt_plot cannot plot it: {error}") from error
-        expect("cmd_vel" not in name, "That is the command. What does the robot measure?", "/odom")
-        expect("ground_truth" not in name, "That only a simulator knows.", "/odom, or /imu")
-        expect(name in MEASURED, "That is not how fast it turns.", "twist, angular, z")
+        expect("cmd_vel" not in name, "This is the command, not what the robot measures.", "look in /odom")
+        expect("ground_truth" not in name, "Only a simulator publishes this field.", "look in /odom or /imu")
+        expect(name in MEASURED, "This is not the angular velocity.", "look for twist, angular and z")
         return view
 
 
-@exercise("22.3", praise="It weaves, and keeps its way.")
+@exercise("22.3", praise="The robot weaves from side to side and keeps its direction.")
 def wave(answer: object) -> Any:
-    """Expressions for the fields of a Twist, with which the robot weaves along."""
-    expect_type(answer, dict, "wave is", "a dictionary: a field, and its expression")
+    """Expressions for the fields of a Twist that make the robot weave."""
+    expect_type(answer, dict, "wave is", "a dictionary from field to expression")
     seen: list[float] = []
     with Trial("arena") as trial:
         form = MessagePublisher(trial.graph)
@@ -105,16 +107,18 @@ def wave(answer: object) -> Any:
             seen.append(trial.robot.truth()[2])
         expect(not made.problem, f"The form has stopped: {made.problem}")
         x, y, _ = trial.robot.truth()
-        expect(abs(x - start_x) + abs(y - start_y) > 0.1, "The robot stays where it is.", "linear/x")
-        expect(max(seen) > SWING_RAD, "It does not look to the left.", "angular/z has to swing")
+        expect(
+            abs(x - start_x) + abs(y - start_y) > 0.1, "The robot does not drive.", "give linear/x a value"
+        )
+        expect(max(seen) > SWING_RAD, "The robot does not turn to the left.", "angular/z must alternate")
         expect(
             min(seen) < -SWING_RAD,
-            "It does not look to the right of where it began.",
-            "where does a turn begin that is fastest to the left at i = 0?",
+            "The robot never faces to the right of its first heading.",
+            "with a cosine the turn is fastest to the left at i = 0; where does the swing start then?",
         )
         expect(
             x - start_x > FAR_M and abs(y - start_y) < 0.5,
-            f"It does not keep its way: it is {x - start_x:.2f} m ahead and {y - start_y:.2f} m aside.",
-            "smaller turns, or a quicker wave",
+            f"The robot leaves its direction: it is {x - start_x:.2f} m ahead and {y - start_y:.2f} m to the side.",
+            "make the turns smaller or the wave quicker",
         )
         return trial.view()

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 23, Gazebo."""
+"""Checks of the exercises in chapter 23, Gazebo."""
 
 from __future__ import annotations
 
@@ -29,36 +29,36 @@ def _server(graph: Graph) -> GazeboServer:
 # ---- 23.1: a barrel ----
 
 
-@exercise("23.1", praise="It came into a world, stood on the floor, and could be pushed.")
+@exercise("23.1", praise="The barrel was spawned, stood on the floor, and could be pushed.")
 def barrel(answer: Any) -> None:
-    """The SDF of a solid cylinder that stands on the floor."""
+    """The SDF of a solid cylinder on the floor."""
     for name, radius, height, mass in (("barrel", 0.3, 0.8, 20.0), ("tin", 0.05, 0.1, 0.5)):
         text = answer(name, radius, height, mass)
         expect_type(text, str, "It returned", "a text", 'f"""<sdf ..."""')
         try:
             models = sdf.load(text).models
         except RosminiError as error:
-            raise Wrong(f"This is no SDF: {error}", "the crate of the chapter shows the form") from error
-        expect(len(models) == 1, f"There are {len(models)} models in it, not one.")
+            raise Wrong(f"This is not valid SDF: {error}", "compare it with the chapter's crate") from error
+        expect(len(models) == 1, f"It contains {len(models)} models, not one.")
         _check_barrel(models[0], name, radius, height, mass)
         with Graph() as graph:
             server = _server(graph)
             spawn_text(server.world, text, name, (0.0,) * 6)
             server.world.model(name).set_velocity((1.0, 0.0, 0.0))
             graph.run(2.0)
-            expect(server.truth(name)[0] > 0.05, "It cannot be pushed.", "a static model stands fast")
+            expect(server.truth(name)[0] > 0.05, "It cannot be pushed.", "a static model never moves")
 
 
 def _check_barrel(model: sdf.SdfModel, name: str, radius: float, height: float, mass: float) -> None:
-    expect(
-        model.name == name,
-        f"Its name is {model.name!r}, not {name!r}.",
-        "the name is the function's first value",
-    )
-    expect(not model.static, "It is static, so it cannot be pushed.", "leave <static> out")
+    expect(model.name == name, f"Its name is {model.name!r}, not {name!r}.", "use the first argument")
+    expect(not model.static, "It is static, so it cannot be pushed.", "remove <static>")
     expect(len(model.links) == 1, f"It has {len(model.links)} links, not one.")
     link = model.links[0]
-    expect(len(link.collisions) == 1, f"It has {len(link.collisions)} collisions, not one.", "<collision>")
+    expect(
+        len(link.collisions) == 1,
+        f"It has {len(link.collisions)} collisions, not one.",
+        "add one <collision>",
+    )
     collision = link.collisions[0]
     shape = collision.geometry
     expect(shape.kind == "cylinder", f"Its collision is a {shape.kind}, not a cylinder.")
@@ -71,7 +71,7 @@ def _check_barrel(model: sdf.SdfModel, name: str, radius: float, height: float, 
     expect(
         abs(bottom) < 1e-9,
         f"With its origin on the floor, its bottom is at a height of {bottom:.2f} m.",
-        "the pose of a cylinder is that of its middle",
+        "the pose of a cylinder is that of its centre",
     )
     inertial = link.inertial
     expect(math.isclose(inertial.mass, mass), f"Its mass is {inertial.mass:g} kg, not {mass:g} kg.")
@@ -82,7 +82,7 @@ def _check_barrel(model: sdf.SdfModel, name: str, radius: float, height: float, 
         expect(
             math.isclose(found, right, rel_tol=1e-4),
             f"{axis} is {found:.4g} kg m2, not {right:.4g}.",
-            "izz is about the cylinder's own axis, which stands upright",
+            "izz is about the cylinder's own axis, which is vertical",
         )
 
 
@@ -90,7 +90,7 @@ def _check_barrel(model: sdf.SdfModel, name: str, radius: float, height: float, 
 
 
 def _slide(mu: float, gravity: float) -> Callable[[float], float]:
-    """A push in a world of its own: give a crate this speed, wait until it stands, and say how far it slid."""
+    """Return a function that pushes a crate at a speed in a separate world and returns the distance that it slid."""
 
     def push(speed: float) -> float:
         surface = f"<surface><friction><ode><mu>{mu}</mu></ode></friction></surface>"
@@ -107,14 +107,14 @@ def _slide(mu: float, gravity: float) -> Callable[[float], float]:
     return push
 
 
-@exercise("23.2", praise="You found 0.15, 0.4 and 0.9, the last of them on the Moon.")
+@exercise("23.2", praise="You found 0.15, 0.4 and 0.9; the last one was on the Moon.")
 def friction(answer: Any) -> None:
-    """The coefficient of friction of something that is pushed, within 2 %."""
+    """The coefficient of friction of a pushed object, within 2 %."""
     for mu, gravity in ((0.15, 9.8), (0.4, 9.8), (0.9, 1.6)):
         found = expect_number(answer(_slide(mu, gravity), gravity), "coefficient")
         expect(
             abs(found - mu) <= 0.02 * mu,
-            f"You found {found:.3f} where mu is {mu}, with a gravity of {gravity} m/s2.",
+            f"You found {found:.3f}, but mu is {mu}, with a gravity of {gravity} m/s2.",
             "solve d = v * v / (2 * mu * g) for mu",
         )
 
@@ -124,20 +124,22 @@ def friction(answer: Any) -> None:
 
 @exercise(
     "23.3",
-    praise="Beam 0 looks to the right, beam 90 ahead, beam 180 to the left.")  # fmt: skip
+    praise="Beam 0 points to the right, beam 90 straight ahead, beam 180 to the left.")  # fmt: skip
 def look_ahead(answer: Any) -> None:
-    """A TurtleBot3 whose laser has 181 beams ahead."""
+    """A TurtleBot3 whose laser has 181 beams over the front half."""
     original = xacro.expand(BURGER)
     text = answer(original)
-    expect_type(text, str, "It returned", "a text", "return the changed text")
+    expect_type(text, str, "It returned", "a string", "return the changed text")
     with Graph() as graph:
         server = _server(graph)
         try:
             spawn_text(server.world, text, "robot", (0.0,) * 6)
         except RosminiError as error:
-            raise Wrong(f"The robot does not come into the world: {error}") from error
+            raise Wrong(f"The robot cannot be spawned: {error}") from error
         types = dict(graph.master.getTopicTypes("/check")[2])
-        expect("/front_scan" in types, "There is no topic /front_scan.", "<topicName> of the laser's plugin")
+        expect(
+            "/front_scan" in types, "There is no topic /front_scan.", "change <topicName> of the laser plugin"
+        )
         expect("/scan" not in types, "The topic /scan is still there.")
         heard: list[Any] = []
         graph.node("check").subscriber("/front_scan", LaserScan, heard.append)
@@ -145,14 +147,14 @@ def look_ahead(answer: Any) -> None:
     _check_scan(heard[-1])
     expect(
         _rest(text) == _rest(original),
-        "Something else of the robot has changed.",
-        "change these four tags only",
+        "Another part of the robot has changed.",
+        "change only those four tags",
     )
 
 
 def _check_scan(scan: Any) -> None:
     count = len(scan.ranges)
-    expect(count == 181, f"A scan has {count} beams, not 181.", "<samples>")
+    expect(count == 181, f"A scan has {count} beams, not 181.", "change <samples>")
     degrees = [math.degrees(angle) for angle in (scan.angle_min, scan.angle_max)]
     expect(
         max(abs(degrees[0] + 90), abs(degrees[1] - 90)) < 0.1,
@@ -165,7 +167,7 @@ TAGS = ("samples", "min_angle", "max_angle")
 
 
 def _rest(text: str) -> list[str]:
-    """All other lines; of topics only those that are not the laser's."""
+    """Return all lines that the exercise does not change."""
     lines = (line.strip() for line in text.splitlines())
     return [
         line.replace("front_scan", "scan")
@@ -177,20 +179,16 @@ def _rest(text: str) -> list[str]:
 # ---- 23.4: a leash ----
 
 
-@exercise(
-    "23.4", praise="Two crates on leashes of different lengths were pushed, and both were brought home."
-)
+@exercise("23.4", praise="Two crates on leashes of different lengths were pushed, and both came back.")
 def leash(answer: Any) -> None:
-    """A plugin that brings its model home when it is too far away."""
+    """A plugin that returns its model to its start when it is too far away."""
     expect(
         isinstance(answer, type) and issubclass(answer, ModelPlugin),
-        "It is no model plugin.",
-        'class Leash(ModelPlugin, filename="libleash.so")',
+        "It is not a model plugin.",
+        'begin with class Leash(ModelPlugin, filename="libleash.so")',
     )
     library = "libleash_on_trial.so"
-    type(
-        "OnTrial", (answer,), {}, filename=library
-    )  # whichever class was made last for the reader's own library
+    type("OnTrial", (answer,), {}, filename=library)  # the latest class with the reader's library
     for length, x, y, speed in ((0.5, 2.0, -1.0, (3.0, 0.0)), (1.2, -1.0, 3.0, (0.0, -4.0))):
         text = _on_leash(library, length)
         with Graph() as graph:
@@ -207,17 +205,17 @@ def leash(answer: Any) -> None:
         expect(
             max(way) < length + 0.45,
             f"{what} the model came {max(way):.2f} m away.",
-            "look at least ten times a second; <length> is the tag's",
+            "compare ten times a second or more; read the length from the tag <length>",
         )
         expect(
             way[-1] < 0.02 and abs(there[2] - 0.5) < 0.02,
-            f"{what} it ended {way[-1]:.2f} m from where it came into the world.",
-            "keep model.pose in load, and put the model back there, without a velocity",
+            f"{what} it ended {way[-1]:.2f} m from its start.",
+            "store model.pose in load, and move the model back there, with zero velocity",
         )
 
 
 def _short(graph: Graph, server: GazeboServer, model: Any, length: float) -> None:
-    """What stays within its leash is left alone."""
+    """Expect that a model within its leash is not moved."""
     x, y, _ = server.truth("dog")
     model.set_velocity((1.0, 0.0, 0.0))
     graph.run(1.0)
@@ -225,7 +223,7 @@ def _short(graph: Graph, server: GazeboServer, model: Any, length: float) -> Non
     expect(
         0.05 < way < length,
         f"A model that slid within its leash of {length} m is {way:.2f} m from home.",
-        "leave it alone as long as it is not too far away",
+        "do not move it while it is near enough",
     )
 
 

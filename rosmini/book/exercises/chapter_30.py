@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 30, the Navigation Stack: a number, a goal from a node, and a length."""
+"""Checks of the exercises in chapter 30, the Navigation Stack: a number, a goal from a node, and a length."""
 
 from __future__ import annotations
 
@@ -14,25 +14,21 @@ from rosmini.msgs import message_class
 
 UNMET = 1
 SEEN = {
-    2: "the transform from the map to the laser goes by way of odom, and it is there",
-    3: "scans come, five a second, and it is known where the laser is",
-    4: "the outline is a wish, and keeps no robot from setting off in an open hall",
+    2: "the transform from the map to the laser, through odom, exists",
+    3: "five scans a second arrive, and the position of the laser is known",
+    4: "the footprint is optional, and a robot in an open hall starts without it",
 }
 
 
 @exercise(
     "30.1",
-    praise="Nobody listens to the commands: the driver of the base is not running, or has another topic.",
+    praise="No node subscribes to the commands: the base's driver is not running, or uses another topic.",
 )
 def demand(answer: Any) -> Any:
-    """It is the first one: nobody subscribes to cmd_vel."""
+    """The first demand is not met: cmd_vel has no subscriber."""
     expect_type(answer, int, "The answer is", "the number of a demand")
     expect(answer in (1, *SEEN), f"There is no demand {answer}.", "there are four")
-    expect(
-        answer == UNMET,
-        f"Demand {answer} is met, as far as one can see: {SEEN.get(answer, '')}.",
-        "read the first answer again",
-    )
+    expect(answer == UNMET, f"Demand {answer} is met: {SEEN.get(answer, '')}.", "read the first output again")
     return None
 
 
@@ -40,12 +36,12 @@ def demand(answer: Any) -> Any:
 
 PLACE = (-1.0, 2.6)
 LATE = 3.0
-"""So late [s] somebody begins to listen in the trial."""
+"""Delay before the trial subscribes [s]."""
 
 
-@exercise("30.2", praise="A goal is one message: a frame, a place, a heading.")
+@exercise("30.2", praise="A goal is one message with a frame, a position and a heading.")
 def go_there(script: Any) -> Any:
-    """A goal comes on move_base_simple/goal, in the frame map, at the place and heading that were asked for."""
+    """The script publishes the goal on move_base_simple/goal, in the frame map, with position and heading."""
     expect_type(script, Script, "The answer is", "a script")
     goal_class = message_class("geometry_msgs/PoseStamped")
     heard: list[Any] = []
@@ -56,8 +52,8 @@ def go_there(script: Any) -> Any:
         trial.run(10.0)
     expect(
         heard,
-        "No goal came on move_base_simple/goal. Somebody began to listen three seconds after the script had started.",
-        "publish there, and wait until get_num_connections() is not 0",
+        "There was no goal on move_base_simple/goal. The check subscribed three seconds after the script had started.",
+        "before you publish, wait until get_num_connections() is not 0",
     )
     _check_goal(heard[-1])
     return None
@@ -65,25 +61,21 @@ def go_there(script: Any) -> Any:
 
 def _check_goal(goal: Any) -> None:
     frame, p, q = goal.header.frame_id, goal.pose.position, goal.pose.orientation
-    expect(
-        frame.lstrip("/") == "map",
-        f"The goal is in the frame {frame!r}.",
-        "goal.header.frame_id says which: map",
-    )
+    expect(frame.lstrip("/") == "map", f"The goal is in the frame {frame!r}, not 'map'.", "set its frame_id")
     expect(
         math.dist((p.x, p.y), PLACE) < 0.01,
-        f"The goal is at ({p.x:g}, {p.y:g}), asked for was {PLACE}.",
+        f"The goal is at ({p.x:g}, {p.y:g}), not at {PLACE}.",
         "set goal.pose.position",
     )
     length = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2)
     expect(
         abs(length - 1) < 0.01,
-        f"The quaternion has the length {length:.2f}; move_base refuses what is not 1.",
-        "z and w are both 0.7071",
+        f"The quaternion has the length {length:.2f}; move_base accepts only length 1.",
+        "set z and w to 0.7071",
     )
     expect(
         abs(q.z - q.w) < 0.01 and abs(q.x) < 0.01 and abs(q.y) < 0.01,
-        f"The quaternion is ({q.x:g}, {q.y:g}, {q.z:g}, {q.w:g}), which is another heading.",
+        f"The quaternion is ({q.x:g}, {q.y:g}, {q.z:g}, {q.w:g}), which is a different heading.",
         "a quarter turn to the left has z = w = 0.7071",
     )
 
@@ -107,26 +99,26 @@ PATHS = SimpleNamespace(
 )
 
 
-@exercise("30.3", praise="That is how far the robot has to drive, whatever the straight line says.")
+@exercise("30.3", praise="This is the distance that the robot drives; the straight line is shorter.")
 def length(function: Any) -> Any:
     """The sum of the distances from each pose to the next."""
-    expect(callable(function), "The answer is not a function.", "def length(poses): ...")
+    expect(callable(function), "The answer is not a function.", "write def length(poses): ...")
     for poses, wanted, what in (
         (PATHS.bent, 6.0, "a path of 5 m and then 1 m"),
-        (PATHS.back, 2.0, "a path of 1 m, and the same way back"),
+        (PATHS.back, 2.0, "a path of 1 m and back again"),
         (PATHS.one, 0.0, "a path of one pose"),
-        ([], 0.0, "a path of no pose"),
+        ([], 0.0, "an empty path"),
     ):
         try:
             found = function(poses)
         except Exception as error:
             raise Wrong(
-                f"For {what} it fails: {type(error).__name__}: {error}", "try it with few poses"
+                f"For {what} it fails: {type(error).__name__}: {error}", "try it with one pose and with none"
             ) from error
         expect_type(found, (int, float), f"For {what} the answer is", "a number")
         expect(
             abs(found - wanted) < 1e-6,
-            f"For {what} it says {found:.2f} m, and it is {wanted:.2f} m.",
-            "add up from each pose to the next",
+            f"For {what} it returned {found:.2f} m, not {wanted:.2f} m.",
+            "add up the distances from each pose to the next",
         )
     return None

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 31, Frames."""
+"""Checks of the exercises in chapter 31, Frames."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ def _scan(*ranges: float) -> Any:
     return scan
 
 
-@exercise("31.1", praise="Nearest to the laser is not always nearest to the robot.")
+@exercise("31.1", praise="The point nearest to the laser is not always nearest to the robot.")
 def nearest_to_base(answer: Any) -> None:
     """The distance on the ground, in the frame base_link, at the time of the scan."""
-    # The laser is 0.5 m ahead and looks to the left: what is 0.9 m to its left is 0.4 m behind the robot's middle.
+    # The laser is 0.5 m ahead and faces left: a point 0.9 m to its left is 0.4 m behind the robot's centre.
     mounted = from_yaw(0.5, 0.0, math.pi / 2, z=1.0)
     scan, still = _scan(1.0, 0.9, 0.8, math.inf), ("base_link", "front_laser", mounted, 5)
     found = answer(_buffer(still), scan)
     expect_type(found, int | float, "It returned", "a number", "take the smallest distance")
     expect(
         abs(found - 0.4) < 1e-6,
-        "With a laser 0.5 m ahead that looks to the left, the nearest point is 0.40 m from base_link, "
+        "With a laser 0.5 m ahead that faces left, the nearest point is 0.40 m from base_link, "
         f"not {found:.2f} m.",
         "transform the points of the scan to base_link, then take the smallest hypot(x, y)",
     )
@@ -47,46 +47,47 @@ def nearest_to_base(answer: Any) -> None:
     found = answer(_buffer(still, turned), scan)
     expect(
         abs(found - 0.4) < 1e-6,
-        f"The laser was turned after the scan, and you return {found:.2f} m: the transform is that of another time.",
+        f"The laser was turned after the scan, and you return {found:.2f} m: you used the transform of a "
+        "different time.",
         "the time of the scan is scan.header.stamp",
     )
     try:
         nothing = answer(_buffer(still), _scan(math.inf, math.inf))
     except ValueError as error:
-        raise Wrong("It fails if the laser saw nothing.", "min(..., default=math.inf)") from error
-    expect(nothing == math.inf, f"The laser saw nothing, and you return {nothing!r}.", "return math.inf")
+        raise Wrong("It fails if all ranges are infinite.", "use min(..., default=math.inf)") from error
+    expect(nothing == math.inf, f"All ranges are infinite, and you return {nothing!r}.", "return math.inf")
 
 
-@exercise("31.2", praise="This is all that amcl publishes on /tf.")
+@exercise("31.2", praise="amcl publishes exactly this transform on /tf.")
 def map_to_odom(answer: Any) -> None:
-    """The transform of odom in map, by the odometry of the time for which the place in map holds."""
+    """The transform from map to odom, from the odometry at the time of the pose in map."""
     map_base, odom_base = from_yaw(2.0, 1.0, 0.7), from_yaw(1.5, -0.2, 0.4)
     then = ("odom", "base_footprint", odom_base, 5)
     later = ("odom", "base_footprint", from_yaw(1.9, 0.1, 0.9), 6)
     found = answer(_buffer(then, later), map_base, Time(5))
     expect(
         isinstance(found, tuple) and len(found) == 7,
-        "A transform is a tuple of seven numbers.",
-        "compose, inverse and transform_of give one",
+        "A transform must be a tuple of seven numbers.",
+        "compose, inverse and transform_of return one",
     )
     late = compose(found, from_yaw(1.9, 0.1, 0.9))
     expect(
         any(abs(a - b) > 1e-6 for a, b in zip(late, map_base, strict=True)),
-        "It takes the odometry of now. The place in map is that of the time `stamp`, "
-        "and the robot has driven on since.",
-        'buffer.lookup_transform("odom", "base_footprint", stamp)',
+        "It uses the current odometry. The pose in map is that of the time `stamp`, "
+        "and the robot has moved since then.",
+        'use buffer.lookup_transform("odom", "base_footprint", stamp)',
     )
     through = compose(found, odom_base)
     expect(
         all(abs(a - b) < 1e-6 for a, b in zip(through, map_base, strict=True)),
-        "Composed with the odometry of that time, your transform does not give where the robot was in map.",
-        "map -> base is map -> odom followed by odom -> base: solve that for map -> odom",
+        "Composed with the odometry of that time, your transform does not give the robot's pose in map.",
+        "map -> base is map -> odom followed by odom -> base; solve this for map -> odom",
     )
 
 
-@exercise("31.3", praise="The buffer remembers, so nothing had to be stored along the way.")
+@exercise("31.3", praise="The buffer keeps past transforms, so you did not have to store any.")
 def moved(answer: Any) -> None:
-    """How far base went in odom."""
+    """The distance that base moved in odom."""
     buffer = _buffer(
         ("odom", "base", from_yaw(0.0, 0.0, 0.0), 1),
         ("odom", "base", from_yaw(3.0, 4.0, 1.0), 2),
@@ -97,7 +98,7 @@ def moved(answer: Any) -> None:
     expect(
         abs(found - 5) < 1e-6,
         f"From (0, 0) to (3, 4) it is 5 m, not {found:.2f} m.",
-        "look the frame up at both times, and take the distance between the two places",
+        "look the frame up at both times, and return the distance between the two positions",
     )
     found = answer(buffer, Time(2), Time(3))
     expect(abs(found - 6) < 1e-6, f"From (3, 4) to (3, 10) it is 6 m, not {found:.2f} m.", "use both times")

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 32, Maps."""
+"""Checks of the exercises in chapter 32, Maps."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ PLACES = (
     ((0.0, 0.0, 0.0), (0.31, 0.12), "divide by the resolution, and round down"),
     ((-5.0, 2.0, 0.0), (-4.31, 2.12), "subtract the origin first"),
     ((-5.0, 2.0, 0.0), (-5.01, 2.12), "int() rounds towards 0, so cell -0.1 becomes cell 0: use math.floor"),
-    ((1.0, -2.0, 0.0), (1.2, -1.6), "there are `height` rows"),
-    ((1.0, -2.0, 0.0), (2.1, -1.9), "there are `width` columns"),
-    ((1.0, 2.0, math.pi / 2), (0.95, 2.55), "turn the difference by minus the yaw"),
-    ((1.0, 2.0, -0.7), (1.4, 1.8), "turn the difference by minus the yaw"),
-    ((-1.0, -1.0, 0.4), (-0.9, -0.4), "turn the difference by minus the yaw"),
+    ((1.0, -2.0, 0.0), (1.2, -1.6), "rows go from 0 to height - 1"),
+    ((1.0, -2.0, 0.0), (2.1, -1.9), "columns go from 0 to width - 1"),
+    ((1.0, 2.0, math.pi / 2), (0.95, 2.55), "rotate the difference by minus the yaw"),
+    ((1.0, 2.0, -0.7), (1.4, 1.8), "rotate the difference by minus the yaw"),
+    ((-1.0, -1.0, 0.4), (-0.9, -0.4), "rotate the difference by minus the yaw"),
 )
 
 
-@exercise("32.1", praise="RViz, amcl and every costmap begin with these lines.")
+@exercise("32.1", praise="RViz, amcl and every costmap contain these lines.")
 def cell_of(answer: Any) -> None:
-    """The cell of a place, or None outside, with an origin that is turned."""
+    """The cell of a point, or None outside the map, with a rotated origin."""
     cells = np.zeros((3, 10), dtype=np.int8)
     for origin, place, hint in PLACES:
         grid = GridMap(cells, 0.1, origin)
@@ -45,7 +45,7 @@ def cell_of(answer: Any) -> None:
             f"{where} it returned {found!r} for {place}.",
             "return two whole numbers, (mx, my), or None",
         )
-        expect(found == wanted, f"{where} the place {place} is {_named(wanted)}, not {_named(found)}.", hint)
+        expect(found == wanted, f"{where} the point {place} is {_named(wanted)}, not {_named(found)}.", hint)
 
 
 def _named(cell: tuple[int, int] | None) -> str:
@@ -55,9 +55,9 @@ def _named(cell: tuple[int, int] | None) -> str:
 # ---- 32.2: pixels ----
 
 
-@exercise("32.2", praise="Load, save, load: nothing is lost.")
+@exercise("32.2", praise="Loading, saving and loading again gives the same map.")
 def classify(answer: Any) -> None:
-    """The cells of a picture, in the order of a map."""
+    """The cells of an image, in the order of a map."""
     picture = np.array([[0, 51, 102], [153, 204, 255]], dtype=np.uint8)
     cases = (
         (0.25, 0.7, 0, [[-1, 0, 0], [100, 100, -1]]),
@@ -67,28 +67,31 @@ def classify(answer: Any) -> None:
     for free, occupied, negate, wanted in cases:
         found = answer(picture, free, occupied, negate)
         expect_type(found, np.ndarray, "It returned", "a numpy array")
-        expect(found.shape == picture.shape, f"A picture of the shape {picture.shape} became {found.shape}.")
+        expect(
+            found.shape == picture.shape,
+            f"An image of the shape {picture.shape} became a map of the shape {found.shape}.",
+        )
         said = (
             f"Of {picture.tolist()} with free_thresh {free}, occupied_thresh {occupied} and negate {negate}"
         )
         expect(
             found.tolist() != wanted[::-1],
-            f"{said} it makes a map that stands on its head.",
-            "row 0 of a map is the lowest, that of a picture the highest",
+            f"{said} it returns a map that is upside down.",
+            "row 0 is the bottom of a map, and the top of an image",
         )
         expect(
             found.tolist() == wanted,
-            f"{said} it makes {found.tolist()}, not {wanted}.",
-            "p above occupied_thresh is 100, below free_thresh 0, everything else -1, also on a threshold",
+            f"{said} it returns {found.tolist()}, not {wanted}.",
+            "a cell is 100 if p > occupied_thresh, 0 if p < free_thresh, and otherwise -1",
         )
 
 
 # ---- 32.3: no entry ----
 
 
-@exercise("32.3", praise="The planner of chapter 34 will go round it, and never know why.")
+@exercise("32.3", praise="The planner of chapter 34 will plan around this square.")
 def keepout(answer: Script) -> None:
-    """A node that closes a square metre of any map."""
+    """A node that marks a square metre of any map as occupied."""
     for resolution, origin in ((0.5, (-1.0, -1.0, 0.0)), (0.25, (0.5, -0.75, 0.0))):
         cells = np.tile(np.array([0, -1, 0, 100, 0, 0], dtype=np.int8), (5, 1))
         grid = GridMap(cells, resolution, origin)
@@ -100,7 +103,11 @@ def keepout(answer: Script) -> None:
             heard: list[Any] = []
             trial.graph.node("late").subscriber("keepout_map", OccupancyGrid, heard.append)
             trial.run(0.5)
-            expect(bool(heard), "Who subscribes to keepout_map a second later gets nothing.", "latch=True")
+            expect(
+                bool(heard),
+                "A subscriber of keepout_map that starts a second later receives no map.",
+                "publish with latch=True",
+            )
             _expect_closed(grid, heard[-1])
 
 
@@ -108,8 +115,8 @@ def _expect_closed(grid: GridMap, message: Any) -> None:
     where = f"On a map with cells of {grid.resolution} m and its origin at {grid.origin[:2]}"
     expect(
         len(message.data) == grid.occupancy.size and message.info == grid.to_message().info,
-        f"{where} the size or the origin of what you publish differs from the map's.",
-        "change the cells of the message that came, and publish that",
+        f"{where} your map has a different size or origin.",
+        "change cells of the received message, and publish it",
     )
     found = GridMap.from_message(message).occupancy
     rows, columns = np.indices(found.shape)
@@ -122,7 +129,7 @@ def _expect_closed(grid: GridMap, message: Any) -> None:
         expect(
             False,
             f"{where} the cell ({mx}, {my}) is {found[my, mx]}, not {wanted[my, mx]}.",
-            "the middle of a cell is origin + (number + 0.5) * resolution; data[my * width + mx]",
+            "the centre of a cell is origin + (index + 0.5) * resolution, and its value is data[my * width + mx]",
         )
 
 
@@ -131,11 +138,11 @@ def _expect_closed(grid: GridMap, message: Any) -> None:
 MAPS = "package://rosmini_sim/maps/"
 
 
-@exercise("32.4", praise="Somebody still has to tell the robot where it gets out.")
+@exercise("32.4", praise="The robot still needs its initial pose on the new floor.")
 def lift(answer: Script) -> None:
-    """A node that has the server change maps, and survives one that is not there."""
+    """A node that makes the server change maps, and handles a missing map."""
     with TurtleTrial(None) as trial:
-        # its log, with paths of this machine, is not the reader's
+        # its log contains paths of this machine
         started = rosrun(
             "map_server", "map_server", f"{MAPS}floor.yaml", graph=trial.graph, capture_output=True
         )
@@ -152,21 +159,21 @@ def lift(answer: Script) -> None:
                 logged = trial.output.rpartition("[ERROR]")[2]
                 expect(
                     " raised " not in logged,
-                    f"There is no {name}, and your callback fails of it.",
-                    "a callback that fails is logged by ROS; log your own error, and return",
+                    f"There is no {name}, and your callback raises an error.",
+                    "catch the failure, log an error with rospy.logerr, and return",
                 )
                 expect(
                     failed and name in logged,
-                    f"There is no {name}, and no error of yours names it.",
-                    "answer.result, rospy.logerr",
+                    f"There is no {name}, and your script logs no error that names it.",
+                    "compare answer.result, and use rospy.logerr",
                 )
                 continue
             shown = server.grid.path
             expect(
-                not failed, f"For {name}, which is there, your script logged an error.", "RESULT_SUCCESS is 0"
+                not failed, f"Your script logged an error for {name}, which exists.", "RESULT_SUCCESS is 0"
             )
             expect(
                 shown is not None and shown.name == name,
-                f"The lift stopped at {name}, and the server has the map {shown and shown.name}.",
-                "change_map(message.data)",
+                f"The lift stopped at {name}, but the server has the map {shown and shown.name}.",
+                "call change_map(message.data)",
             )

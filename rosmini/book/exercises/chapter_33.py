@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 33, costmaps."""
+"""Checks of the exercises in chapter 33, costmaps."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ from rosmini.ros.scripts import rosrun
 # ---- 33.1: a cost by its distance ----
 
 
-@exercise("33.1", praise="That is all that inflation does, once for each cell.")
+@exercise("33.1", praise="The inflation layer computes exactly this for each cell.")
 def cost(answer: Any) -> Any:
-    """The cost at a distance, with both ends of each range."""
+    """The cost at a distance, including the ends of each range."""
     for r, big, s in ((0.051, 0.6, 5.0), (0.17, 0.55, 10.0), (0.2, 1.0, 2.5), (0.3, 0.2, 3.0)):
         for d in (0.0, 0.05, 0.1, 0.15, r, r + 0.05, 0.3, 0.45, big, big + 0.05, 2.0):
             wanted = 0 if d > big else cost_at(d, r, s)
             got = answer(d, r, big, s)
             where = f"At d = {d:g} m, with r = {r:g}, R = {big:g} and s = {s:g}, the cost"
             hint = (
-                "254 at distance 0, 0 beyond R, 253 up to r, the formula between"
+                "it is 254 at distance 0, 253 up to r, the formula up to R, and 0 beyond"
                 if wanted in (0, 253, 254)
-                else "252 exp(-s (d - r)), without what is behind the point"
+                else "it is 252 exp(-s (d - r)), rounded down"
             )
             expect(got == wanted, f"{where} is {wanted}, not {got!r}.", hint)
             expect_type(got, (int, np.integer), f"{where} is", "a whole number")
@@ -46,14 +46,14 @@ def cost(answer: Any) -> Any:
 
 CELL = 0.05
 DOOR, GAP = (24, 40), (56, 60)
-"""The rows of the cells that are open in the wall: 80 cm, and 20 cm."""
+"""Rows of the openings in the wall: 80 cm and 20 cm."""
 WALL = (58, 61)
 """Its columns."""
 START, GOAL = (20.0, 57.0), (100.0, 57.0)
 
 
 def _apartment() -> Costmap2D:
-    """Two rooms, and a wall between with a door, and a gap right between start and goal."""
+    """Two rooms and a wall with a door, and with a gap on the line from start to goal."""
     grid = Costmap2D(120, 80, CELL)
     costs = grid.costs
     costs[[0, -1]] = 254
@@ -65,17 +65,22 @@ def _apartment() -> Costmap2D:
 
 
 @exercise(
-    "33.2", praise="The gap is closed by the robot's size, and the slope of the costs leads to the middle."
+    "33.2",
+    praise="The robot's size closes the gap, and the costs lead the plan through the middle of the door.",
 )
 def door(answer: Any) -> Any:
-    """Three numbers by which the plan leads through the door, at its middle."""
+    """Three parameters with which the plan passes through the middle of the door."""
     names = ("robot_radius", "inflation_radius", "cost_scaling_factor")
-    expect_type(answer, dict, "numbers is", "a dictionary: a parameter, and its value")
+    expect_type(answer, dict, "numbers is", "a dictionary from parameter to value")
     for name in names:
-        expect(name in answer, f"{name} is missing.", "all three")
+        expect(name in answer, f"{name} is missing.", "set all three parameters")
         expect_type(answer[name], (int, float), f"{name} is", "a number")
     radius, reach, scaling = (float(answer[name]) for name in names)
-    expect(radius >= 0.105, f"The Burger is 21 cm wide; with a radius of {radius:g} m it touches.", "0.105")
+    expect(
+        radius >= 0.105,
+        f"The Burger is 21 cm wide; a radius of {radius:g} m is too small.",
+        "use at least 0.105",
+    )
     inscribed, _ = radii(padded(footprint_from_radius(radius), 0.01))
     costmap = inflated(
         _apartment(), inscribed_radius=inscribed, inflation_radius=reach, cost_scaling_factor=scaling
@@ -83,18 +88,24 @@ def door(answer: Any) -> Any:
     search = NavfnSearch(costmap.costs, START, GOAL)
     search.expand()
     if not search.arrived:
-        view = costmap.show(title="No way leads through the wall")
-        raise Wrong("There is no path at all: the door is closed.", "half of 80 cm has to be enough", view)
+        view = costmap.show(title="No path leads through the wall")
+        raise Wrong(
+            "There is no path: inflation closes the door.", "the radius must be less than half of 80 cm", view
+        )
     path = search.path()
-    view = costmap.show(plan=(path + 0.5) * CELL, title="The plan by your numbers")
+    view = costmap.show(plan=(path + 0.5) * CELL, title="The plan with your numbers")
     at_wall = path[(path[:, 0] >= WALL[0]) & (path[:, 0] < WALL[1]), 1] + 0.5
     if (at_wall > sum(DOOR) / 2 + 10).any():
-        raise Wrong("The plan leads through the gap of 20 cm.", "253 closes it: which number decides?", view)
+        raise Wrong(
+            "The plan leads through the gap of 20 cm.",
+            "a cost of 253 closes it: which parameter sets that distance?",
+            view,
+        )
     off = float(np.abs(at_wall - sum(DOOR) / 2).max()) * CELL
     if off > 0.1:
         raise Wrong(
-            f"The plan passes the door {off * 100:.0f} cm off its middle.",
-            "the middle is 40 cm from each post: costs have to reach as far, and still be above 0 there",
+            f"The plan passes the door {off * 100:.0f} cm from its middle.",
+            "the middle is 40 cm from each post: costs must reach that far and still be above 0 there",
             view,
         )
     return view
@@ -104,7 +115,7 @@ def door(answer: Any) -> Any:
 
 
 class _Costmap:
-    """A costmap with what its layers say, as `Costmap2DROS` has it."""
+    """A costmap with the costs of its layers, as in `Costmap2DROS`."""
 
     def __init__(self, layers: dict[str, int | None]) -> None:
         known = [cost for cost in layers.values() if cost is not None]
@@ -119,9 +130,9 @@ class _Costmap:
         )
 
 
-@exercise("33.3", praise="Now you know whom to ask: the map, the laser, or the file.")
+@exercise("33.3", praise="The answer names the cause: the map, the laser, or the inflation.")
 def blocker(answer: Any) -> Any:
-    """The lowest layer that blocks a place, under names of all sorts; None if nothing does, and outside."""
+    """The lowest layer that blocks a point; None if no layer does, and outside the costmap."""
     names = ("static_layer", "obstacle_layer", "inflation_layer"), ("walls", "sonar", "people", "inflation")
     for layers in names:
         for costs in product((None, 0, 200, 253, 254), repeat=len(layers)):
@@ -130,16 +141,16 @@ def blocker(answer: Any) -> Any:
             got = answer(_Costmap(told), -0.73, 2.16)
             expect(
                 got == wanted,
-                f"The layers say {told}: it is {wanted or 'none of them'}, not {got!r}.",
-                "go through costmap.explain(mx, my).items(), which begins with the lowest; None is no number",
+                f"The layers say {told}: the answer is {wanted or 'None'}, not {got!r}.",
+                "go through costmap.explain(mx, my).items(), which starts with the lowest layer; a cost may be None",
             )
     full = _Costmap({"static_layer": 254})
     for x, y in ((-0.5, 2.16), (-0.73, 2.3)):
         got = answer(full, x, y)
-        expect(got is None, f"Nothing blocks ({x}, {y}), and the answer is {got!r}.", "which cell is it?")
+        expect(got is None, f"No layer blocks ({x}, {y}), but you return {got!r}.", "use world_to_map")
     for x, y in ((-1.02, 2.16), (0.2, 2.16), (-0.73, 1.9)):
         got = answer(full, x, y)
-        expect(got is None, f"({x}, {y}) is outside, and the answer is {got!r}.", "world_to_map returns None")
+        expect(got is None, f"({x}, {y}) is outside, but you return {got!r}.", "world_to_map returns None")
     return None
 
 
@@ -151,15 +162,15 @@ def _of(answer: Any) -> dict[str, Any]:
     try:
         read = yaml.safe_load(answer)
     except yaml.YAMLError as error:
-        raise Wrong(f"It is no YAML: {str(error).splitlines()[0]}", "mind the indentation") from error
-    expect_type(read, dict, "The file holds", "names and values")
+        raise Wrong(f"It is not valid YAML: {str(error).splitlines()[0]}", "check the indentation") from error
+    expect_type(read, dict, "The file contains", "a dictionary of parameters")
     settings: dict[str, Any] = read
     return settings
 
 
-@exercise("33.4", praise="It marks, clears, inflates, and keeps up with the robot.")
+@exercise("33.4", praise="Your costmap marks, clears and inflates obstacles, and moves with the robot.")
 def params(answer: Any) -> Any:
-    """A local costmap that rolls, marks, clears and inflates."""
+    """A local costmap with a rolling window that marks, clears and inflates."""
     read = _of(answer)
     with Trial(is_shown=False) as trial:
         graph = trial.graph
@@ -171,18 +182,18 @@ def params(answer: Any) -> Any:
             rosrun("costmap_2d", "costmap_2d_node", "__name:=eyes", graph=graph, capture_output=True)
             trial.run(3.0)
         except RosminiError as error:
-            raise Wrong(f"The costmap does not start: {error}", "read the message") from error
+            raise Wrong(f"The costmap does not start: {error}", "the message names the parameter") from error
         costmap = getattr(graph.nodes["/eyes"].program if "/eyes" in graph.nodes else None, "costmap", None)
         expect(
             costmap is not None,
-            "The costmap does not start: it waits for something that never comes.",
-            "is there a frame of that name, and a map?",
+            "The costmap does not start: it waits for a frame or a map that does not exist.",
+            "compare the names of the frames with those of the robot; a rolling window needs no map",
         )
         return _tried(trial, costmap)
 
 
 def _tried(trial: Trial, costmap: Any) -> Any:
-    """Put the costmap of a file through its paces."""
+    """Test the costmap of a file with an obstacle and a drive."""
     grid = costmap.grid
 
     def cost_of(x: float, y: float) -> int:
@@ -197,33 +208,37 @@ def _tried(trial: Trial, costmap: Any) -> Any:
 
     def require(condition: bool, message: str, hint: str) -> None:
         if not condition:
-            raise Wrong(message, hint, shown("What your file makes"))
+            raise Wrong(message, hint, shown("The costmap of your file"))
 
     x, y = grid.origin[0] + grid.size_m[0] / 2, grid.origin[1] + grid.size_m[1] / 2
     require(
         max(abs(x), abs(y)) < 0.2,
-        f"The robot is at (0, 0), and the middle of the window at ({x:.1f}, {y:.1f}).",
+        f"The robot is at (0, 0), but the centre of the window is at ({x:.1f}, {y:.1f}).",
         "rolling_window",
     )
     require(
         box() == 254,
-        "A crate stands 0.8 m ahead of the robot, and no cell is lethal there.",
-        "observation_sources lists names of blocks; and is there a source that marks?",
+        "There is a crate 0.8 m ahead of the robot, but no lethal cell there.",
+        "observation_sources lists the names of blocks; one of them needs marking: true",
     )
     radius = costmap.inscribed_radius
     require(
-        radius < 0.25, f"The robot's inscribed radius is {radius:.2f} m: a Burger is smaller.", "robot_radius"
+        radius < 0.25,
+        f"The robot's inscribed radius is {radius:.2f} m: a Burger is smaller.",
+        "set robot_radius",
     )
     levels = {int(value) for value in np.unique(grid.costs)}
     require(
         253 in levels and bool(levels & set(range(1, 253))),
-        "Around obstacles there are no costs, or none below 253.",
-        "inflation sees what the layers below it have written, and reaches beyond the robot's radius",
+        "There are no costs below 253 around obstacles.",
+        "the inflation layer must be the last plugin, and inflation_radius larger than the robot's radius",
     )
-    final = shown("What your file makes")
+    final = shown("The costmap of your file")
     trial.robot.drag("crate", (-0.5, 1.3, 0.0))
     trial.run(2.0)
-    require(box() < 254, "The crate is gone, and its cells are still lethal.", "who clears?")
+    require(
+        box() < 254, "The crate is gone, but its cells are still lethal.", "a source needs clearing: true"
+    )
     before = grid.origin
     node = trial.graph.node("driver")
     cmd_vel, command = node.publisher("cmd_vel", Twist, queue_size=1), Twist()
@@ -231,5 +246,5 @@ def _tried(trial: Trial, costmap: Any) -> Any:
     node.timer(0.1, lambda _: cmd_vel.publish(command))
     trial.run(3.0)
     moved = math.dist(before, grid.origin)
-    require(moved > 0.3, "The robot has driven, and the window stands where it was.", "update_frequency")
+    require(moved > 0.3, "The robot has moved, but the window has not.", "set update_frequency")
     return final

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 34, Global planners."""
+"""Checks of the exercises in chapter 34, Global planners."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ Cell = tuple[int, int]
 # ---- 34.1: a guess for eight directions ----
 
 
-@exercise("34.1", praise="With it A* looks ahead as far as one safely can.")
+@exercise("34.1", praise="This is the largest guess with which A* still finds the cheapest path.")
 def guess(answer: Any) -> None:
-    """The cost of the cheapest path on an empty floor of eight directions."""
+    """The cost of the cheapest path on an empty floor with steps in eight directions."""
     pairs = [
         ((3, 5), (9, 5)),
         ((3, 5), (3, 1)),
@@ -44,28 +44,28 @@ def guess(answer: Any) -> None:
             found = expect_number(answer(cell, goal, cheapest), "cost")
             dx, dy = abs(goal[0] - cell[0]), abs(goal[1] - cell[1])
             cost = cheapest * (max(dx, dy) + (math.sqrt(2) - 1) * min(dx, dy))
-            where = f"From {cell} to {goal}, where each cell costs {cheapest}, the way costs {cost:.2f}"
+            where = f"From {cell} to {goal}, where each cell costs {cheapest}, the path costs {cost:.2f}"
             expect(
                 found <= cost * 1.001 + 1e-9,
-                f"{where}, and you guess {found:.2f}: that is too high, and A* may miss the cheapest path.",
-                "how many steps can be diagonal ones?",
+                f"{where}, but you guess {found:.2f}: this is too high, so A* may miss the cheapest path.",
+                "how many of the steps can be diagonal?",
             )
             expect(
                 found >= cost * 0.999 - 1e-9,
-                f"{where}, and you guess {found:.2f}: that is never too high, but it can be higher.",
-                "as many diagonal steps as there are columns or rows, whichever are fewer; the rest is straight",
+                f"{where}, but you guess {found:.2f}: this is never too high, but it could be higher.",
+                "the number of diagonal steps is the smaller of columns and rows; the other steps are straight",
             )
 
 
 # ---- 34.2: a trap for the greedy ----
 
 LARGEST = (30, 12)
-"""Columns and rows of a floor, at most."""
+"""Largest number of columns and rows of a floor."""
 PRICES = {".": 1, ":": 4, "S": 1, "G": 1}
 
 
 def search(price: dict[Cell, int], start: Cell, goal: Cell, trust: float) -> float:
-    """The chapter's search: what the goal costs, with the guess of columns plus rows times `trust`."""
+    """Run the chapter's search with a guess of (columns + rows) * `trust`; return the cost of its path."""
 
     def ahead(cell: Cell) -> float:
         return trust * (abs(goal[0] - cell[0]) + abs(goal[1] - cell[1]))
@@ -84,31 +84,31 @@ def search(price: dict[Cell, int], start: Cell, goal: Cell, trust: float) -> flo
     return cost.get(goal, math.inf)
 
 
-@exercise("34.2", praise="It ran for the goal, and never counted its steps.")
+@exercise("34.2", praise="The greedy search ran towards the goal and ignored the cost of its steps.")
 def trap(answer: Any) -> None:
-    """A floor on which the greedy search pays twice."""
-    expect_type(answer, str, "The floor is", "a text")
+    """A floor on which the greedy search pays at least twice the lowest cost."""
+    expect_type(answer, str, "The floor is", "a string")
     rows = answer.split()
     width, height = LARGEST
     expect(
         rows and len(rows) <= height and max(map(len, rows)) <= width,
         f"The floor has {len(rows)} rows of up to {max(map(len, rows), default=0)} letters.",
-        f"no more than {height} rows of {width} letters, and one at least",
+        f"write 1 to {height} rows of at most {width} letters",
     )
     strange = sorted(set("".join(rows)) - {*PRICES, "#"})
-    expect(not strange, f"The floor has the letter {strange and strange[0]!r}.", "use # . : S G")
+    expect(not strange, f"The floor contains the letter {strange and strange[0]!r}.", "use only # . : S G")
     letters = {(x, y): letter for y, row in enumerate(reversed(rows)) for x, letter in enumerate(row)}
     places = {each: [cell for cell, letter in letters.items() if letter == each] for each in "SG"}
     for each, cells in places.items():
-        expect(len(cells) == 1, f"There are {len(cells)} letters {each} on the floor.", "one S and one G")
+        expect(len(cells) == 1, f"There are {len(cells)} letters {each} on the floor.", "use one S and one G")
     price = {cell: PRICES[letter] for cell, letter in letters.items() if letter != "#"}
     (start,), (goal,) = places["S"], places["G"]
     least, greedy = (search(price, start, goal, trust) for trust in (0, 1000))
-    expect(least < math.inf, "No path leads from S to G.", "leave a way around the walls")
+    expect(least < math.inf, "No path leads from S to G.", "leave a path around the walls")
     expect(
         greedy >= 2 * least,
-        f"The greedy search pays {greedy:g}, and the cheapest path costs {least:g}.",
-        "what it pays has to be twice as much: a carpet in the straight way, and bare floor beside it",
+        f"The greedy search pays {greedy:g}; the cheapest path costs {least:g}.",
+        "make it pay twice as much: put carpet on the straight line, and bare floor beside it",
     )
 
 
@@ -116,16 +116,16 @@ def trap(answer: Any) -> None:
 
 BEGIN, SOFA = (-2.98, 1.02), (-4.48, -4.48)
 ROOM = (140, 130)
-"""Rows and columns of the house's corner in which it is planned."""
+"""Rows and columns of the part of the house used for planning."""
 NEUTRAL = 100
 HIGHEST, AVERAGE = 135, 45.0
 INSCRIBED, RADIUS, SCALING = 0.0511, 0.6, 5.0
-"""Of the costmap of a burger in `turtlebot3_navigation`."""
+"""Values for a Burger's costmap in `turtlebot3_navigation`."""
 
 
 @cache
 def house() -> Costmap2D:
-    """The global costmap of the house, without what the laser sees."""
+    """Return the global costmap of the house, without laser data."""
     found = load_map(assets_dir() / "ros/rosmini_sim/maps/house.yaml")
     costs = np.where(found.occupied, 254, np.where(found.free, 0, 255)).astype(np.uint8)
     made = Costmap2D.of(costs, found.resolution, found.origin[:2])
@@ -135,11 +135,11 @@ def house() -> Costmap2D:
     return made
 
 
-@exercise("34.3", praise="The prices differ wherever the path has a choice.")
+@exercise("34.3", praise="The costs differ wherever the planner has a choice.")
 def tuned(answer: Any) -> None:
-    """A factor that leads neither along the sofa nor up to the ceiling."""
+    """A factor that keeps the plan away from the sofa and below the highest costs."""
     factor = expect_number(answer, "factor")
-    expect(0.01 <= factor <= 5.0, f"cost_factor is {factor:g}.", "it goes from 0.01 to 5.0")
+    expect(0.01 <= factor <= 5.0, f"cost_factor is {factor:g}.", "it must be from 0.01 to 5.0")
     grid = house()
     plan = GlobalDijkstra(
         grid.costs[: ROOM[0], : ROOM[1]],
@@ -151,15 +151,15 @@ def tuned(answer: Any) -> None:
     columns, rows = np.floor(plan.path() + 0.5).astype(int).T
     costs = grid.costs[rows, columns]
     ceiling = (252 - NEUTRAL) / factor
-    said = f"The plan crosses costs of {costs.mean():.0f} on average, and of {costs.max()} at most"
-    expect(costs.mean() <= AVERAGE, f"{said}: it keeps too near to things.", _advice(ceiling))
-    expect(costs.max() <= HIGHEST, f"{said}: there it comes too near to something.", _advice(ceiling))
+    said = f"The plan crosses cells with costs of {costs.mean():.0f} on average and {costs.max()} at most"
+    expect(costs.mean() <= AVERAGE, f"{said}: it keeps too close to obstacles.", _advice(ceiling))
+    expect(costs.max() <= HIGHEST, f"{said}: at one point it is too close to an obstacle.", _advice(ceiling))
 
 
 def _advice(ceiling: float) -> str:
     if ceiling > 252:
-        return "let the costmap count for more"
-    return f"from a cost of {ceiling:.0f} on all prices are the same: let the costmap count for less"
+        return "give the costmap more weight"
+    return f"above a cost of {ceiling:.0f} all cells cost the same: give the costmap less weight"
 
 
 # ---- 34.4: how far is it ----
@@ -172,9 +172,9 @@ QUESTIONS: tuple[tuple[Cell, list[tuple[float, float]]], ...] = (
 """Goals, and the plans to them."""
 
 
-@exercise("34.4", praise="The post arrives when it was promised.")
+@exercise("34.4", praise="Your node reports the distance of each delivery before the robot starts.")
 def far(answer: Script) -> None:
-    """A node that asks for plans, and publishes their lengths."""
+    """A node that requests plans and publishes their lengths."""
     asked: list[Any] = []
     told: list[Any] = []
     with TurtleTrial(None) as trial:
@@ -192,33 +192,35 @@ def far(answer: Script) -> None:
             trial.run(0.5)
             where = f"For the goal {place}"
             expect(
-                asked, f"{where} you asked move_base/make_plan nothing.", "make_plan(start, goal, tolerance)"
+                asked, f"{where} you did not call move_base/make_plan.", "make_plan(start, goal, tolerance)"
             )
             request = asked[-1]
             expect(
                 not request.start.header.frame_id,
-                f"{where} you asked for a plan from a place of your own.",
-                "an empty PoseStamped() stands for where the robot is",
+                f"{where} you requested a plan from a fixed start.",
+                "an empty PoseStamped() means the robot's position",
             )
             expect(
                 (request.goal.pose.position.x, request.goal.pose.position.y) == place
                 and request.goal.header.frame_id == "map",
-                f"{where} you asked for another goal.",
-                "hand on the pose that came",
+                f"{where} you requested a different goal.",
+                "pass on the pose that you received",
             )
             expect(
                 math.isclose(request.tolerance, 0.5, abs_tol=1e-6),
                 f"{where} the tolerance was {request.tolerance:g} m, not 0.5.",
             )
             expect(
-                len(told) == 1, f"{where} there were {len(told)} messages on distance, not 1.", "publish once"
+                len(told) == 1,
+                f"{where} there were {len(told)} messages on distance, not 1.",
+                "publish once for each goal",
             )
             wanted = sum(math.dist(a, b) for a, b in pairwise(points)) if points else -1.0
             expect(
                 abs(told[0].data - wanted) < 0.01,
-                f"{where} you said {told[0].data:.2f}, not {wanted:.2f}."
+                f"{where} you published {told[0].data:.2f}, not {wanted:.2f}."
                 + ("" if points else " There is no plan to it."),
-                "add the distances from each pose to the next; an empty plan is -1",
+                "add up the distances from each pose to the next; publish -1 for an empty plan",
             )
 
 

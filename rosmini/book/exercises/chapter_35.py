@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 35, Local planners."""
+"""Checks of the exercises in chapter 35, Local planners."""
 
 from __future__ import annotations
 
@@ -21,25 +21,31 @@ from rosmini.ros.launch import roslaunch
 
 NAMES = ("low v", "high v", "low w", "high w")
 WINDOWS = (
-    ((0.15, 0.0), (-1.0, 1.0, 2.0), (1.0, 3.0), 0.1, "acceleration times period, to either side"),
-    ((0.05, 0.0), (0.0, 1.0, 2.0), (1.0, 3.0), 0.1, "the low v is never under the least v"),
-    ((0.02, 0.0), (-0.2, 0.22, 2.0), (1.0, 3.0), 0.1, "the low v may be negative: this robot may reverse"),
-    ((0.20, 0.0), (0.0, 0.22, 2.0), (1.0, 3.0), 0.1, "the high v is never over the most v"),
-    ((0.15, 1.9), (0.0, 0.22, 2.0), (0.5, 3.0), 0.1, "the high w is never over the most w"),
-    ((0.15, -1.9), (0.0, 0.22, 2.0), (0.5, 3.0), 0.1, "the low w is never under minus the most w"),
-    ((0.1, 0.5), (-0.2, 0.22, 2.0), (0.5, 3.0), 0.05, "the period is not always 0.1 s"),
+    (
+        (0.15, 0.0),
+        (-1.0, 1.0, 2.0),
+        (1.0, 3.0),
+        0.1,
+        "the window is acceleration times period on either side of the velocity",
+    ),
+    ((0.05, 0.0), (0.0, 1.0, 2.0), (1.0, 3.0), 0.1, "the low v is never below the minimum v"),
+    ((0.02, 0.0), (-0.2, 0.22, 2.0), (1.0, 3.0), 0.1, "the low v may be negative: this robot can reverse"),
+    ((0.20, 0.0), (0.0, 0.22, 2.0), (1.0, 3.0), 0.1, "the high v is never above the maximum v"),
+    ((0.15, 1.9), (0.0, 0.22, 2.0), (0.5, 3.0), 0.1, "the high w is never above the maximum w"),
+    ((0.15, -1.9), (0.0, 0.22, 2.0), (0.5, 3.0), 0.1, "the low w is never below minus the maximum w"),
+    ((0.1, 0.5), (-0.2, 0.22, 2.0), (0.5, 3.0), 0.05, "use the argument: the period is not always 0.1 s"),
 )
 
 
-@exercise("35.1", praise="With 1.7 s instead of the period it is Trajectory Rollout's window.")
+@exercise("35.1", praise="With 1.7 s instead of the period, this is the window of Trajectory Rollout.")
 def window(answer: Any) -> None:
-    """The velocities that are reached in one period."""
+    """The velocities that the robot can reach in one period."""
     for velocity, limits, accelerations, period, hint in WINDOWS:
         found = answer(velocity, limits, accelerations, period)
         expect(
             isinstance(found, tuple | list | np.ndarray) and len(found) == 4,
             f"It returned {found!r}.",
-            "four numbers: low v, high v, low w, high w",
+            "return four numbers: low v, high v, low w, high w",
         )
         (v, w), (least, most, turn) = velocity, limits
         gain_v, gain_w = accelerations[0] * period, accelerations[1] * period
@@ -63,18 +69,18 @@ def window(answer: Any) -> None:
 
 WALK = np.column_stack([np.linspace(0, 1, 11), np.zeros(11), np.zeros(11)])
 PEOPLE = (
-    ((0.5, 2.0), 0.0, "farther than 1 m costs nothing, and nobody is paid for distance"),
-    ((0.5, 0.7), 0.5, "between 1 m and 0.4 m the cost grows evenly from 0 to 1"),
-    ((1.5, 0.0), 5 / 6, "look at all points, the last one too"),
-    ((0.5, 0.3), -1.0, "a point in the middle may be the nearest: look at all of them"),
-    ((-0.3, 0.0), -1.0, "nearer than 0.4 m is rejected, at the first point too"),
+    ((0.5, 2.0), 0.0, "beyond 1 m the cost is 0, never negative"),
+    ((0.5, 0.7), 0.5, "from 1 m to 0.4 m the cost grows linearly from 0 to 1"),
+    ((1.5, 0.0), 5 / 6, "take all points into account, the last one included"),
+    ((0.5, 0.3), -1.0, "a point in the middle may be the nearest: take all points into account"),
+    ((-0.3, 0.0), -1.0, "reject a trajectory that comes nearer than 0.4 m, at the first point as well"),
     ((0.3, -0.8), 1 / 3, "a distance is never negative"),
 )
 
 
-@exercise("35.2", praise="Weigh it, add it to the others, and the robot keeps its distance.")
+@exercise("35.2", praise="With a weight and the other critics, it keeps the robot at a distance.")
 def manners(answer: Any) -> None:
-    """A critic that keeps away from a person."""
+    """A critic that keeps the robot away from a person."""
     for person, wanted, hint in PEOPLE:
         found = expect_number(answer(WALK.copy(), person), "number")
         expect(
@@ -98,13 +104,13 @@ RAW = np.array(
 )
 
 
-@exercise("35.3", praise="Count them, and you have what the planner says when it is stuck.")
+@exercise("35.3", praise="Counted per critic, this is the planner's report when no trajectory is left.")
 def refused_by(answer: Any) -> None:
-    """The first critic that was asked and gave a negative number."""
+    """The first critic with a weight that returned a negative number."""
     for weights in ([1.0, 0.02, 0.8], [0.0, 0.02, 0.8], [1.0, 0.0, 0.0]):
         found = answer(RAW.copy(), list(weights))
         expect_type(found, list, "It returned", "a list")
-        expect(len(found) == len(RAW), f"Of {len(RAW)} trajectories it returned {len(found)} entries.")
+        expect(len(found) == len(RAW), f"For {len(RAW)} trajectories it returned {len(found)} entries.")
         for row, given in zip(RAW.tolist(), found, strict=True):
             asked = [
                 n for n, (value, weight) in enumerate(zip(row, weights, strict=True)) if weight and value < 0
@@ -113,7 +119,7 @@ def refused_by(answer: Any) -> None:
             expect(
                 (given is None) == (wanted is None) and given == wanted,
                 f"With the weights {weights} the trajectory {row} is refused by {wanted}, not by {given}.",
-                "the first that is negative, of those whose weight is not 0; critic 0 is a number, not None",
+                "take the first negative score among critics whose weight is not 0; index 0 is not the same as None",
             )
 
 
@@ -123,19 +129,23 @@ DANCE = {"min_vel_theta": 1.37, "yaw_goal_tolerance": 0.05}
 GOALS = ((0.5, 0.0, 1.5), (0.5, 0.0, -1.0))
 
 
-@exercise("35.4", praise="It stops, turns and stands still.")
+@exercise("35.4", praise="The robot stops, turns and stays still.")
 def changes(answer: Any) -> None:
-    """Parameters with which a robot arrives whose least turn is too fast for its tolerance."""
+    """Parameters with which a robot reaches its goal although its slowest turn is too fast for the tolerance."""
     expect_type(answer, dict, "The changes are", "a dictionary")
     known = {each.name for each in fields(DWAPlannerParameters)}
     for name, value in answer.items():
-        expect(name in known, f"DWAPlannerROS has no parameter {name!r}.", "min_vel_theta, for instance")
+        expect(
+            name in known,
+            f"DWAPlannerROS has no parameter {name!r}.",
+            "the exercise lists the names, such as min_vel_theta",
+        )
         expect(isinstance(value, Real), f"{name} is {value!r}, which is not a number.")
     width = answer.get("yaw_goal_tolerance", 0.05)
     expect(
         0 < width <= 0.05,
-        f"With a yaw_goal_tolerance of {width:g} it may arrive, but not turned as it should be.",
-        "the tolerance stays; what else decides how far it turns between two commands?",
+        f"With a yaw_goal_tolerance of {width:g} the robot may stop with a wrong heading.",
+        "keep the tolerance; what else decides how far the robot turns between two commands?",
     )
     with TurtleTrial(None) as trial:
         roslaunch(
@@ -157,7 +167,7 @@ def _arrives(trial: TurtleTrial, parameters: dict[str, float]) -> None:
     try:
         Client(tuner, "/move_base/DWAPlannerROS", timeout=5.0).update_configuration(parameters)
     except RosminiError as error:
-        raise Wrong(f"The planner does not take these parameters: {error}") from error
+        raise Wrong(f"The planner refuses these parameters: {error}") from error
     goals = tuner.publisher("move_base_simple/goal", PoseStamped, queue_size=1)
     trial.run(0.5)
     for x, y, yaw in GOALS:
@@ -175,6 +185,6 @@ def _arrives(trial: TurtleTrial, parameters: dict[str, float]) -> None:
         expect(
             move_base.goal is None,
             f"After 10 s it had not arrived at ({x}, {y}); its heading was {math.degrees(off):.0f} degrees off.",
-            "how far does it turn between two commands, at least, and how wide is the target?",
+            "compare the smallest turn between two commands with the width of the target",
         )
-        expect(off < 0.1, f"It stopped {math.degrees(off):.0f} degrees off.")
+        expect(off < 0.1, f"The robot stopped with its heading {math.degrees(off):.0f} degrees off.")

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 36, amcl."""
+"""Checks of the exercises in chapter 36, amcl."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from rosmini.book.trials import TurtleTrial
 from rosmini.msgs.geometry_msgs.msg import PoseWithCovarianceStamped
 
 PLACES = ((1.0, 0.5, math.pi / 2), (-2.0, 3.0, -0.6))
-"""Where the robot of exercise 36.3 is in the two trials."""
+"""Poses of the robot in the two trials of exercise 36.3."""
 SURE = 0.15
-"""How sure one has to be about x and y [m] there."""
+"""Required standard deviations of x and y there [m]."""
 
 
-@exercise("36.1", praise="So many particles still have a say.")
+@exercise("36.1", praise="This is the number of particles that still count.")
 def effective(answer: Any) -> None:
-    """The effective number of particles, for weights that need not add up to one."""
+    """The effective number of particles, also if the weights do not add up to one."""
     for weights, wanted in (([0.25] * 4, 4.0), ([1.0, 0.0, 0.0], 1.0), ([2.0, 2.0, 4.0], 8 / 3)):
         found = expect_number(answer(np.array(weights)), "number of particles")
-        hint = "divide the weights by their sum first, then 1 over the sum of the squares"
+        hint = "divide the weights by their sum, then return 1 over the sum of their squares"
         expect(
             math.isclose(found, wanted, rel_tol=1e-6),
             f"For the weights {weights} it returned {found:.3f}, not {wanted:.3f}.",
@@ -30,7 +30,7 @@ def effective(answer: Any) -> None:
         )
 
 
-@exercise("36.2", praise="One random number, and nobody is drawn by luck alone.")
+@exercise("36.2", praise="With one random number, each particle gets its share, give or take one.")
 def systematic(answer: Any) -> None:
     """Resampling with one random number."""
     rng = np.random.default_rng(1)
@@ -42,12 +42,12 @@ def systematic(answer: Any) -> None:
             found = np.asarray(answer(weights.copy(), u))
             expect(
                 found.shape == (count,),
-                f"Of {count} particles it drew {found.shape}, not {count}.",
-                "one for each",
+                f"For {count} particles the result has the shape {found.shape}, not ({count},).",
+                "return one index for each particle",
             )
             expect(
                 np.issubdtype(found.dtype, np.integer) and ((found >= 0) & (found < count)).all(),
-                "It returned something else than the numbers of particles, from 0 on.",
+                "The result contains values that are not indices of particles.",
                 "np.searchsorted returns whole numbers",
             )
             drawn = np.bincount(found, minlength=count)
@@ -55,18 +55,18 @@ def systematic(answer: Any) -> None:
             expect(
                 abs(drawn[off] - shares[off]) < 1 + 1e-9,
                 f"A particle that has {shares[off]:.1f} of {count} shares was drawn {drawn[off]} times.",
-                "the marks (i + u) / n lie in the sum of the weights that come before: np.cumsum",
+                "compare the marks (i + u) / n with the cumulative sum of the weights, np.cumsum",
             )
             marks = (np.arange(count) + u) / count
             wanted = np.searchsorted(np.cumsum(weights / weights.sum()), marks, side="right")
             expect(
                 np.count_nonzero(found != wanted) <= 1,
-                f"With u = {u} it drew others than the marks (i + u) / n point to.",
-                "u is given; draw no random number yourself",
+                f"With u = {u} it drew different particles than the marks (i + u) / n select.",
+                "u is an argument; draw no other random number",
             )
 
 
-@exercise("36.3", praise="amcl would look for the robot just there.")
+@exercise("36.3", praise="amcl would start its search for the robot at this pose.")
 def here_i_am(answer: Script) -> None:
     """A script that publishes its parameters as an initial pose."""
     for x, y, yaw in PLACES:
@@ -77,8 +77,8 @@ def here_i_am(answer: Script) -> None:
             trial.run(10.0)
             expect(
                 bool(heard),
-                "Nothing came on initialpose within 10 s.",
-                "wait a moment after rospy.Publisher, or latch",
+                "There was no message on initialpose within 10 s.",
+                "wait for a subscriber after rospy.Publisher, or latch the topic",
             )
             _check_pose(heard[-1], (x, y, yaw))
 
@@ -86,32 +86,32 @@ def here_i_am(answer: Script) -> None:
 def _check_pose(message: Any, wanted: tuple[float, float, float]) -> None:
     x, y, yaw = wanted
     frame, pose = message.header.frame_id.lstrip("/"), message.pose.pose
-    expect(frame == "map", f"Its frame is {frame!r}, not 'map': amcl ignores it.", "message.header.frame_id")
+    expect(frame == "map", f"Its frame is {frame!r}, not 'map': amcl ignores it.", "set header.frame_id")
     here = pose.position.x, pose.position.y
     expect(
         math.dist(here, (x, y)) < 1e-3,
-        f"It says ({here[0]:.2f}, {here[1]:.2f}); the parameters say ({x:.2f}, {y:.2f}).",
-        'rospy.get_param("~x")',
+        f"The pose is ({here[0]:.2f}, {here[1]:.2f}); the parameters are ({x:.2f}, {y:.2f}).",
+        'read them with rospy.get_param("~x")',
     )
     q = pose.orientation
     expect(
         abs(math.hypot(q.z, q.w) - 1) < 1e-3
         and abs(math.remainder(2 * math.atan2(q.z, q.w) - yaw, math.tau)) < 1e-3,
-        "Its orientation is not that of the parameter yaw.",
+        "Its orientation does not match the parameter yaw.",
         "z is sin(yaw / 2), w is cos(yaw / 2)",
     )
     covariance = np.reshape(message.pose.covariance, (6, 6))
     variances = np.diag(covariance)[[0, 1, 5]]
     expect(
         (variances > 0).all(),
-        f"The variances of x, y and heading are {variances.round(3).tolist()}: all particles would be in one place.",
-        "they are the numbers 0, 7 and 35 of the covariance",
+        f"The variances of x, y and heading are {variances.round(3).tolist()}: all particles would be at one point.",
+        "set the elements 0, 7 and 35 of the covariance",
     )
     expect(
         np.allclose(np.sqrt(variances[:2]), SURE, atol=1e-3),
-        f"x and y have deviations of {np.sqrt(variances[:2]).round(3).tolist()} m, not of {SURE}.",
-        "a covariance holds squares of deviations",
+        f"x and y have standard deviations of {np.sqrt(variances[:2]).round(3).tolist()} m, not {SURE}.",
+        "a covariance contains squares of standard deviations",
     )
     rest = covariance.copy()
     rest[[0, 1, 5], [0, 1, 5]] = 0.0
-    expect(not rest.any(), "Numbers of the covariance that should be 0 are not.", "only 0, 7 and 35 are set")
+    expect(not rest.any(), "Elements of the covariance that should be 0 are not.", "set only 0, 7 and 35")

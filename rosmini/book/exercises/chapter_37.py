@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 37, gmapping."""
+"""Checks of the exercises in chapter 37, gmapping."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from rosmini.ros.launch import roslaunch
 from rosmini.ros.scripts import rosrun
 
 
-@exercise("37.1", praise="One passer-by kills no particle.")
+@exercise("37.1", praise="A single passer-by does not eliminate a particle.")
 def log_likelihood(answer: Any) -> None:
-    """Beams on a wall, near one, and nowhere."""
+    """The sum for beams that end on a wall, near one, and far from any."""
     for distances, why in (
-        ([0.0, 0.05, 0.1], "All three ends are near a point."),
-        ([0.11, 0.4], "No end is near a point."),
+        ([0.0, 0.05, 0.1], "All three beams end near a point."),
+        ([0.11, 0.4], "No beam ends near a point."),
         ([math.inf, 0.02], "One beam has no point at all."),
-        ([0.03] * 40 + [0.2] * 3, "Forty are near, and three are not."),
+        ([0.03] * 40 + [0.2] * 3, "Forty beams end near a point, and three do not."),
     ):
         given = np.array(distances)
         found = answer(given.copy())
@@ -31,14 +31,14 @@ def log_likelihood(answer: Any) -> None:
         expect(
             isinstance(found, (int, float, np.floating))
             and math.isclose(found, wanted, rel_tol=1e-6, abs_tol=1e-9),
-            f"{why} The sum is {wanted:.2f}, and you return {found!r}.",
-            "near ones add -d**2 / 0.075, all others -0.5 / 0.075",
+            f"{why} The sum is {wanted:.2f}, but you return {found!r}.",
+            "near beams add -d**2 / 0.075, all others -0.5 / 0.075",
         )
 
 
-@exercise("37.2", praise="RViz would draw it.")
+@exercise("37.2", praise="RViz can draw this map.")
 def data_of(answer: Any) -> None:
-    """Unknown, free and occupied cells, in order."""
+    """Unknown, free and occupied cells, in the order of the message."""
     hits = np.array([[0, 1, 1, 0], [0, 0, 3, 5]])
     visits = np.array([[0, 1, 4, 7], [2, 0, 10, 10]])
     for threshold, wanted in (
@@ -48,13 +48,13 @@ def data_of(answer: Any) -> None:
         found = answer(hits.copy(), visits.copy(), threshold)
         expect(
             isinstance(found, list),
-            f"It returns a {type(found).__name__}, not a list.",
-            "array.ravel().tolist()",
+            f"It returned a {type(found).__name__}, not a list.",
+            "use array.ravel().tolist()",
         )
         expect(
             len(found) == len(wanted),
             f"The list has {len(found)} entries for {hits.size} cells.",
-            "one for each cell, row by row: ravel()",
+            "return one entry for each cell, row by row: ravel()",
         )
         for place, (mine, right) in enumerate(zip(found, wanted, strict=True)):
             row, column = divmod(place, hits.shape[1])
@@ -62,13 +62,13 @@ def data_of(answer: Any) -> None:
                 mine == right,
                 f"The cell in row {row}, column {column} has {hits[row, column]} hits in {visits[row, column]} visits. "
                 f"With occ_thresh {threshold} it is {right}, not {mine!r}.",
-                "never visited: -1; more hits per visit than occ_thresh: 100; exactly as many: 0",
+                "never visited gives -1; more hits per visit than occ_thresh gives 100, otherwise 0",
             )
 
 
-@exercise("37.3", praise="Nobody who is heavy dies by accident.")
+@exercise("37.3", praise="No heavy particle is lost by chance.")
 def survivors(answer: Any) -> None:
-    """Marks on a line, or nobody drawn."""
+    """Systematic resampling, or none if Neff is large enough."""
     uneven = [0.02, 0.55, 0.03, 0.3, 0.1]
     cases = (
         (uneven, 0.01, [0, 1, 1, 3, 3]),
@@ -82,23 +82,23 @@ def survivors(answer: Any) -> None:
         kept = wanted == list(range(len(weights)))
         expect(
             list(found) == wanted,
-            f"Of the weights {weights} and with start {start}, {wanted} live on, and you return {found!r}.",
-            "Neff is large enough here: nobody is drawn"
+            f"With the weights {weights} and start {start}, {wanted} survive, but you return {found!r}.",
+            "Neff is large enough here, so all particles survive"
             if kept
-            else "marks at start, start + 1/N, ...; each one's place",
+            else "put marks at start, start + 1/N, ..., and find the particle at each mark",
         )
 
 
 DULL, NEWS = 3, 40
-"""A map is done when so many maps in a row have brought less than so many new cells each."""
+"""A map is complete when this number of maps in a row each has fewer new cells than this."""
 LONGEST, REST = 150.0, 20.0
-"""So long the robot may drive, and so long it has to stand at the end [s]."""
+"""Longest time that the robot may drive, and time that it must stand still at the end [s]."""
 STEP = 0.5
 
 
-@exercise("37.4", gaps=2, praise="It knows when it is done.")
+@exercise("37.4", gaps=2, praise="The robot stops by itself when the map is complete.")
 def surveyor(answer: Script) -> Any:
-    """It drives while maps bring news, and stops when they do not."""
+    """The robot drives while maps contain new cells, and then stops."""
     view = None
     for start in (("_x:=0.0", "_y:=0.0"), ("_x:=1.6", "_y:=0.3", "_yaw:=2.0")):
         with Trial("room", *start) as trial:
@@ -107,7 +107,7 @@ def surveyor(answer: Script) -> Any:
 
 
 def _surveyed(trial: Trial, answer: Script) -> Any:
-    """Drive and map until the robot should have stopped, and a while longer."""
+    """Drive and map until the robot should have stopped, and a little longer."""
     graph, quiet = trial.graph, {"capture_output": True}
     roslaunch("turtlebot3_bringup", "turtlebot3_remote.launch", "model:=burger", graph=graph, console=quiet)
     near = [f"_{name}:={value}" for name, value in BOUNDS.items()]
@@ -130,25 +130,23 @@ def _surveyed(trial: Trial, answer: Script) -> Any:
         if math.dist((x, y), last[:2]) > 0.01 or abs(yaw - last[2]) > 0.02:
             moved = now
         last = x, y, yaw
-    expect(
-        maps.count > 1 and moved > 0,
-        "The robot did not drive.",
-        "publish a Twist for each scan, as wander.py does",
-    )
+    expect(maps.count > 1 and moved > 0, "The robot did not drive.", "publish a Twist for each scan")
     expect(
         maps.done < math.inf,
-        f"After {LONGEST:.0f} s each third map still brings something new: it does not get around.",
-        "drive as wander.py does",
+        f"After {LONGEST:.0f} s there were still new cells in every third map: the robot does not cover the room.",
+        "drive as in wander.py",
     )
     expect(
         moved > maps.done - 2.0,
-        f"The robot stopped after {moved:.0f} s; the third map without news came after {maps.done:.0f} s.",
-        "three in a row: a map with news sets the count back to 0",
+        f"The robot stopped after {moved:.0f} s; the third map in a row without new cells came after "
+        f"{maps.done:.0f} s.",
+        "three in a row: a map with new cells resets the counter",
     )
     expect(
         moved < maps.done + 4.0,
-        f"The third map without news came after {maps.done:.0f} s, and the robot drove on until {moved:.0f} s.",
-        "publish an empty Twist as soon as there are three, and nothing else after that",
+        f"The third map in a row without new cells came after {maps.done:.0f} s, but the robot drove until "
+        f"{moved:.0f} s.",
+        "after the third, publish an empty Twist and no other command",
     )
     return trial.view()
 
@@ -160,7 +158,7 @@ BOUNDS = {
 
 
 class _Maps:
-    """What maps came, and when the last of `DULL` dull ones did [s]."""
+    """Counts maps, and stores when the last of `DULL` maps without new cells arrived [s]."""
 
     def __init__(self, graph: Graph) -> None:
         self.node = graph.node("judge")

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 38, hector_mapping."""
+"""Checks of the exercises in chapter 38, hector_mapping."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from rosmini.ros.scripts import rosrun
 MAPPER = ("_use_tf_scan_transformation:=false", "_pub_map_odom_transform:=false", "_map_size:=200")
 
 
-@exercise("38.1", praise="With these three numbers a scan finds its way.")
+@exercise("38.1", praise="The scan matcher needs exactly these three numbers.")
 def slopes(answer: Any) -> None:
-    """The height of a bilinear surface between four cells, and both slopes."""
-    expect(callable(answer), f"{answer!r} is no function.", "def slopes(a, b, c, d, fx, fy)")
+    """The value of a bilinear surface between four cells, and both slopes."""
+    expect(callable(answer), f"{answer!r} is not a function.", "write def slopes(a, b, c, d, fx, fy)")
     random = np.random.default_rng(38)
     for corners in random.uniform(0.1, 0.9, (5, 2, 2)):
         fx, fy = random.uniform(0.1, 0.9, 2).tolist()
@@ -32,7 +32,7 @@ def slopes(answer: Any) -> None:
         found = answer(a, b, c, d, fx, fy)
         expect(
             isinstance(found, tuple | list | np.ndarray) and len(found) == 3,
-            f"It returned {found!r}, and not three numbers.",
+            f"It returned {found!r}, not three numbers.",
             "return height, along_x, along_y",
         )
         wanted = surface(corners, fx, fy)
@@ -42,20 +42,20 @@ def slopes(answer: Any) -> None:
             expect(
                 abs(mine - right) < 1e-6,
                 f"The {name} at fx = {fx:.2f}, fy = {fy:.2f} between {a:.2f}, {b:.2f} (below) and {c:.2f}, {d:.2f} "
-                f"(above) is {mine:.3f}, and should be {right:.3f}.",
-                "the slope along x is b - a at the bottom and d - c at the top; in between, it is in between",
+                f"(above) is {mine:.3f}, but should be {right:.3f}.",
+                "the slope along x is b - a at the bottom and d - c at the top; interpolate between them",
             )
 
 
 def mapper(trial: Trial) -> HectorMapping:
-    """Start hector_mapping in a trial, for a robot that is its laser."""
+    """Start hector_mapping in a trial, with the laser's frame as the robot's."""
     started = rosrun("hector_mapping", "hector_mapping", *MAPPER, graph=trial.graph, capture_output=True)
     return cast("HectorMapping", cast("Any", started).instance())
 
 
-@exercise("38.2", praise="Whoever maps by laser alone turns like somebody who carries a full cup.")
+@exercise("38.2", praise="At this speed, mapping from the laser alone keeps the heading.")
 def around(answer: Script) -> Any:
-    """The robot turns once around, slowly enough for hector_mapping, and stops."""
+    """The robot makes one full turn, slowly enough for hector_mapping, and stops."""
     with Trial("room", "_tf:=false") as trial:
         hector = mapper(trial)
         trial.run(0.5)
@@ -66,49 +66,48 @@ def around(answer: Script) -> Any:
             heading = trial.robot.truth()[2]
             turned, before = turned + math.remainder(heading - before, math.tau), heading
         degrees = abs(math.degrees(turned))
-        expect(degrees > 30, f"The robot turned by {degrees:.0f} degrees in 40 s.", "angular.z in rad/s")
+        expect(degrees > 30, f"The robot turned by {degrees:.0f} degrees in 40 s.", "angular.z is in rad/s")
         off = abs(math.degrees(math.remainder(hector.slam.pose[2] - before, math.tau)))
         expect(
             off < 15,
             f"hector_mapping is lost: its heading is {round(off, -1):.0f} degrees off.",
-            "at 5 scans a second, how many degrees are between two of them?",
+            "turn more slowly: how many degrees are between two of the 5 scans a second?",
         )
         expect(
             330 < degrees < 400,
-            f"The robot turned by {degrees:.0f} degrees in 40 s, and not once around.",
-            "seconds = 2 pi / turn, then an empty Twist; a command holds for half a second only",
+            f"The robot turned by {degrees:.0f} degrees in 40 s, not by 360.",
+            "turn for 2 pi / angular.z seconds, then publish an empty Twist; repeat commands, because each "
+            "holds for half a second",
         )
         return trial.view()
 
 
-@exercise("38.3", praise="A map that begins where you say can be laid beside another.")
+@exercise("38.3", praise="Two maps with chosen origins can be compared.")
 def begin(answer: Script) -> None:
-    """The map is begun again with the robot at (1, 0.5), looking along y."""
+    """The map is reset with the robot at (1, 0.5), facing along y."""
     with Trial("room", "_tf:=false", is_shown=False) as trial:
         hector = mapper(trial)
         trial.run(2.0)
         old = hector.slam.maps
         trial.start(answer)
         trial.run(3.0)
-        expect(
-            hector.slam.maps is not old, "The map is the old one.", "rospy.ServiceProxy(name, ResetMapping)"
-        )
+        expect(hector.slam.maps is not old, "The map was not reset.", "use ServiceProxy(name, ResetMapping)")
         x, y, heading = hector.slam.pose
         expect(
             math.dist((x, y), (1.0, 0.5)) < 0.1,
-            f"The robot is at ({x:.1f}, {y:.1f}), and not at (1.0, 0.5).",
-            "initial_pose is a geometry_msgs/Pose",
+            f"The robot is at ({x:.1f}, {y:.1f}), not at (1.0, 0.5).",
+            "set the position of initial_pose, a geometry_msgs/Pose",
         )
         expect(
             abs(math.degrees(heading) - 90) < 5,
-            f"The robot's heading is {math.degrees(heading):.0f} degrees, and not 90.",
-            "a quarter of a turn is z = sin(45 degrees), w = cos(45 degrees)",
+            f"The robot's heading is {math.degrees(heading):.0f} degrees, not 90.",
+            "a quarter turn has z = sin(45 degrees) and w = cos(45 degrees)",
         )
 
 
-@exercise("38.4", praise="Level at last, whatever the robot does.")
+@exercise("38.4", praise="The frame stays level when the robot tilts.")
 def level(answer: Script) -> None:
-    """Roll and pitch of an IMU, without its heading, as the transform from base_stabilized to base_link."""
+    """The transform from base_stabilized to base_link has the IMU's roll and pitch, without its heading."""
     with TurtleTrial(None) as trial:
         unit = trial.graph.node("unit")
         buffer = TransformListener(unit, Buffer(unit)).buffer
@@ -124,14 +123,14 @@ def level(answer: Script) -> None:
             trial.run(0.5)
             expect(
                 buffer.can_transform_core("base_stabilized", "base_link", Time())[0],
-                "Nobody says on tf where base_link is in base_stabilized.",
-                "sendTransform(translation, rotation, time, child, parent)",
+                "There is no transform from base_stabilized to base_link on tf.",
+                "call sendTransform(translation, rotation, time, child, parent)",
             )
             found = rpy(transform_of(buffer.lookup_transform("base_stabilized", "base_link")))
             wrong = abs(math.remainder(found[2], math.tau))
-            expect(wrong < 0.01, f"The level frame turns by {wrong:.1f} rad with the robot.", "yaw is 0")
+            expect(wrong < 0.01, f"The level frame turns by {wrong:.1f} rad with the robot.", "set yaw to 0")
             expect(
                 math.dist(found[:2], (roll, pitch)) < 0.01,
                 f"Roll {roll} and pitch {pitch} became {found[0]:.2f} and {found[1]:.2f}.",
-                "euler_from_quaternion gives roll, pitch, yaw, in this order",
+                "euler_from_quaternion returns roll, pitch and yaw, in this order",
             )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 39, move_base."""
+"""Checks of the exercises in chapter 39, move_base."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ Point = tuple[float, float]
 # ---- 39.1 and 39.2: a played move_base ----
 
 TAKES = 3.0
-"""How long the played `move_base` is on its way to a goal [s]."""
+"""Time that the simulated `move_base` needs for a goal [s]."""
 
 
 class PlayedMoveBase:
-    """A node that offers the action `move_base`, and gives up goals at the places of `failures`, with these texts.
+    """A node that offers the action `move_base` and aborts the goals in `failures` with their texts.
 
-    At the places of `lasting` it never arrives. `begun` has the places, `cut` those that were preempted, and `took` how
-    long each lasted [s].
+    It never reaches the goals in `lasting`. `begun` lists the goals, `cut` those that were preempted, and `took` the
+    duration of each [s].
     """
 
     def __init__(
@@ -74,40 +74,40 @@ class PlayedMoveBase:
             self.server.set_succeeded(None, "Goal reached.")
 
 
-@exercise("39.1", praise="Three places, and he is never in a hurry.")
+@exercise("39.1", praise="The robot visits all three places, and each goal ends before the next begins.")
 def patrol(answer: Script) -> None:
-    """Three goals, one after the other, then the script ends."""
+    """The script sends three goals, one after the other, and ends."""
     with TurtleTrial(None) as trial:
         played = PlayedMoveBase(trial.graph)
         handle = trial.start(answer)
         trial.run(15.0)
         wanted = [(1.0, 0.0), (2.0, 1.0), (0.0, 2.0)]
-        expect(bool(played.begun), "No goal came to move_base within 15 s.", "client.send_goal(goal)")
+        expect(bool(played.begun), "move_base received no goal within 15 s.", "call client.send_goal(goal)")
         expect(
             not played.faults,
             f"A goal is wrong: {''.join(played.faults[:1])}.",
-            "header.frame_id, orientation.w = 1",
+            "set header.frame_id, and orientation.w to 1",
         )
         expect(
             not played.cut,
             f"The goal {str(played.cut[:1])[1:-1]} was preempted by the next one.",
-            "wait_for_result() before the next goal",
+            "call wait_for_result() before the next goal",
         )
         expect(
             played.begun == wanted,
             f"The goals were {played.begun}, not {wanted}.",
-            "one goal for each x, y of the list",
+            "send one goal for each x, y of the list",
         )
-        expect(handle.poll() is not None, "After the third goal the script goes on.", "no spin() at the end")
+        expect(handle.poll() is not None, "The script still runs after the third goal.", "end without spin()")
 
 
 SHUT = "Failed to find a valid plan. Even after executing recovery behaviors."
 SLIPPED = "Robot is oscillating. Even after executing recovery behaviors."
 
 
-@exercise("39.2", praise="Whoever sent it knows where his parcel is.")
+@exercise("39.2", praise="Every sender learns what happened to the parcel.")
 def courier(answer: Script) -> None:
-    """Goals from a topic, one after the other, and a report of each, whatever becomes of it."""
+    """The script executes goals from a topic one after the other, and reports the outcome of each."""
     failures = {(2.0, 0.0): SHUT, (4.0, 1.0): SLIPPED}
     places = [(1.0, 0.0), (2.0, 0.0), (3.0, 1.0), (4.0, 1.0), (5.0, 2.0)]
     with TurtleTrial(None) as trial:
@@ -122,31 +122,23 @@ def courier(answer: Script) -> None:
             sender.publish(pose_stamped("map", Time(), (x, y, 0.5)))
             trial.run(1.0)
         trial.run(16.0)
-        expect(
-            bool(played.begun),
-            "No goal came to move_base.",
-            "client.send_goal(MoveBaseGoal(target_pose=pose))",
-        )
+        expect(bool(played.begun), "move_base received no goal.", "send_goal(MoveBaseGoal(target_pose=pose))")
         expect(
             not played.cut,
             f"The goal {str(played.cut[:1])[1:-1]} was preempted by the next one.",
-            "wait_for_result() in the callback",
+            "call wait_for_result() in the callback",
         )
         expect(
             played.begun == places,
-            f"Five places came, and the goals were {played.begun}.",
-            "go on after a goal that failed",
+            f"There were five places on the topic, but the goals were {played.begun}.",
+            "continue after a failed goal",
         )
-        expect(
-            not played.faults,
-            f"A goal is wrong: {''.join(played.faults[:1])}.",
-            "the pose that came is the goal",
-        )
+        expect(not played.faults, f"A goal is wrong: {''.join(played.faults[:1])}.", "use the received pose")
         wanted = [failures.get(place, "arrived") for place in places]
         expect(
             heard == wanted,
-            f"The reports were {heard}, and not {wanted}.",
-            "get_state() says whether it has arrived, get_goal_status_text() why not",
+            f"The reports were {heard}, not {wanted}.",
+            "get_state() says whether the robot arrived, get_goal_status_text() says why not",
         )
 
 
@@ -157,7 +149,7 @@ RESOLUTION = 0.05
 
 
 class _Costmap:
-    """What planners ask of a `Costmap2DROS`: a corridor along x, with a wall that leaves a gap of 0.3 m."""
+    """A stand-in for `Costmap2DROS`: a corridor along x with a wall that leaves a gap of 0.3 m."""
 
     global_frame = "map"
     name = "global_costmap"
@@ -172,9 +164,9 @@ class _Costmap:
         self.footprint = np.array([[0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1], [0.1, -0.1]])
 
 
-@exercise("39.3", praise="Two robots that meet will now get past each other.")
+@exercise("39.3", praise="Two robots that meet now pass each other.")
 def keep_right(answer: Any) -> None:
-    """Plans there and back, each a little to the right where there is room."""
+    """Plans in both directions, each moved a little to the right if there is room."""
     from rosmini.navigation.navfn.plugin import NavfnROS
 
     with Graph(strict=False) as graph:
@@ -184,7 +176,7 @@ def keep_right(answer: Any) -> None:
         expect(
             isinstance(answer, type) and issubclass(answer, NavfnROS),
             "It is not a class that derives from NavfnROS.",
-            "class KeepRight(NavfnROS, plugin=...)",
+            "begin with class KeepRight(NavfnROS, plugin=...)",
         )
         mine = answer()
         mine.initialize("KeepRight", costmap)
@@ -202,16 +194,16 @@ def keep_right(answer: Any) -> None:
 def _expect_right(grid: Costmap2D, theirs: Sequence[Any], mine: Sequence[Any], where: str) -> None:
     expect(
         len(theirs) == len(mine),
-        f"{where} the plan of navfn has {len(theirs)} poses, and yours {len(mine)}.",
-        "move the poses, and leave none out",
+        f"{where} the plan of navfn has {len(theirs)} poses, but yours has {len(mine)}.",
+        "move the poses, and keep all of them",
     )
     before, after = (
         np.array([(p.pose.position.x, p.pose.position.y) for p in plan]) for plan in (theirs, mine)
     )
     expect(
         np.allclose(before[-1], after[-1]),
-        f"{where} the plan ends at {_named(after[-1])}, and the goal is {_named(before[-1])}.",
-        "leave the last pose where it is",
+        f"{where} the plan ends at {_named(after[-1])}, but the goal is {_named(before[-1])}.",
+        "do not move the last pose",
     )
     steps = np.diff(before, axis=0)
     lengths = np.hypot(*steps.T)
@@ -223,12 +215,15 @@ def _expect_right(grid: Costmap2D, theirs: Sequence[Any], mine: Sequence[Any], w
         cell = grid.world_to_map(*best)
         is_free = cell is not None and grid.cost(*cell) < 253
         aim, said = (
-            (best, "the place right of it is free") if is_free else (old, "right of it is an obstacle")
+            (best, "the point to its right is free")
+            if is_free
+            else (old, "there is an obstacle to its right")
         )
         expect(
             math.dist(new, aim) < 0.02,
-            f"{where} the pose at {_named(old)} was moved to {_named(new)}, and belongs to {_named(aim)}: {said}.",
-            "right of the direction (dx, dy) is (dy, -dx); work with the old places, and look at the cost of the new",
+            f"{where} the pose at {_named(old)} was moved to {_named(new)}, but should be at {_named(aim)}: {said}.",
+            "(dy, -dx) points to the right of (dx, dy); compute it from the old poses, and check the cost at "
+            "the new point",
         )
 
 
@@ -241,40 +236,42 @@ def _named(point: Any) -> str:
 CLEAR = "clear_costmap_recovery/ClearCostmapRecovery"
 
 
-@exercise("39.4", praise="The cable stays straight.", truths=("force_updating",))
+@exercise(
+    "39.4",
+    praise="The robot clears its costmaps without turning, so the cable stays straight.",
+    truths=("force_updating",),
+)
 def no_turning(answer: Any) -> None:
-    """Two behaviours that clear, the far one first, and none that turns."""
+    """Two clearing behaviours, the larger area first, and no rotation."""
     expect_type(answer, dict, "parameters is", "a dictionary")
     try:
         named = checked(answer.get("recovery_behaviors"))
     except BadList as error:
-        expect(False, f"move_base would say: {error}", 'a list of {"name": ..., "type": ...}')
+        expect(False, f"move_base refuses this list: {error}", 'write a list of {"name": ..., "type": ...}')
         return
     kinds = [kind.replace("::", "/") for _, kind in named]
     expect(
         "rotate_recovery/RotateRecovery" not in kinds,
         "With this list the robot turns.",
-        "leave rotate_recovery out",
+        "remove rotate_recovery",
     )
     expect(
         kinds == [CLEAR, CLEAR],
         f"The types are {kinds}.",
-        f"two behaviours of the type {CLEAR}, under two names",
+        f"use two behaviours of the type {CLEAR}, with different names",
     )
     for (name, _), side in zip(named, (4.0, 1.0), strict=True):
         own = answer.get(name)
         expect_type(own, dict, f"parameters[{name!r}] is", "a dictionary")
         expect(
             own.get("reset_distance") == side,
-            f"reset_distance of {name} is {own.get('reset_distance')!r}, and should be {side:g}.",
-            "first 4 m, then 1 m; the side of the square, not half of it",
+            f"reset_distance of {name} is {own.get('reset_distance')!r}, but should be {side:g}.",
+            "set 4 m first, then 1 m; it is the side of the square, not half of it",
         )
         expect(
             own.get("layer_names") == ["obstacle_layer"],
-            f"layer_names of {name} is {own.get('layer_names')!r}: in our costmaps it clears nothing, or too much.",
-            'a list with "obstacle_layer"',
+            f"layer_names of {name} is {own.get('layer_names')!r}: in our costmaps this clears nothing, or too much.",
+            'write a list with "obstacle_layer"',
         )
         unknown = sorted(set(own) - {"reset_distance", "layer_names", "affected_maps", "force_updating"})
-        expect(
-            not unknown, f"{name} has parameters that nobody asked for: {unknown}.", "two parameters will do"
-        )
+        expect(not unknown, f"{name} has other parameters, too: {unknown}.", "two parameters are enough")

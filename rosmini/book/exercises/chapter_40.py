@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 40, TurtleBot3."""
+"""Checks of the exercises in chapter 40, TurtleBot3."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _robot(graph: Graph, *parameters: str) -> Simulator:
 
 
 def _driven(command: Any, seconds: float) -> list[tuple[float, float, float]]:
-    """Where a robot without errors is after 0, 0.1 ... seconds, if it hears this command ten times a second."""
+    """Return the poses after 0, 0.1 ... s of a robot without errors that receives this command ten times a second."""
     with Graph() as graph:
         sim = _robot(graph, "_noise:=0")
         cmd_vel = graph.node("driver").publisher("cmd_vel", type(command), queue_size=1)
@@ -42,10 +42,10 @@ def _driven(command: Any, seconds: float) -> list[tuple[float, float, float]]:
 
 @exercise(
     "40.1",
-    praise="A robot without errors drove your circles: each has the right size, and ends where it began.",
+    praise="A robot without errors drove your circles: each has the right size and ends where it started.",
 )
 def circle(answer: Any) -> None:
-    """The command for a circle to the left, of a radius, in a time."""
+    """The command for a circle to the left with a given radius and duration."""
     for radius, seconds in ((0.5, 20.0), (0.2, 10.0)):
         asked = f"For a radius of {radius} m in {seconds:.0f} s"
         command = answer(radius, seconds)
@@ -55,11 +55,11 @@ def circle(answer: Any) -> None:
             "make a Twist(), set linear.x and angular.z, and return it",
         )
         v, w = command.linear.x, command.angular.z
-        expect(w > 0, f"{asked} your robot does not turn to the left.", "a turn to the left is positive")
+        expect(w > 0, f"{asked} the robot does not turn to the left.", "left turns have positive angular.z")
         expect(
             v <= 0.22 and w <= 2.84,
-            f"{asked} you ask for {v:.2f} m/s and {w:.2f} rad/s, more than the robot can do.",
-            "a circle of this size needs less; angles are in radians",
+            f"{asked} you request {v:.2f} m/s and {w:.2f} rad/s, which is more than the robot's maximum.",
+            "a circle of this size needs lower speeds; angles are in radians",
         )
         way = _driven(command, seconds)
         across = max(y for _, y, _ in way)
@@ -71,7 +71,7 @@ def circle(answer: Any) -> None:
         expect(
             math.dist(way[-1][:2], way[0][:2]) < 0.05 * radius,
             f"{asked} the robot turned by {math.degrees(way[-1][2]):.0f} degrees, not by 360.",
-            "a full circle is 2 pi, and w is how much of it goes by in a second",
+            "a full circle is 2 pi, and w is the part of it that the robot turns in a second",
         )
 
 
@@ -79,7 +79,7 @@ def circle(answer: Any) -> None:
 
 
 def _scan(ranges: Any, first: float = 0.0) -> Any:
-    """A scan of a whole turn, of which the first beam looks at `first` [rad]."""
+    """Return a scan of a full turn whose first beam points at `first` [rad]."""
     scan = LaserScan()
     scan.ranges = np.asarray(ranges, dtype=np.float32)
     scan.angle_min, scan.angle_increment = first, 2 * math.pi / len(ranges)
@@ -88,9 +88,9 @@ def _scan(ranges: Any, first: float = 0.0) -> Any:
     return scan
 
 
-@exercise("40.2", praise="It works with any laser: it asked the message where its beams look.")
+@exercise("40.2", praise="Your function works with any laser, because it reads the angles from the message.")
 def front_distance(answer: Any) -> None:
-    """The shortest measured range within an angle of ahead."""
+    """The shortest valid range within an angle of straight ahead."""
 
     def far(**at: float) -> Any:
         ranges = np.full(360, 3.0)
@@ -106,35 +106,35 @@ def front_distance(answer: Any) -> None:
             wide,
             0.7,
             "an obstacle 10 degrees to the right",
-            "beam 350 of 360 looks 10 degrees to the right: the sector goes over the end of the list",
+            "beam 350 of 360 points 10 degrees to the right: the sector continues at the end of the list",
         ),
         (
             _scan(far(b45=0.5, b300=0.6)),
             wide,
             3.0,
-            "obstacles 45 and 60 degrees aside",
-            "what is beside the sector does not count",
+            "obstacles 45 and 60 degrees to the side",
+            "ignore beams outside the sector",
         ),
         (
             _scan(far(b20=0.9)),
             math.radians(15),
             3.0,
             "a sector of 15 degrees, and an obstacle at 20",
-            "half_width is the limit",
+            "half_width limits the sector on each side",
         ),
-        (_scan(far(b3=0.0, b5=1.1)), wide, 1.1, "a beam that says 0.0", "0.0 is less than range_min: not measured"),
+        (_scan(far(b3=0.0, b5=1.1)), wide, 1.1, "a beam of 0.0", "0.0 is less than range_min, so it is invalid"),
         (
             _scan(far(b3=-math.inf, b355=math.nan, b7=1.2)),
             wide,
             1.2,
-            "beams that say -inf and nan",
-            "take only what lies between range_min and range_max",
+            "beams of -inf and nan",
+            "use only ranges between range_min and range_max",
         ),
         (
             _scan(np.full(360, math.inf)),
             wide,
             math.inf,
-            "a scan in which nothing was measured",
+            "a scan without a valid range",
             "return math.inf if no beam is left",
         ),
         (
@@ -142,13 +142,13 @@ def front_distance(answer: Any) -> None:
             wide,
             math.inf,
             "a scan whose ranges are all beyond range_max",
-            "what is more than range_max was not measured",
+            "a range above range_max is not a measurement",
         ),
         (
             _scan(far(b180=0.4, b0=0.3), first=-math.pi),
             wide,
             0.4,
-            "a laser whose first beam looks back",
+            "a laser whose first beam points backwards",
             "the angle of beam i is angle_min + i * angle_increment",
         ),
     )  # fmt: skip
@@ -164,15 +164,15 @@ def front_distance(answer: Any) -> None:
 # ---- 40.3: how far apart are the wheels ----
 
 NARROW, WIDE = 2, 7
-"""Seeds of graphs whose robots have their wheels 158.3 mm and 163.7 mm apart."""
+"""Seeds of graphs whose robots have a wheel separation of 158.3 mm and 163.7 mm."""
 
 
 @exercise(
     "40.3",
-    praise="With this number in its firmware the robot would turn far truer than with the one on paper.",
+    praise="With this number in its firmware, the robot would turn much more accurately than with the nominal one.",
 )
 def wheel_separation(answer: Any) -> None:
-    """The effective wheel separation of a robot, measured by a spin: one robot is wide and one is narrow."""
+    """The effective wheel separation of two robots, measured while they turn on the spot."""
     for seed in (NARROW, WIDE):
         with Graph(seed=seed) as graph:
             sim = _robot(graph)
@@ -181,13 +181,13 @@ def wheel_separation(answer: Any) -> None:
             right = wheels.separation
         expect(
             0.1 < found < 0.25,
-            f"It returned {found:.3f}, which is not the distance of the wheels of a TurtleBot3 in metres.",
-            "(way of the right wheel - way of the left wheel) / turn, with the turn in radians",
+            f"It returned {found:.3f}, which is not a plausible wheel separation of a TurtleBot3 in metres.",
+            "it is (distance of the right wheel - distance of the left wheel) / angle, with the angle in radians",
         )
         expect(
             abs(found - right) < 5e-4,
-            f"One of the robots has its wheels {1000 * right:.1f} mm apart, and you found {1000 * found:.1f} mm.",
-            "spin for several turns; odometry believes in 160 mm, the truth shows how far the robot really turned",
+            f"One robot has a wheel separation of {1000 * right:.1f} mm, but you found {1000 * found:.1f} mm.",
+            "turn several times; odometry assumes 160 mm, and the ground truth shows the real angle",
         )
 
 
@@ -196,9 +196,9 @@ def wheel_separation(answer: Any) -> None:
 
 @exercise(
     "40.4",
-    praise="At full speed a TurtleBot3 needs 68 mm: 44 until it knows, and 24 to brake.")  # fmt: skip
+    praise="At full speed a TurtleBot3 needs 68 mm: 44 mm until the scan arrives, and 24 mm to brake.")  # fmt: skip
 def safe_speed(answer: Any) -> None:
-    """The greatest speed at which a robot that sees late still stops in time."""
+    """The highest speed at which a robot with delayed scans stops in time."""
     for distance, period, acceleration in (
         (0.05, 0.2, 1.0), (0.02, 0.2, 1.0), (0.03, 0.1, 1.0), (0.04, 0.2, 0.5), (0.0, 0.2, 1.0), (1.0, 0.2, 1.0),
     ):  # fmt: skip
@@ -207,20 +207,20 @@ def safe_speed(answer: Any) -> None:
         case = f"{1000 * distance:.0f} mm, {period} s and {acceleration} m/s2"
         expect(
             found <= 0.22 + 1e-9,
-            f"For {case} it goes {found:.2f} m/s, and no TurtleBot3 can.",
-            "min(0.22, ...)",
+            f"For {case} you return {found:.2f} m/s, more than a TurtleBot3 can drive.",
+            "limit it with min(0.22, ...)",
         )
         needed = found * period + found * found / (2 * acceleration)
         expect(
             found <= right + 1e-6,
-            f"For {case} it goes {found:.3f} m/s and needs {1000 * needed:.1f} mm to stand.",
-            "first v * period, then v * v / (2 * acceleration)",
+            f"For {case} you return {found:.3f} m/s, at which it needs {1000 * needed:.1f} mm to stop.",
+            "add up v * period and v * v / (2 * acceleration)",
         )
         expect(
             found >= right - 1e-6,
-            f"For {case} it goes {found:.3f} m/s; it could go faster, {1000 * needed:.1f} mm are enough for it "
-            "to stand.",
-            "the speed at which both ways together are the distance",
+            f"For {case} you return {found:.3f} m/s; it could drive faster, as it needs only {1000 * needed:.1f} mm "
+            "to stop.",
+            "find the speed at which both distances add up to the given one",
         )  # fmt: skip
 
 
@@ -230,12 +230,12 @@ BURGER_URDF = "package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacr
 
 
 def _looks(robot: Any, link: str, kind: type, **sizes: float) -> Any:
-    """The one visual of a link, which has to be of this kind and of these sizes [m]."""
+    """Expect a link to have one visual of this kind and these sizes [m]; return it."""
     from rosmini.sim.urdf import Cylinder
 
     word = "cylinder" if kind is Cylinder else "sphere"
     visuals = robot.links[link].visuals
-    expect(len(visuals) == 1, f"{link} has {len(visuals)} visuals.", f"it needs one, with a <{word}>")
+    expect(len(visuals) == 1, f"{link} has {len(visuals)} visuals.", f"give it one, with a <{word}>")
     shape = visuals[0].geometry
     expect(
         isinstance(shape, kind),
@@ -247,13 +247,14 @@ def _looks(robot: Any, link: str, kind: type, **sizes: float) -> Any:
         expect(
             abs(found - right) < 1e-6,
             f"The {word} of {link} has the {name} {found:g} m, not {right:g} m.",
-            "lengths are in metres; a radius is half of a diameter",
+            "lengths are in metres; the radius is half of the diameter",
         )
     return visuals[0]
 
 
 @exercise(
-    "40.5", praise="The mast stands, and any program that reads the description knows where its ball is."
+    "40.5",
+    praise="The mast is there, and every program that reads the description knows the position of its ball.",
 )
 def mast(answer: Any) -> None:
     """A piece of URDF: a mast with a ball on top, for a TurtleBot3 Burger."""
@@ -265,24 +266,24 @@ def mast(answer: Any) -> None:
         piece = answer(height)
         expect(
             isinstance(piece, str),
-            f"{asked} it returned a {type(piece).__name__}, not a text.",
+            f"{asked} it returned a {type(piece).__name__}, not a string.",
             "return the lines of XML as one string",
         )
         try:
             robot = load(burger.replace("</robot>", piece + "</robot>"), meshes=False)
         except UrdfError as error:
             raise Wrong(
-                f"{asked} the description cannot be read: {error}", "compare with a joint of the Burger's"
+                f"{asked} the description cannot be read: {error}", "compare it with a joint of the Burger"
             ) from error
         for notes in robot.left_out.values():
-            raise Wrong(f"{asked} a part cannot be read: {notes[0]}", "compare with a link of the Burger's")
+            raise Wrong(f"{asked} a part cannot be read: {notes[0]}", "compare it with a link of the Burger")
         for link in ("mast_link", "beacon_link"):
-            expect(link in robot.links, f"There is no link {link}.", "mind the names")
+            expect(link in robot.links, f"There is no link {link}.", "compare the names with the task")
             kind = robot.above[link].type
             expect(
                 kind == "fixed",
                 f"{link} is the child of a {kind} joint.",
-                "nothing moves: the type of the joint is fixed",
+                "the parts do not move, so the type of the joint is fixed",
             )
         _places(robot, height, asked)
         pole = _looks(robot, "mast_link", Cylinder, radius=0.005, length=height)
@@ -290,18 +291,18 @@ def mast(answer: Any) -> None:
         expect(
             abs(x) < 1e-6 and abs(y) < 1e-6 and abs(z - height / 2) < 1e-6,
             f"{asked} the cylinder reaches from {z - height / 2:.3f} m to {z + height / 2:.3f} m above the foot.",
-            "the origin of a cylinder is its middle: raise the visual by half of the height",
+            "the origin of a cylinder is its centre: raise the visual by half of the height",
         )
         ball = _looks(robot, "beacon_link", Sphere, radius=0.015)
         expect(
             ball.origin.xyz == (0.0, 0.0, 0.0),
-            "The ball is not around the frame of beacon_link.",
-            "its visual needs no origin: the joint puts the frame to the top",
+            "The ball is not centred on the frame beacon_link.",
+            "remove the origin of its visual: the joint puts the frame at the top",
         )
 
 
 def _places(robot: Any, height: float, asked: str) -> None:
-    """The frames of mast and ball are where they were wanted."""
+    """Expect the frames of mast and ball at the right positions."""
     places = robot.transforms()
     base = places["base_link"][:3, 3]
     for link, right in (("mast_link", (-0.09, 0.0, 0.15)), ("beacon_link", (-0.09, 0.0, 0.15 + height))):
@@ -310,5 +311,5 @@ def _places(robot: Any, height: float, asked: str) -> None:
             bool(np.allclose(found, right, atol=1e-6)),
             f"{asked} the frame {link} is at ({found[0]:.2f}, {found[1]:.2f}, {found[2]:.2f}) in base_link, "
             f"not at ({right[0]:.2f}, {right[1]:.2f}, {right[2]:.2f}).",
-            "the origin of a joint is where the child's frame is in the parent's; x points ahead",
+            "the origin of a joint is the pose of the child's frame in the parent's; x points forwards",
         )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 41, Teleoperation."""
+"""Checks of the exercises in chapter 41, Teleoperation."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ def _same(got: list[Velocity], expected: list[Velocity]) -> bool:
 # ---- 41.1: which keys ----
 
 
-@exercise("41.1", praise="A pad that takes these keys wants just that.")
+@exercise("41.1", praise="These keys give the pad exactly this target.")
 def keys_for(answer: Any) -> None:
-    """The keys that bring a pad at rest to a target."""
+    """The keys that set the target of a pad, starting from zero."""
     for v, w in ((0.02, -0.1), (0.07, 0.0), (0.14, 2.8), (-0.22, 0.3), (0.0, -2.3), (0.0, 0.0)):
         found = answer(v, w)
         asked = f"for {v:g} m/s and {w:g} rad/s"
@@ -44,34 +44,36 @@ def keys_for(answer: Any) -> None:
         strange = sorted({key for key in found if key not in "wxad"})
         expect(
             not strange,
-            f"{asked[0].upper()}{asked[1:]} there is a key {strange[:1]} in it.",
-            "w, x, a and d do",
+            f"{asked[0].upper()}{asked[1:]} your keys contain {strange[:1]}.",
+            "use only w, x, a and d",
         )
         pad = Teleop(Limits(1.0, 10.0))
         for key in found:
             pad.press(key)
         expect(
             _same([pad.target], [(v, w)]),
-            f"Your keys {asked} are {found!r}; the pad then wants {_said([pad.target])}.",
-            "how many steps are that? round(...) them, and look at the sign",
+            f"Your keys {asked} are {found!r}; they set the target {_said([pad.target])}.",
+            "divide by the step and use round(...), and take the sign into account",
         )
         expect(
             all(key_map().moves[key][0] for key in found[: abs(round(v / 0.01))]),
-            f"Your keys {asked} are {found!r}: those for v do not come first.",
-            "first w or x, then a or d",
+            f"Your keys {asked} are {found!r}, but the keys for v must come first.",
+            "write w or x first, then a or d",
         )
         least = abs(round(v / 0.01)) + abs(round(w / 0.1))
         expect(
-            len(found) == least, f"{len(found)} keys {asked}: {least} would do.", "no key twice for nothing"
+            len(found) == least,
+            f"You need {len(found)} keys {asked}; {least} are enough.",
+            "leave out keys that cancel each other",
         )
 
 
 # ---- 41.2: a joystick ----
 
 
-@exercise("41.2", praise="Let go of the button, and the robot stands.")
+@exercise("41.2", praise="The robot stops when you release the button.")
 def joystick(answer: Any) -> None:
-    """A node that turns a gamepad's messages into commands, while a button is held."""
+    """A node that converts a gamepad's messages into commands while a button is held."""
     sent: list[Velocity] = []
     with Graph() as graph:
         answer(graph)
@@ -98,7 +100,7 @@ def _listen(graph: Graph, sent: list[Velocity]) -> None:
 
 
 def _answers(graph: Graph, sent: list[Velocity], publisher: Any, message: Any) -> list[Velocity]:
-    """What is published on cmd_vel within a tenth of a second of this message."""
+    """Return the messages on cmd_vel within a tenth of a second after this message."""
     sent.clear()
     publisher.publish(message)
     graph.run(0.1)
@@ -108,9 +110,9 @@ def _answers(graph: Graph, sent: list[Velocity], publisher: Any, message: Any) -
 # ---- 41.3: a lock ----
 
 
-@exercise("41.3", praise="Now the stop key stops the robot, whoever else is talking.")
+@exercise("41.3", praise="The stop key now stops the robot, whatever other nodes publish.")
 def lock(answer: Any) -> None:
-    """A node that passes commands on, until it is told to stop."""
+    """A node that passes on commands until it receives a stop."""
     sent: list[Velocity] = []
     with Graph() as graph:
         answer(graph)
@@ -124,10 +126,10 @@ def lock(answer: Any) -> None:
         expect_heard(stop)
         for publisher, given, expected, what in (
             (pad, (0.1, 0.5), [(0.1, 0.5)], "For a command before any stop"),
-            (stop, True, [(0.0, 0.0)], "When True came on /stop"),
+            (stop, True, [(0.0, 0.0)], "After True on /stop"),
             (pad, (0.2, 0.0), [], "For a command after the stop"),
             (pad, (-0.1, 0.2), [], "For a second command after the stop"),
-            (stop, False, [], "When False came on /stop"),
+            (stop, False, [], "After False on /stop"),
             (pad, (0.05, 0.0), [(0.05, 0.0)], "For a command after it was unlocked"),
         ):
             message = _twist(*given) if isinstance(given, tuple) else given
@@ -135,16 +137,16 @@ def lock(answer: Any) -> None:
             expect(
                 _same(got, expected),
                 f"{what} it published {_said(got)}, not {_said(expected)}.",
-                "remember the last word on /stop, and ask it for each command",
+                "store the last message on /stop, and check it for each command",
             )
 
 
 # ---- 41.4: where is it now ----
 
 
-@exercise("41.4", praise="Draw this pose into the old picture, and the driver sees the present.")
+@exercise("41.4", praise="Drawn into the delayed picture, this pose shows the driver where the robot is now.")
 def where_now(answer: Any) -> None:
-    """A pose that was seen, and the commands since, make the pose of now."""
+    """The current pose, from a delayed pose and the commands since then."""
     cases: list[tuple[Pose, list[tuple[float, float, float]], str]] = [
         ((1.0, 2.0, 0.5), [], "no command"),
         ((1.0, 2.0, 0.5), [(0.2, 0.0, 1.5)], "one straight drive"),
@@ -161,7 +163,7 @@ def where_now(answer: Any) -> None:
             x, y, heading = (float(part) for part in found)
         except (TypeError, ValueError):
             raise Wrong(
-                f"For {what} it returned {found!r}, not a pose.", "three numbers: x, y, heading"
+                f"For {what} it returned {found!r}, not a pose.", "return three numbers: x, y, heading"
             ) from None
         off = math.hypot(x - expected[0], y - expected[1])
         turned = abs(math.remainder(heading - expected[2], 2 * math.pi))
@@ -169,5 +171,5 @@ def where_now(answer: Any) -> None:
             off < 1e-6 and turned < 1e-6,
             f"For {what} the pose is ({x:.4f}, {y:.4f}, {heading:.4f}), "
             f"not ({', '.join(f'{part:.4f}' for part in expected)}).",
-            "begin with the pose that was seen, take the oldest command first, and mind w = 0",
+            "start with the delayed pose, apply the oldest command first, and handle w = 0 separately",
         )

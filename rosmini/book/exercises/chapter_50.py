@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 50, The environment."""
+"""Checks of the exercises in chapter 50, The environment."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ MODEL = "TURTLEBOT3_MODEL"
 # ---- 50.1: as fast as it may ----
 
 TOP_SPEEDS = {"waffle": 0.26, "burger": 0.22, None: 0.22, "waffle_pi": 0.26}
-"""The speed that is wanted for each value of the variable [m/s]; None: it is not set."""
+"""Expected speed for each value of the variable [m/s]; None: it is not set."""
 
 
 @contextmanager
 def model_is(value: str | None) -> Iterator[None]:
-    """Let the variable have this value for a while; None: not be set."""
+    """Set the variable to this value inside the block; None unsets it."""
     before = os.environ.pop(MODEL, None)
     try:
         if value is not None:
@@ -36,9 +36,9 @@ def model_is(value: str | None) -> Iterator[None]:
             os.environ[MODEL] = before
 
 
-@exercise("50.1", praise="One script for three robots, and the environment says which one it is.")
+@exercise("50.1", praise="One script serves three robots, and the environment chooses.")
 def fast(answer: Script) -> Any:
-    """The robot drives straight ahead, at the top speed of the model that the variable names."""
+    """The robot drives straight ahead at the top speed of the model in the variable."""
     view = None
     for model, speed in TOP_SPEEDS.items():
         got: list[Twist] = []
@@ -47,12 +47,12 @@ def fast(answer: Script) -> Any:
             trial.start(answer)
             trial.run(4.0)
             told = f"With {MODEL}={model}" if model else f"Without {MODEL}"
-            expect(len(got) >= 30, f"{told} it sent {len(got)} commands in 4 s.", "ten commands in a second")
+            expect(len(got) >= 30, f"{told} it sent {len(got)} commands in 4 s.", "publish ten a second")
             found, turn = got[-1].linear.x, got[-1].angular.z
             expect(
                 math.isclose(found, speed),
                 f"{told} it drove at {found:g} m/s, not at {speed:g}.",
-                "read the variable with os.environ.get, and choose command.linear.x by it",
+                "read the variable with os.environ.get, and set command.linear.x from it",
             )
             expect(turn == 0, f"{told} it turned.", "leave angular.z at 0")
             view = trial.view()
@@ -77,16 +77,16 @@ CASES = [
 ]
 
 
-@exercise("50.2", praise="The first folder wins; that is what makes an overlay.")
+@exercise("50.2", praise="The first folder wins, which is what makes overlays work.")
 def winner(answer: Any) -> None:
-    """The folder from which a package is taken."""
+    """The folder in which ROS finds a package."""
     for package, folders, right in CASES:
         path = ":".join(folders)
         found = answer(package, path, {folder: list(names) for folder, names in PACKAGES.items()})
         expect(
             found == right,
-            f"With ROS_PACKAGE_PATH={path} the package {package} is taken from {right}, not from {found!r}.",
-            "go through the folders of the path in their order; the first that has the package wins",
+            f"With ROS_PACKAGE_PATH={path} ROS finds the package {package} in {right}, not in {found!r}.",
+            "go through the folders of the path in order; the first that contains the package wins",
         )
 
 
@@ -107,9 +107,9 @@ LAPTOPS: list[tuple[dict[str, str | None], str | None]] = [
 ]
 
 
-@exercise("50.3", praise="Ten laptops, and each slip is found.")
-def to_mend(answer: Any) -> None:
-    """The first variable of an environment that has to be mended."""
+@exercise("50.3", praise="You found the mistake on all ten laptops.")
+def wrong_variable(answer: Any) -> None:
+    """The first variable of an environment that is wrong."""
     for changes, right in LAPTOPS:
         environment = {name: value for name, value in {**GOOD, **changes}.items() if value is not None}
         told = ", ".join(f"{name}={value}" for name, value in environment.items()) or "nothing set"
@@ -117,5 +117,5 @@ def to_mend(answer: Any) -> None:
         expect(
             found == right,
             f"With {told} the answer is {right}, not {found!r}.",
-            "ask for one variable after the other, with environment.get, and return at the first that is wrong",
+            "check one variable after the other with environment.get, and return the first that is wrong",
         )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 51, The command line."""
+"""Checks of the exercises in chapter 51, The command line."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ COMMANDS = {
     "How do I save all parameters in a file?": {"rosparam dump"},
     "How long is drive.bag?": {"rosbag info"},
 }
-"""For each question the commands that answer it."""
+"""The commands that answer each question."""
 
 
-@exercise("51.1", praise="Seven questions, seven commands.")
+@exercise("51.1", praise="You know the command for each of the seven questions.")
 def commands(answer: object) -> None:
-    """For each question a tool and a verb; what follows them does not matter."""
-    expect_type(answer, dict, "commands is", "a dictionary: a question, and its command")
+    """A tool and a verb for each question; arguments are ignored."""
+    expect_type(answer, dict, "commands is", "a dictionary from question to command")
     given: dict[str, Any] = dict(answer)  # type: ignore[call-overload]
     for question, right in COMMANDS.items():
         said = str(given.get(question, ""))
@@ -33,8 +33,10 @@ def commands(answer: object) -> None:
         tool = next(iter(right)).split()[0]
         expect(
             " ".join(words[:2]) in right,
-            f"{question} {said!r} does not tell.",
-            f"try {tool} -h" if words[:1] == [tool] else "which tool has the name of what is asked about?",
+            f"{question} {said!r} does not answer this.",
+            f"try {tool} -h"
+            if words[:1] == [tool]
+            else "choose the tool named after what the question is about",
         )
 
 
@@ -44,44 +46,44 @@ JOINT_STATES_HZ = 30
 FACTS = {
     "type": ("sensor_msgs/JointState", "rostopic type /joint_states"),
     "frame": ("odom", "rostopic echo -n 1 /odom/header/frame_id"),
-    "service": ("roscpp/SetLoggerLevel", "rosservice type, and the name of the service"),
+    "service": ("roscpp/SetLoggerLevel", "rosservice type with the name of the service"),
 }
-"""What the robot says, and the command that makes it do so."""
+"""The right answers, and the commands that print them."""
 
 
-@exercise("51.2", praise="You asked, and the robot told you.")
+@exercise("51.2", praise="You got all four answers from the running robot.")
 def found(answer: object) -> None:
-    """What the robot's tools say about it."""
+    """Four facts that ROS's tools print about the robot."""
     expect_type(answer, dict, "found is", "a dictionary with type, rate, frame and service")
     given: dict[str, Any] = dict(answer)  # type: ignore[call-overload]
     for key, (right, command) in FACTS.items():
         said = given.get(key)
-        expect(isinstance(said, str) and said.strip() == right, f"{key} is not {said!r}.", command)
+        expect(isinstance(said, str) and said.strip() == right, f"{key} is not {said!r}.", f"run {command}")
     rate = given.get("rate")
     expect_type(rate, (int, float), "rate is", "a number, in messages per second")
     expect(
         abs(float(rate) - JOINT_STATES_HZ) < 1,  # type: ignore[arg-type]
         f"There are not {rate} messages a second on /joint_states.",
-        "rostopic hz --duration 2 /joint_states, and then the average rate",
+        "run rostopic hz --duration 2 /joint_states, and take the average rate",
     )
 
 
 # ---- 51.3: your own rostopic hz ----
 
 BEATS_HZ = (4, 10, 0)
-"""How many beats come in a second, for four seconds each."""
+"""Numbers of beats a second, each for four seconds."""
 
 
-@exercise("51.3", praise="Your node counts what it hears, and tells when it hears nothing.")
+@exercise("51.3", praise="Your node reports the rate, even when no messages arrive.")
 def count(answer: Script) -> None:
-    """Once a second the number of beats since the last report."""
+    """The node publishes the number of beats since the last report once a second."""
     got: list[float] = []
     with Trial("arena", is_shown=False) as trial:
         trial.graph.node("listener").subscriber("rate", Float32, lambda message: got.append(message.data))
         beat = trial.graph.node("heart").publisher("beat", Empty, queue_size=10)
         trial.start(answer)
         trial.run(0.55)
-        expect(beat.num_connections(), "Nobody subscribes to /beat.", "rospy.Subscriber, with the type Empty")
+        expect(beat.num_connections(), "No node subscribes to /beat.", "use rospy.Subscriber with type Empty")
         for rate in BEATS_HZ:
             got.clear()
             for _ in range(rate * 4):
@@ -91,11 +93,11 @@ def count(answer: Script) -> None:
                 trial.run(4.0)
             expect(
                 3 <= len(got) <= 5,
-                f"In 4 s, with {rate} beats in each, it published {len(got)} times on /rate.",
-                "a rospy.Timer with a period of one second publishes",
+                f"In 4 s with {rate} beats a second, it published {len(got)} times on /rate.",
+                "publish from a rospy.Timer with a period of one second",
             )
             expect(
                 all(abs(told - rate) <= 1 for told in got[1:]),
-                f"With {rate} beats a second it said {', '.join(f'{told:g}' for told in got)}.",
-                "begin to count anew after each report",
+                f"With {rate} beats a second it published {', '.join(f'{told:g}' for told in got)}.",
+                "reset the counter after each report",
             )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 60, turtlesim's nodes: a command, and two scripts tried with a turtle."""
+"""Checks of the exercises in chapter 60, turtlesim's nodes: a command, and two scripts that run with a turtle."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ START = ["rosrun", "turtlesim", "turtlesim_node"]
 # ---- 60.1: a frog in a pond ----
 
 
-@exercise("60.1", praise="One program, and a name, a place and a colour of your choice.")
+@exercise("60.1", praise="The same program runs with your name, namespace and colour.")
 def frog(answer: Any) -> Any:
-    """A command starts turtlesim as /pond/frog, on a background without red."""
-    expect_type(answer, str, "The command is", "a text")
+    """A command that starts turtlesim as /pond/frog, on a background without red."""
+    expect_type(answer, str, "The command is", "a string")
     line = answer.replace("\\\n", " ").strip().removeprefix("%").removeprefix("$").removesuffix("&")
     try:
         words = shlex.split(line)
@@ -26,29 +26,27 @@ def frog(answer: Any) -> Any:
         raise Wrong(f"A shell cannot read it: {error}.", "quotes come in pairs") from error
     space, words = _namespace(words)
     words = words[words[:1] == ["rosmini"] :]  # the same command, in a terminal of rosmini
-    expect(words[:3] == START, f"The command begins with {' '.join(START)}.", "then come the words with :=")
+    expect(words[:3] == START, f"The command must begin with {' '.join(START)}.", "arguments with := follow")
     with TurtleTrial(None) as trial:
         try:
             trial.open(*words[3:], *space)
         except RosminiError as error:
             raise Wrong(
-                f"It does not start: {error}", "each word has := in it, and nothing around that"
+                f"It does not start: {error}", "each argument contains :=, without spaces around it"
             ) from error
         names = sorted(set(trial.graph.nodes) - {"/rosout"})
         expect(
             names == ["/pond/frog"],
             f"The node is called {', '.join(names)}, not /pond/frog.",
-            "__ns and __name, each with two underscores in front",
+            "use __ns and __name, each with two leading underscores",
         )
         red = trial.graph.ask_as("/check").find("getParam", "/pond/frog/background_r")
-        expect(
-            red == 0, f"The red part of the background is {red}, not 0.", "_background_r:=0, one underscore"
-        )
+        expect(red == 0, f"The background's red part is {red}, not 0.", "write _background_r:=0")
         return trial.view()
 
 
 def _namespace(words: list[str]) -> tuple[list[str], list[str]]:
-    """A namespace that the shell sets for one command, `ROS_NAMESPACE=/pond`, as ROS's own word; and what follows."""
+    """Convert `ROS_NAMESPACE=/pond` before a command into `__ns:=`; return it and the rest of the command."""
     name, sign, value = words[0].partition("=") if words else ("", "", "")
     if name != "ROS_NAMESPACE" or not sign:
         return [], words
@@ -58,9 +56,9 @@ def _namespace(words: list[str]) -> tuple[list[str], list[str]]:
 # ---- 60.2: a census ----
 
 
-@exercise("60.2", praise="That is what rosnode does: it asks the Master, and counts.")
+@exercise("60.2", praise="rosnode gets its lists in the same way: from the Master.")
 def census(answer: Script) -> Any:
-    """Each node but /rosout with the number of its topics, in order, in a graph of one window and of three."""
+    """Each node except /rosout with its number of topics, sorted; tried with one window and with three."""
     for others in ((), ("zebra", "ape")):
         with TurtleTrial() as trial:
             for name in others:
@@ -76,7 +74,7 @@ def census(answer: Script) -> Any:
             said = "\n".join(" ".join(line.split()) for line in trial.output.splitlines() if line.strip())
             expect(
                 said == lines.strip(),
-                f"It printed:\n{said or 'nothing'}\nand should have printed:\n{lines.strip()}",
+                f"It printed:\n{said or 'nothing'}\nbut should have printed:\n{lines.strip()}",
                 "count each node of each topic in a dictionary, then go through sorted(count)",
             )
     return None
@@ -85,34 +83,34 @@ def census(answer: Script) -> Any:
 # ---- 60.3: a node that ends ----
 
 
-@exercise("60.3", praise="A node that knows when its work is done, and leaves the graph in good order.")
+@exercise("60.3", praise="The node ends when its task is done, and unregisters properly.")
 def guard(answer: Script) -> Any:
-    """It goes on while the turtle is in the middle, and ends with one line when that has left, in any direction."""
+    """The node runs while the turtle is in the middle, and logs one line and ends when the turtle leaves it."""
     for place in ((9.0, 5.5), (2.0, 5.5), (5.5, 8.0), (5.5, 2.0)):
         with TurtleTrial() as trial:
             handle = trial.start(answer)
             trial.run(1.0)
-            expect("/guard" in trial.graph.nodes, "There is no node /guard.", 'rospy.init_node("guard")')
+            expect("/guard" in trial.graph.nodes, "There is no node /guard.", 'call rospy.init_node("guard")')
             trial.sim.turtles["turtle1"].teleport_absolute(7.0, 6.0, 0.0)
             trial.run(0.5)
             expect(
                 handle.poll() is None and "left" not in trial.output,
                 "It ended while the turtle was still in the middle.",
-                "more than 2 away from 5.5",
+                "the turtle has left when x or y is more than 2 away from 5.5",
             )
             trial.sim.turtles["turtle1"].teleport_absolute(*place, 0.0)
             trial.run(1.0)
             expect(
                 handle.poll() == 0 and "/guard" not in trial.graph.nodes,
-                f"The turtle is at {place}, and /guard is still there.",
-                "rospy.signal_shutdown(reason), for x and for y, on both sides",
+                f"The turtle is at {place}, but /guard still runs.",
+                "call rospy.signal_shutdown(reason); check x and y, in both directions",
             )
             count = sum(line.endswith("]: the turtle has left") for line in trial.output.splitlines())
             expect(
                 count == 1,
                 f"It logged 'the turtle has left' {count} times, not once.",
-                'rospy.loginfo("the turtle has left"); and poses that were under way still arrive: '
-                "ask rospy.is_shutdown() first",
+                'use rospy.loginfo("the turtle has left"); poses may arrive after the shutdown: '
+                "check rospy.is_shutdown() first",
             )
             if place == (5.5, 2.0):
                 return trial.view()

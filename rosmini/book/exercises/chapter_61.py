@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 61, turtlesim's topics: keys, a script and a node, tried with turtles."""
+"""Checks of the exercises in chapter 61, turtlesim's topics: keys, a script and a node, run with turtles."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from rosmini.book.trials import TurtleTrial
 from rosmini.msgs.geometry_msgs.msg import Twist
 
 AHEAD, TURN = 2.0, 2.0
-"""What a key of turtle_teleop_key asks for [m/s, rad/s], for a second."""
+"""Velocities of each key of turtle_teleop_key, which last a second [m/s, rad/s]."""
 KEYS = {"A": (AHEAD, 0.0), "B": (-AHEAD, 0.0), "C": (0.0, -TURN), "D": (0.0, TURN)}
 MOST_KEYS = 6
 WALL = 0.05
-"""Nearer than this to an edge the turtle has met the wall [m]."""
+"""Distance from an edge at which the turtle touches the wall [m]."""
 EDGE = 499 / 45
 
 # ---- 61.1: to the corner by keys ----
 
 
-@exercise("61.1", praise="A turn that cannot be made at once is made of others.")
+@exercise("61.1", praise="Several turns add up to the one that you need.")
 def corner(answer: Any) -> Any:
-    """Six keys at most bring the turtle to the upper left corner, and it meets no wall."""
-    expect_type(answer, str, "The keys are", "a text")
+    """At most six keys move the turtle to the upper left corner without touching a wall."""
+    expect_type(answer, str, "The keys are", "a string")
     keys = "".join(answer.split()).upper()
     wrong = sorted(set(keys) - set(KEYS))
-    expect(not wrong, f"{' and '.join(wrong)} is no key here.", "A up, B down, C right, D left")
+    expect(not wrong, f"{' and '.join(wrong)} is not one of the keys.", "use A up, B down, C right, D left")
     expect(len(keys) <= MOST_KEYS, f"These are {len(keys)} keys; six are enough.")
     with TurtleTrial() as trial:
         publisher = trial.graph.node("teleop_turtle").publisher("turtle1/cmd_vel", Twist)
@@ -39,12 +39,12 @@ def corner(answer: Any) -> Any:
             trial.run(1.1)
             expect(
                 min(turtle.x, turtle.y, EDGE - turtle.x, EDGE - turtle.y) > WALL,
-                f"After {key!r} it stands at the wall, at ({turtle.x:.1f}, {turtle.y:.1f}).",
+                f"After {key!r} the turtle touches the wall, at ({turtle.x:.1f}, {turtle.y:.1f}).",
             )
         expect(
             turtle.x < 2.5 and turtle.y > 8.5,
-            f"It stands at ({turtle.x:.1f}, {turtle.y:.1f}).",
-            "the corner lies in the direction of 135 degrees, six metres away",
+            f"The turtle ends at ({turtle.x:.1f}, {turtle.y:.1f}).",
+            "the corner is six metres away, in the direction of 135 degrees",
         )
         return trial.view()
 
@@ -54,9 +54,9 @@ def corner(answer: Any) -> Any:
 CORNERS = ((2.0, 2.0), (9.0, 2.0), (5.5, 8.0))
 
 
-@exercise("61.2", praise="Three jumps with the pen down, and one with the pen up.")
+@exercise("61.2", praise="You drew with three jumps with the pen down, after one with the pen up.")
 def triangle(answer: Script) -> Any:
-    """Three red lines, each 5 pixels wide, between the corners, and no others."""
+    """Exactly three red lines between the corners, each 5 pixels wide."""
     with TurtleTrial() as trial:
         trial.start(answer)
         trial.run(2.0)
@@ -69,12 +69,16 @@ def triangle(answer: Script) -> Any:
         }
         found = {frozenset(((round(x1), round(y1)), (round(x2), round(y2)))) for x1, y1, x2, y2, *_ in lines}
         said = f"There are {len(lines)} lines, not 3 between the corners."
-        expect(len(lines) == 3 and _alike(found, wanted), said, "pen up, jump, pen down, and three jumps")
+        expect(
+            len(lines) == 3 and _alike(found, wanted),
+            said,
+            "lift the pen, jump to a corner, lower the pen, then jump three times",
+        )
         pens = {tuple(stroke[4:8]) for stroke in lines}
         expect(
             pens == {(255, 0, 0, 5)},
-            f"The pens are {sorted(pens)}: red, green, blue and width; not (255, 0, 0, 5).",
-            "pen(255, 0, 0, 5, 0)",
+            f"The pens (red, green, blue, width) are {sorted(pens)}, not (255, 0, 0, 5).",
+            "call pen(255, 0, 0, 5, 0)",
         )
         return trial.view()
 
@@ -84,7 +88,7 @@ def _pixel(place: tuple[float, float], metre: float, size: float) -> tuple[int, 
 
 
 def _alike(found: set[frozenset[tuple[int, int]]], wanted: set[frozenset[tuple[int, int]]]) -> bool:
-    """Whether each line found is a wanted one, to two pixels."""
+    """Return whether the lines are the expected ones, within two pixels."""
 
     def near(one: frozenset[tuple[int, int]], other: frozenset[tuple[int, int]]) -> bool:
         return all(any(math.dist(a, b) <= 2.0 for b in other) for a in one)
@@ -95,9 +99,9 @@ def _alike(found: set[frozenset[tuple[int, int]]], wanted: set[frozenset[tuple[i
 # ---- 61.3: a mirror ----
 
 
-@exercise("61.3", praise="Two names, remapped, and any turtle may look into your mirror.")
+@exercise("61.3", praise="With two remapped names, your mirror works for any pair of turtles.")
 def mirror(answer: Script) -> Any:
-    """What one turtle does the other one does the other way round, for any two turtles."""
+    """Any turtle can mirror the movements of any other."""
     shown = None
     for first, second in (("turtle1", "turtle2"), ("turtle2", "turtle1")):
         with TurtleTrial() as trial:
@@ -119,8 +123,8 @@ def mirror(answer: Script) -> Any:
             expect(
                 off < 0.3 and abs(math.remainder(one.theta + other.theta, math.tau)) < 0.2,
                 f"{first} is at ({one.x:.1f}, {one.y:.1f}), {second} at ({other.x:.1f}, {other.y:.1f}): "
-                "that is no mirror image.",
-                "the same speed ahead, and the turn with a minus",
+                "this is not a mirror image.",
+                "publish the same linear velocity, and the negative angular velocity",
             )
             shown = trial.view()
     return shown

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 62, a node that moves: scripts tried with a turtle of their own."""
+"""Checks of the exercises in chapter 62, a node that moves: each runs a script with a separate turtle."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 CORNERS = ((8.0, 2.0), (8.0, 8.0), (2.0, 8.0))
 EDGE = 499 / 45
-"""The largest x and y of a turtle [m]."""
+"""Largest x and y of a turtle [m]."""
 SLANTING = (5.5, 5.5, 0.5)
-"""A start from where it meets the wall at a slant, and slides along it into the corner: x, y, heading."""
+"""Start from which the turtle meets the wall at an angle and slides into the corner: x, y, heading."""
 STEP_S = 0.02
 MOST_COMMANDS = 1000
-"""More than this, in a turn that takes three seconds, come out of a loop that does not sleep."""
+"""Number of commands above which a turn of three seconds came from a loop that does not sleep."""
 
 
 def _turtle(trial: TurtleTrial) -> Turtle:
@@ -27,18 +27,18 @@ def _turtle(trial: TurtleTrial) -> Turtle:
 
 
 def _run_to_the_end(trial: TurtleTrial, answer: Script, seconds: float) -> None:
-    """Run a script; it has to end in that time, and to leave a turtle that stands."""
+    """Run a script; expect it to end within that time and to leave the turtle at rest."""
     handle = trial.start(answer)
     trial.run(seconds)
     expect(
         handle.poll() is not None,
-        f"It still runs after {seconds:g} s.",
-        "the loop has to end, and then the script",
+        f"The script still runs after {seconds:g} s.",
+        "end the loop, and let the script end after it",
     )
     turtle = _turtle(trial)
     expect(
         turtle.forward == 0 and turtle.angular_velocity == 0,
-        "It has ended, and the turtle still moves.",
+        "The script has ended, but the turtle still moves.",
         "publish a Twist() at the end",
     )
 
@@ -46,9 +46,9 @@ def _run_to_the_end(trial: TurtleTrial, answer: Script, seconds: float) -> None:
 # ---- 62.1: a quarter turn ----
 
 
-@exercise("62.1", praise="A quarter turn by the clock, and a node that knows its end.")
+@exercise("62.1", praise="The turtle made a quarter turn, and the node ended by itself.")
 def turn(answer: Script) -> Any:
-    """It turns to the left by pi / 2 at 0.5 rad/s, on the spot, whatever the heading was before."""
+    """The turtle turns to the left on the spot by pi / 2 at 0.5 rad/s, from any heading."""
     for heading in (0.0, 1.0):
         with TurtleTrial() as trial:
             turtle = _turtle(trial)
@@ -58,7 +58,7 @@ def turn(answer: Script) -> Any:
             expect(
                 abs(turtle.angular_velocity - 0.5) < 0.01,
                 f"After 1.5 s the turtle turns at {turtle.angular_velocity:.2f} rad/s, not at 0.5.",
-                "command.angular.z = 0.5, published again and again",
+                "set command.angular.z = 0.5, and publish it repeatedly",
             )
         with TurtleTrial() as trial:
             turtle = _turtle(trial)
@@ -69,15 +69,15 @@ def turn(answer: Script) -> Any:
             angle = math.remainder(turtle.theta - heading, 2 * math.pi)
             expect(
                 abs(angle - math.pi / 2) < 0.1,
-                f"It turned by {angle:.2f} rad, and a quarter turn is {math.pi / 2:.2f}.",
-                "0.5 times the seconds is the angle so far",
+                f"The turtle turned by {angle:.2f} rad, but a quarter turn is {math.pi / 2:.2f}.",
+                "the angle so far is 0.5 times the elapsed seconds",
             )
             away = math.hypot(turtle.x - 5.5, turtle.y - 5.5)
-            expect(away < 0.01, f"It left its place by {away:.2f} m.", "linear.x stays 0")
+            expect(away < 0.01, f"The turtle moved by {away:.2f} m.", "keep linear.x at 0")
             expect(
                 len(heard) < MOST_COMMANDS,
-                f"It sent {len(heard)} commands, as fast as the computer can.",
-                "rate.sleep() in the loop",
+                f"The script sent {len(heard)} commands, because its loop does not sleep.",
+                "call rate.sleep() in the loop",
             )
             view = trial.view()
     return view
@@ -86,9 +86,9 @@ def turn(answer: Script) -> Any:
 # ---- 62.2: up to the wall ----
 
 
-@exercise("62.2", praise="The turtle feels the wall, though it has no sensor for that: the pose was enough.")
+@exercise("62.2", praise="The turtle has no contact sensor; its pose was enough to detect the wall.")
 def wall(answer: Script) -> Any:
-    """It reaches the wall in any direction, does not stop before, says so once, and ends."""
+    """The turtle drives to the wall in any direction; the script logs it once and ends."""
     for start in (SLANTING, (3.0, 3.0, -math.pi / 2), (2.5, 7.0, math.pi), (5.0, 5.0, math.pi / 2)):
         with TurtleTrial() as trial:
             turtle = _turtle(trial)
@@ -97,20 +97,17 @@ def wall(answer: Script) -> Any:
             left = sorted(min(place, EDGE - place) for place in (turtle.x, turtle.y))
             expect(
                 left[0] < 0.05,
-                f"It stopped {left[0]:.2f} m before the wall.",
-                "it gets on as long as there is no wall",
+                f"The turtle stopped {left[0]:.2f} m before the wall.",
+                "continue while the turtle still moves",
             )
             expect(
                 start != SLANTING or left[1] < 0.05,
-                f"It met the wall at a slant, and stopped {left[1]:.2f} m before the corner, while it still got on.",
-                "compare how far it came in a round, in x and y together, with nearly nothing",
+                f"The turtle met the wall at an angle and stopped {left[1]:.2f} m before the corner, although "
+                "it was still sliding.",
+                "stop only if the distance moved in one cycle, in x and y together, is almost 0",
             )
             count = sum(line.endswith("]: wall") for line in trial.output.splitlines())
-            expect(
-                count == 1,
-                f"It logged 'wall' {count} times, not once.",
-                'rospy.loginfo("wall"), after the loop',
-            )
+            expect(count == 1, f"It logged 'wall' {count} times, not once.", "log it after the loop")
             view = trial.view()
     return view
 
@@ -118,9 +115,9 @@ def wall(answer: Script) -> Any:
 # ---- 62.3: round the corners ----
 
 
-@exercise("62.3", praise="Three goals, one after the other: that is how a robot follows a path.")
+@exercise("62.3", praise="A robot follows a path in the same way: one goal after the other.")
 def corners(answer: Script) -> Any:
-    """The path comes near each corner, in their order, and ends at the last one."""
+    """The path passes each corner in order, and ends at the last one."""
     with TurtleTrial() as trial:
         turtle = _turtle(trial)
         handle = trial.start(answer)
@@ -135,17 +132,19 @@ def corners(answer: Script) -> Any:
         missed = CORNERS[min(reached, len(CORNERS) - 1)]
         expect(
             reached == len(CORNERS),
-            f"It did not come to {missed}: it is at ({turtle.x:.2f}, {turtle.y:.2f}).",
-            "atan2(y - pose.y, x - pose.x) is the course, and pose.theta the heading",
+            f"The turtle did not reach {missed}: it is at ({turtle.x:.2f}, {turtle.y:.2f}).",
+            "atan2(y - pose.y, x - pose.x) is the direction to the corner, and pose.theta the heading",
         )
         trial.run(3.0)
         expect(
-            handle.poll() is not None, "It is at the last corner, and does not end.", "a tolerance of 0.05"
+            handle.poll() is not None,
+            "The turtle is at the last corner, but the script does not end.",
+            "use a tolerance of 0.05",
         )
         away = math.hypot(turtle.x - CORNERS[-1][0], turtle.y - CORNERS[-1][1])
         expect(
             away < 0.1,
-            f"It ended {away:.2f} m from the last corner.",
-            "slow down: a speed in proportion to the distance",
+            f"The turtle ended {away:.2f} m from the last corner.",
+            "slow down: make the speed proportional to the distance",
         )
         return trial.view()

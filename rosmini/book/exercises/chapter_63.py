@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 63, Many machines: two lines, four causes, and a node between turtles."""
+"""Checks of the exercises in chapter 63, Many machines: two lines, four causes, and a node between turtles."""
 
 from __future__ import annotations
 
@@ -22,33 +22,33 @@ MASTER, PORT, TABLET = "192.168.1.10", 11311, "192.168.1.42"
 
 
 def _exported(text: str) -> dict[str, str]:
-    """Return what the lines of a ~/.bashrc export."""
+    """Return the variables that the lines of a ~/.bashrc export."""
     found: dict[str, str] = {}
     exported: set[str] = set()
     for line, words in _commands(text):
-        if words[0] in ("source", "."):  # such as that of a workspace
+        if words[0] in ("source", "."):  # for example, of a workspace
             continue
         expect(
             words[0] != "echo",
-            f"{line!r} would write a line into the file, or print it.",
-            "here the lines themselves are wanted, as they are in the file",
+            f"{line!r} is a command that prints a line or appends it to the file.",
+            "write the lines themselves, as they are in the file",
         )
         exports = words[0] == "export"
-        expect(exports or "=" in words[0][1:], f"{line!r} does not export anything.", "export NAME=VALUE")
+        expect(exports or "=" in words[0][1:], f"{line!r} exports nothing.", "use export NAME=VALUE")
         for word in words[exports:]:
             name, sign, value = word.partition("=")
             exported |= {name} if exports else set()
             if exports and not sign and name in found:
                 continue
-            expect(name and sign and value, f"{line!r} gives {word!r} no value.", "no spaces around =")
+            expect(name and sign and value, f"{line!r} gives {word!r} no value.", "write no spaces around =")
             found[name] = value
     kept = ", ".join(sorted(set(found) - exported))
-    expect(not kept, f"{kept} is set and not exported: programs do not see it.", "export NAME=VALUE")
+    expect(not kept, f"{kept} is set but not exported, so programs do not see it.", "use export NAME=VALUE")
     return found
 
 
 def _commands(text: str) -> Iterator[tuple[str, list[str]]]:
-    """The commands of a bash file: each with the line that it is on, as words."""
+    """Yield the commands of a bash file: the line, and its words."""
     for line in map(str.strip, text.splitlines()):
         reader = shlex.shlex(line, posix=True, punctuation_chars=";&")
         reader.whitespace_split = True
@@ -61,10 +61,10 @@ def _commands(text: str) -> Iterator[tuple[str, list[str]]]:
                 yield line, list(group)
 
 
-@exercise("63.1", praise="The Master's address, and the tablet's own.")
+@exercise("63.1", praise="The tablet knows the Master's address and advertises its own.")
 def bashrc(answer: Any) -> None:
-    """The variables of a third computer: the Master's address, and an address of its own."""
-    expect_type(answer, str, "The lines are", "a text")
+    """The variables of a third computer: the Master's address and its own address."""
+    expect_type(answer, str, "The lines are", "a string")
     given = _exported(answer)
     expect("ROS_MASTER_URI" in given, "ROS_MASTER_URI is not set.", "it is the same on all computers")
     uri = given["ROS_MASTER_URI"]
@@ -76,32 +76,32 @@ def bashrc(answer: Any) -> None:
     expect(
         place == ("http", MASTER, PORT),
         f"The Master is not at {uri}.",
-        "http://, the address of the Master's computer, and the port 11311",
+        "write http://, the address of the Master's computer, and the port 11311",
     )
     own = given.get("ROS_HOSTNAME", given.get("ROS_IP"))
-    expect(own is not None, "The tablet does not say who it is.", "ROS_IP, with its own address")
-    expect(own == TABLET, f"The others would look for the tablet at {own}.", "its own address")
+    expect(own is not None, "The tablet does not advertise an address.", "set ROS_IP to its own address")
+    expect(own == TABLET, f"The other computers would look for the tablet at {own}.", "use its own address")
 
 
 # ---- 63.2: what is wrong? ----
 
 CAUSES = {
-    "Ada": ("master", "Which address was called here?"),
-    "Ben": ("clock", "his transforms do arrive, and are a minute old"),
-    "Cem": ("address", "the Master knows the node, so what does the list not show?"),
-    "Dea": ("name", "a node ends when another one takes something from it"),
+    "Ada": ("master", "which address was called here?"),
+    "Ben": ("clock", "his transforms arrive, but are a minute old"),
+    "Cem": ("address", "the Master knows the node, so what is missing in the list?"),
+    "Dea": ("name", "a node ends when another one starts with the same ..."),
 }
 
 
-@exercise("63.2", praise="Four messages, four causes.")
+@exercise("63.2", praise="You found the cause of each of the four messages.")
 def causes(answer: Any) -> None:
-    """For each complaint the word of its cause."""
-    expect_type(answer, dict, "causes is", "a dictionary: a person, and a word")
+    """The cause of each complaint, in one word."""
+    expect_type(answer, dict, "causes is", "a dictionary from person to word")
     for person, (right, hint) in CAUSES.items():
         said = answer.get(person)
         expect(
             isinstance(said, str) and said.strip().lower() == right,
-            f"{person}'s trouble is not {said!r}.",
+            f"The cause of {person}'s problem is not {said!r}.",
             hint,
         )
 
@@ -109,14 +109,14 @@ def causes(answer: Any) -> None:
 # ---- 63.3: the other way round ----
 
 DRIVES = ((1.0, 1.0), (2.0, -0.5), (-1.0, 0.0))
-"""What the first turtle is told: ahead [units/s], to the left [rad/s]."""
+"""Commands for the first turtle: forwards [units/s], to the left [rad/s]."""
 NEAR = 0.2
-"""How far the two may be apart: the second one hears of a command a little later [units, rad]."""
+"""Largest difference between the two, because the second one receives a command a little later [units, rad]."""
 
 
-@exercise("63.3", praise="A node between two namespaces, on any of the computers.")
+@exercise("63.3", praise="Your node connects two namespaces and can run on any of the computers.")
 def mirror(answer: Script) -> Any:
-    """The second turtle goes as the first one, with left and right exchanged."""
+    """The second turtle moves like the first one, with left and right exchanged."""
     with TurtleTrial(None) as trial:
         for name in ("one", "two"):
             rosrun("turtlesim", "turtlesim_node", f"__ns:=/{name}", graph=trial.graph, capture_output=True)
@@ -124,7 +124,7 @@ def mirror(answer: Script) -> Any:
         trial.run(0.2)
         trial.start(answer)
         trial.run(0.5)
-        expect("/mirror" in trial.graph.nodes, "There is no node /mirror.", 'rospy.init_node("mirror")')
+        expect("/mirror" in trial.graph.nodes, "There is no node /mirror.", 'call rospy.init_node("mirror")')
         one, two = (
             window(f"/{name}/turtlesim", graph=trial.graph).turtles["turtle1"] for name in ("one", "two")
         )
@@ -137,7 +137,8 @@ def mirror(answer: Script) -> Any:
             apart = (two.x - one.x, two.y + one.y - 2 * start, two.theta + one.theta)
             expect(
                 all(abs(value) < NEAR for value in apart),
-                f"The first turtle, told {ahead:g} ahead and {left:g} to the left, is now {one}, and the second {two}.",
-                "each command is passed on: linear as it is, angular.z with the other sign",
+                f"With the command {ahead:g} forwards and {left:g} to the left, the first turtle is now "
+                f"{one}, and the second {two}.",
+                "pass on each command: linear unchanged, angular.z with the opposite sign",
             )
     return None

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 64, The wire."""
+"""Checks of the exercises in chapter 64, The wire."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ HEADERS: tuple[dict[str, str], ...] = (
 )
 
 
-@exercise("64.1", praise="So does each node of ROS, before it believes a word.")
+@exercise("64.1", praise="Every ROS node reads a header like this before it accepts a connection.")
 def fields_of(answer: Any) -> None:
     """The fields of a connection header, without its total length."""
     for fields in HEADERS:
@@ -38,58 +38,54 @@ def fields_of(answer: Any) -> None:
         expect_type(found, dict, "It returned", "a dictionary")
         expect(
             all(isinstance(one, str) for pair in found.items() for one in pair),
-            "The names and values are not all texts.",
-            "bytes have the method decode()",
+            "Not all names and values are strings.",
+            "convert bytes with decode()",
         )
         for name, value in fields.items():
-            expect(name in found, f"The field {name} is missing.", "go on where the last field ended")
+            expect(name in found, f"The field {name} is missing.", "continue where the last field ended")
             expect(
                 found[name] == value,
                 f"The field {name} is {found[name]!r:.60}, not {value!r:.60}.",
-                "only the first = of a field separates; a length counts bytes, not letters",
+                "split only at the first = of a field; a length counts bytes, not letters",
             )
-        expect(
-            set(found) == set(fields), f"There are fields too many: {', '.join(set(found) - set(fields))}."
-        )
+        expect(set(found) == set(fields), f"There are extra fields: {', '.join(set(found) - set(fields))}.")
     for broken in (encode_header(HEADERS[0])[4:-1], struct.pack("<I", 50) + b"topic=/scan", b"\x01\x00"):
         try:
             answer(broken)
         except ValueError:
             continue
         except Exception as error:
-            raise Wrong(
-                f"For a header that is cut off it raised {type(error).__name__}, not ValueError."
-            ) from error
-        raise Wrong("It took a header that is cut off, or whose length lies.", "raise ValueError")
+            raise Wrong(f"For a truncated header it raised {type(error).__name__}.") from error
+        raise Wrong("It accepted a header that is truncated or has a wrong length.", "raise ValueError")
 
 
 # ---- 64.2: refusals ----
 
 
-@exercise("64.2", praise="The name of a type is for people; the sum decides.")
+@exercise("64.2", praise="The name of a type is for people; the md5 sum decides.")
 def culprits(answer: Any) -> None:
-    """The fields for which three connections were refused."""
+    """The fields because of which three connections were refused."""
     expect_type(answer, list | tuple, "culprits is", "a list")
     expect(len(answer) == 3, f"culprits has {len(answer)} entries, not three.")
     hints = (
-        "is it the publisher of what was asked for?",
+        "does this node publish the requested topic?",
         "read the answer: a field is missing",
-        "the publisher compares one thing only, and the name of the type is not it",
+        "the publisher compares only one field, and it is not the name of the type",
     )
     for number, (given, right, hint) in enumerate(
         zip(answer, ("topic", "md5sum", "md5sum"), hints, strict=True), 1
     ):
-        expect(given == right, f"Number {number} was not refused for {given}.", hint)
+        expect(given == right, f"Connection {number} was not refused because of {given}.", hint)
 
 
 # ---- 64.3: a subscriber ----
 
 TURNS = 2_000
-"""So often a reader may ask for bytes before it is said to ask for ever."""
+"""Number of reads without data after which the check reports an endless loop."""
 
 
 class _Trickle:
-    """A socket as the reader gets it: it lets the graph go on, and hands out few bytes at a time."""
+    """A socket for the reader: it drives the graph, and returns only a few bytes at a time."""
 
     def __init__(self, sock: socket.socket, graph: Graph, say: Callable[[], object]) -> None:
         self._socket, self._graph, self._say = sock, graph, say
@@ -112,7 +108,8 @@ class _Trickle:
                 self._turns += TURNS // 10
             return data
         raise Wrong(
-            "Your program asks for bytes that never come.", "recv returns b'' when the other end has closed"
+            "Your program waits for bytes that never arrive.",
+            "recv returns b'' when the other end has closed",
         )
 
     def close(self) -> None:
@@ -121,7 +118,7 @@ class _Trickle:
 
 @contextmanager
 def _online() -> Iterator[tuple[Graph, Callable[[tuple[str, int]], _Trickle], list[_Trickle]]]:
-    """A graph with a talker, reached over TCP, and what connects to it."""
+    """Yield a graph with a talker on TCP, a function that connects to it, and the open sockets."""
     opened: list[_Trickle] = []
     with Graph(transports=[LocalTransport, tcp()]) as graph:
         news = graph.node("announcer").publisher("/news", String, queue_size=10)
@@ -143,7 +140,7 @@ def _online() -> Iterator[tuple[Graph, Callable[[tuple[str, int]], _Trickle], li
 
 
 class _Master:
-    """The Master as the reader's proxy of it; it notes who registers."""
+    """The Master's proxy for the reader; it records registrations."""
 
     def __init__(self, graph: Graph) -> None:
         self._graph = graph
@@ -157,7 +154,7 @@ class _Master:
         return call
 
 
-@exercise("64.3", praise="That is a subscriber of ROS 1, and the rest is comfort.")
+@exercise("64.3", praise="You wrote a working ROS 1 subscriber from sockets alone.")
 def hear(answer: Any) -> None:
     """A subscriber made of sockets."""
     with _online() as (graph, connect, opened):
@@ -166,54 +163,50 @@ def hear(answer: Any) -> None:
             heard = answer(master, connect, "/news", String._type, String._md5sum)
         except struct.error as error:
             raise Wrong(
-                f"A piece of the bytes was taken for all of them: {error}.",
-                "recv(n) may return fewer than n bytes: ask until there are n",
+                f"A partial read was treated as the whole message: {error}.",
+                "recv(n) may return fewer than n bytes: repeat it until you have n",
             ) from error
         expect(
             ("registerSubscriber", "/ear", "/news", String._type) in [one[:4] for one in master.asked],
             "/ear did not register as a subscriber of the topic.",
-            "master.registerSubscriber(name, topic, type, address)",
+            "call master.registerSubscriber(name, topic, type, address)",
         )
-        expect(opened, "It opened no connection.", "sock = connect((host, port))")
+        expect(opened, "It opened no connection.", "call sock = connect((host, port))")
         expect_type(heard, bytes, "It returned", "the bytes of the message")
         expect(
             heard == struct.pack("<I", 5) + b"extra",
             f"It returned {heard!r:.60}, not the bytes of the message.",
-            "the first frame is the publisher's header, the second one the message; read all of each",
+            "the first frame is the publisher's header, the second the message; read both completely",
         )
     with redirect_stdout(StringIO()), redirect_stderr(StringIO()), _online() as (graph, connect, _):
-        try:  # what the publisher logs is not the reader's matter
+        try:  # the publisher's log is of no interest to the reader
             answer(_Master(graph), connect, "/news", String._type, "0" * 32)
         except ConnectionRefusedError:
             return
-        raise Wrong(
-            "It did not raise ConnectionRefusedError when the md5 sum was wrong.", "look for b'error='"
-        )
+        raise Wrong("It did not raise ConnectionRefusedError for a wrong md5 sum.", "look for b'error='")
 
 
 # ---- 64.4: stop, in bytes ----
 
 
 STOPS = (2.7, 2.95)
-"""Where the robot may stand in the end [m]: the wall is at 3.3 m, and a scan is up to 0.2 s old."""
+"""Range of the robot's final position [m]: the wall is at 3.3 m, and a scan is up to 0.2 s old."""
 
 
-@exercise("64.4", praise="The robot stood before the wall, and never heard of ROS.")
+@exercise("64.4", praise="The robot stopped in front of the wall, controlled by nothing but bytes.")
 def decide(answer: Any) -> None:
-    """A robot drives by the bytes that the reader's function returns, until it stands before the wall."""
+    """The bytes that the reader's function returns make a robot drive and stop in front of the wall."""
     clear = LaserScan(ranges=[3.0] * 360)
     clear.header.frame_id = "base_scan"
     frame = answer(clear._encode(clear))
     expect_type(frame, bytes, "It returned", "bytes")
     expect(
-        len(frame) == 52,
-        f"The frame has {len(frame)} bytes, not 52.",
-        "a length, and six numbers of eight bytes",
+        len(frame) == 52, f"The frame has {len(frame)} bytes, not 52.", "a length, and six numbers of 8 bytes"
     )
     expect(
         struct.unpack_from("<I", frame)[0] == 48,
         "The length of the frame is not 48.",
-        'struct.pack("<I6d", ...)',
+        'use pack("<I6d", ...)',
     )
     with Graph() as graph:
         sim = rosrun("rosmini_sim", "simulator", "_world:=room", "_noise:=0", graph=graph).instance()
@@ -228,19 +221,11 @@ def decide(answer: Any) -> None:
         x, y, heading = sim.truth()
         graph.run(1.0)
         stands = math.isclose(sim.truth()[0], x, abs_tol=1e-3)
-    expect(x > 0.1, "The robot did not set out.", "linear.x is the first of the six numbers")
-    expect(
-        abs(y) < 0.1 and abs(heading) < 0.2,
-        "The robot did not go straight ahead.",
-        "only linear.x is to be set",
-    )
-    expect(
-        stands,
-        "The robot does not stand after twenty seconds.",
-        "zeros when there is no more than 0.5 m ahead",
-    )
+    expect(x > 0.1, "The robot did not drive.", "linear.x is the first of the six numbers")
+    expect(abs(y) < 0.1 and abs(heading) < 0.2, "The robot did not go straight ahead.", "set only linear.x")
+    expect(stands, "The robot still drives after twenty seconds.", "return zeros at 0.5 m ahead or less")
     expect(
         STOPS[0] < x < STOPS[1],
-        f"The robot drove {x:.2f} m and stood there; half a metre before the wall is at about 2.8 m.",
+        f"The robot stopped after {x:.2f} m; half a metre before the wall is at about 2.8 m.",
         "compare the distance ahead with 0.5",
     )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 70, a goal by click: a pose, a way home, and goals that take too long."""
+"""Checks of the exercises in chapter 70, a goal by click: a pose, a way home, and goals that take too long."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ PULLS: tuple[tuple[Point, Point], ...] = (
 )
 
 
-@exercise("70.1", praise="That is all that the button does.")
+@exercise("70.1", praise="RViz's button computes exactly this.")
 def goal_of(answer: Any) -> None:
-    """The place where the mouse went down, and the heading in which it was pulled."""
+    """The goal from the point where the mouse was pressed and the direction of the drag."""
     for press, release in PULLS:
         goal = answer(press, release)
         pulled = f"From {press} to {release}"
@@ -37,29 +37,34 @@ def goal_of(answer: Any) -> None:
             "return a PoseStamped",
         )
         frame, at = goal.header.frame_id, goal.pose.position
-        expect(frame == "map", f"{pulled} the goal is in the frame {frame!r}.", "goal.header.frame_id")
+        expect(
+            frame == "map",
+            f"{pulled} the goal is in the frame {frame!r}, not 'map'.",
+            "set goal.header.frame_id",
+        )
         expect(
             math.dist((at.x, at.y), press) < 1e-6,
             f"{pulled} the goal is at ({at.x:g}, {at.y:g}).",
-            "the mouse goes down where the robot shall be",
+            "the position of the goal is where the mouse was pressed",
         )
         _expect_heading(goal, math.atan2(release[1] - press[1], release[0] - press[0]), pulled)
 
 
 def _expect_heading(goal: Any, yaw: float, what: str) -> None:
-    """The quaternion has the length 1, and turns by `yaw` about z."""
+    """Expect a quaternion of length 1 that turns by `yaw` about z."""
     q = goal.pose.orientation
     length = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2)
     expect(
         abs(length - 1) < 1e-3,
         f"{what} the quaternion has the length {length:.2f}, which move_base refuses.",
-        "z = sin(yaw / 2), w = cos(yaw / 2)",
+        "set z = sin(yaw / 2) and w = cos(yaw / 2)",
     )
     off = math.remainder(2 * math.atan2(q.z, q.w) - yaw, math.tau)
     expect(
         abs(off) < 1e-3 and abs(q.x) < 1e-6 and abs(q.y) < 1e-6,
-        f"{what} the heading is {math.degrees(yaw):.0f} degrees, and yours is {math.degrees(off):.0f} degrees off.",
-        "math.atan2(dy, dx) of the pull; a quaternion holds half of the angle",
+        f"{what} the heading should be {math.degrees(yaw):.0f} degrees; yours is off by "
+        f"{math.degrees(off):.0f} degrees.",
+        "use math.atan2(dy, dx) of the drag; a quaternion contains half of the angle",
     )
 
 
@@ -77,16 +82,16 @@ def _pose(frame: str, pose: tuple[float, float, float]) -> Any:
     return message
 
 
-@exercise("70.2", praise="Wherever it has been sent, one message brings it home.")
+@exercise("70.2", praise="One message brings the robot home from anywhere.")
 def home(answer: Script) -> None:
-    """The first pose is the goal, as often as somebody asks, and only then; its frame may have any name."""
+    """The first pose becomes the goal on each request, and only then; its frame may have any name."""
     for frame in ("map", "floor_2"):
         with TurtleTrial(None) as trial:
             desk = trial.graph.node("desk")
             heard: list[Any] = []
             desk.subscriber("move_base_simple/goal", PoseStamped, heard.append)
             poses = desk.publisher("amcl_pose", PoseWithCovarianceStamped, queue_size=5)
-            # who waits for one pose is not there for the next: without a listener, a publisher warns
+            # a script that waits for one pose unsubscribes; keep a subscriber, or the publisher warns
             desk.subscriber("amcl_pose", PoseWithCovarianceStamped, lambda _: None)
             ask = desk.publisher("home", Empty, queue_size=5)
             trial.start(answer)
@@ -94,26 +99,26 @@ def home(answer: Script) -> None:
                 trial.run(1.0)
                 poses.publish(_pose(frame, pose))
             trial.run(1.0)
-            expect(not heard, "It sent a goal before anybody had asked for it.", "publish in on_home")
+            expect(not heard, "It sent a goal before there was a message on home.", "publish in on_home")
             for asked in (1, 2):
                 ask.publish(Empty())
                 trial.run(1.0)
                 expect(
                     len(heard) == asked,
-                    f"Somebody asked {asked} times, and there were {len(heard)} goals.",
-                    "one message on move_base_simple/goal for each on home",
+                    f"There were {asked} messages on home, but {len(heard)} goals.",
+                    "publish one message on move_base_simple/goal for each message on home",
                 )
             goal = heard[-1]
             at, named = goal.pose.position, goal.header.frame_id
             expect(
                 named == frame,
-                f"amcl_pose was in the frame {frame!r}, and the goal is in {named!r}.",
-                "begin.header.frame_id",
+                f"amcl_pose was in the frame {frame!r}, but the goal is in {named!r}.",
+                "copy begin.header.frame_id",
             )
             expect(
                 math.dist((at.x, at.y), BEGIN[:2]) < 1e-6,
-                f"It was at {BEGIN[:2]} first, and the goal is at ({at.x:g}, {at.y:g}).",
-                "the first pose, not the last",
+                f"The robot was first at {BEGIN[:2]}, but the goal is at ({at.x:g}, {at.y:g}).",
+                "use the first pose, not the last",
             )
             _expect_heading(goal, BEGIN[2], "At home")
 
@@ -124,37 +129,37 @@ TABLES = [(1.0, 0.0), (2.0, 1.0), (0.0, 2.0)]
 PATIENCE = 5.0
 
 
-@exercise("70.3", praise="Two of three are served, and the kitchen knows why.")
+@exercise("70.3", praise="Two of three tables are served, and the kitchen knows which one is not.")
 def waiter(answer: Script) -> None:
-    """Three goals in order, and the one that lasts is cancelled after five seconds; it is another one each time."""
+    """Three goals in order; the slow one, a different one each time, is cancelled after five seconds."""
     for slow in (TABLES[1], TABLES[0]):
         with TurtleTrial(None) as trial:
             played = PlayedMoveBase(trial.graph, lasting={slow})
             handle = trial.start(answer)
             trial.run(25.0)
-            expect(bool(played.begun), "No goal came to move_base.", "client.send_goal(goal)")
+            expect(bool(played.begun), "move_base received no goal.", "call client.send_goal(goal)")
             expect(
                 not played.faults,
                 f"A goal is wrong: {''.join(played.faults[:1])}.",
-                "header.frame_id, orientation.w = 1",
+                "set header.frame_id, and orientation.w to 1",
             )
             expect(
                 played.begun == TABLES,
-                f"Within 25 s the goals were {played.begun}, with somebody in the way at {slow}.",
-                "wait_for_result(rospy.Duration(5)) returns False when the time is over",
+                f"Within 25 s the goals were {played.begun}, with the path to {slow} blocked.",
+                "wait_for_result(rospy.Duration(5)) returns False at the timeout",
             )
             hurried = [place for place in played.cut if place != slow]
             expect(
                 not hurried,
-                f"The goal {str(hurried)[1:-1]} was called off, and took three seconds only.",
-                "wait for each",
+                f"The goal {str(hurried)[1:-1]} was cancelled, although it needs only three seconds.",
+                "wait for the result of each goal",
             )
             took = played.took[slow]
             expect(
                 abs(took - PATIENCE) < 0.5,
-                f"The goal {slow} was called off after {took:.1f} s, not after {PATIENCE:g}.",
-                "rospy.Duration(5)",
+                f"The goal {slow} was cancelled after {took:.1f} s, not after {PATIENCE:g}.",
+                "use a timeout of rospy.Duration(5)",
             )
             expect(
-                handle.poll() is not None, "After the third goal the script goes on.", "no spin() at the end"
+                handle.poll() is not None, "The script still runs after the third goal.", "end without spin()"
             )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 71, frontier exploration."""
+"""Checks of the exercises in chapter 71, frontier exploration."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ Cells = set[tuple[int, int]]
 GROUPS: tuple[tuple[Cells, list[int], str], ...] = (
     ({(0, 0), (1, 0), (2, 0)}, [3], "three cells in a row are one frontier"),
     ({(0, 0), (1, 1), (2, 2), (3, 1)}, [4], "cells that touch at a corner belong together"),
-    ({(0, 0), (5, 5), (6, 5), (6, 6)}, [3, 1], "two that are apart are two, the largest first"),
+    ({(0, 0), (5, 5), (6, 5), (6, 6)}, [3, 1], "separate groups are separate frontiers, the largest first"),
     ({(0, 0), (0, 2), (2, 0), (1, 1)}, [4], "cells may be joined by a chain through others"),
-    ({(0, 0), (2, 0), (4, 1), (-3, -3)}, [1, 1, 1, 1], "with a cell between them they do not touch"),
-    (set(), [], "no cell makes no frontier"),
-    ({(i, 0) for i in range(20_000)}, [20_000], "a frontier may be very long: no recursion"),
+    ({(0, 0), (2, 0), (4, 1), (-3, -3)}, [1, 1, 1, 1], "cells with another cell between them do not touch"),
+    (set(), [], "without cells there is no frontier"),
+    ({(i, 0) for i in range(20_000)}, [20_000], "a frontier may be very long, so do not use recursion"),
 )
 
 
-@exercise("71.1", praise="What belongs together is together.")
+@exercise("71.1", praise="Your function finds the same groups as the explorer.")
 def sizes(answer: Any) -> None:
-    """Sizes of the connected groups."""
-    expect(callable(answer), f"sizes is {answer!r}, not a function.", "def sizes(cells): ...")
+    """The sizes of the connected groups."""
+    expect(callable(answer), f"sizes is {answer!r}, not a function.", "write def sizes(cells): ...")
     for cells, wanted, why in GROUPS:
         given = set(cells)
         try:
@@ -40,15 +40,15 @@ def sizes(answer: Any) -> None:
         except RecursionError:
             found = "a RecursionError"
         shown = sorted(cells) if len(cells) < 9 else f"{len(cells)} cells in a row"
-        said = f"For {shown} it says {found!r}; right is {wanted}."
+        said = f"For {shown} it returned {found!r}, not {wanted}."
         ok = isinstance(found, list | tuple) and list(found) == wanted
         expect(ok, said, why)
-        expect(given == cells, "It changes the set that it was given.", "left = set(cells) makes a copy")
+        expect(given == cells, "It changes the set in its argument.", "left = set(cells) makes a copy")
 
 
-@exercise("71.2", praise="No mouse was needed.")
+@exercise("71.2", praise="Your script replaces six clicks in RViz.")
 def clicker(answer: Script) -> None:
-    """The clicks that make `explore_client` send a square."""
+    """The points that make `explore_client` send a square."""
     with TurtleTrial(None) as trial:
         goals: list[Any] = []
         node = trial.graph.node("explore_server")
@@ -68,30 +68,30 @@ def clicker(answer: Script) -> None:
         vertices = client.selection.polygon
         expect(
             bool(goals),
-            f"Within 12 s after explore_client was there it sent no area; it has {len(vertices)} vertices.",
-            "corners, the first again, then a point inside; wait for get_num_connections() first",
+            f"explore_client sent no area within 12 s of its start; it has {len(vertices)} vertices.",
+            "publish the corners, the first one again, and a point inside; before, wait for get_num_connections()",
         )
         goal = goals[0]
         expect(
             goal.explore_boundary.header.frame_id.lstrip("/") == "map",
-            f"The frame is {goal.explore_boundary.header.frame_id!r}.",
-            'header.frame_id = "map"',
+            f"The frame is {goal.explore_boundary.header.frame_id!r}, not 'map'.",
+            'set header.frame_id = "map"',
         )
         corners = np.array([(p.x, p.y) for p in goal.explore_boundary.polygon.points])
         expect(
             len(corners) == 4 and crossing_sides(corners) is None,
             f"The polygon has the corners {[tuple(map(float, c)) for c in corners]}.",
-            "four, in order around the square",
+            "publish four corners, in order around the square",
         )
         expect(
             math.isclose(abs(area(corners)), 16.0, rel_tol=1e-3)
             and bool((abs(abs(corners) - 2) < 1e-3).all()),
             f"Its area is {abs(area(corners)):.1f} m2; a square with sides of 4 m around the origin has 16 m2.",
-            "from -2 to 2 along both axes",
+            "it goes from -2 to 2 along both axes",
         )
 
 
-@exercise("71.3", praise="Now you can watch it learn.")
+@exercise("71.3", praise="The number grows while the robot explores.")
 def surveyor(answer: Script) -> None:
     """The known area of each map."""
     draw = np.random.default_rng(3)
@@ -110,10 +110,10 @@ def surveyor(answer: Script) -> None:
             maps.publish(message)
             trial.run(1.0)
             wanted = float((cells >= 0).sum()) * resolution**2
-            expect(bool(heard), "Nothing came on known_area after a map.", "area.publish(...) in on_map")
+            expect(bool(heard), "There was no message on known_area.", "call area.publish(...) in on_map")
             expect(
                 math.isclose(heard[-1], wanted, rel_tol=1e-4),
-                f"Of a map with {(cells >= 0).sum()} known cells of {resolution} m it says {heard[-1]:.4g} m2; "
-                f"right is {wanted:.4g} m2.",
-                "known cells times resolution squared; free is 0, occupied 100, unknown -1",
+                f"Of a map with {(cells >= 0).sum()} known cells of {resolution} m it published {heard[-1]:.4g} m2, "
+                f"not {wanted:.4g} m2.",
+                "multiply the number of known cells by the resolution squared; free is 0, occupied 100, unknown -1",
             )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 72, explore_lite."""
+"""Checks of the exercises in chapter 72, explore_lite."""
 
 from __future__ import annotations
 
@@ -12,36 +12,46 @@ from rosmini.msgs.std_msgs.msg import Bool
 Frontiers = list[tuple[float, int]]
 
 CASES: tuple[tuple[Frontiers, tuple[float, float, float, float], int | None, str], ...] = (
-    ([(1.0, 10), (2.0, 18), (6.0, 60)], (3.0, 1.0, 0.0, 0.05), 2, "size outweighs the way"),
+    ([(1.0, 10), (2.0, 18), (6.0, 60)], (3.0, 1.0, 0.0, 0.05), 2, "the size outweighs the distance"),
     (
         [(1.0, 10), (2.0, 18), (6.0, 60)],
         (24.0, 1.0, 0.0, 0.05),
         0,
-        "with a large potential_scale the near one",
+        "with a large potential_scale the near frontier is the cheapest",
     ),
-    ([(1.0, 10), (2.0, 18), (6.0, 60)], (24.0, 1.0, 0.75, 0.05), 1, "short ones are left out"),
-    ([(1.0, 10), (2.0, 15)], (3.0, 1.0, 0.75, 0.05), 1, "exactly the least length is long enough"),
-    ([(1.0, 10)], (3.0, 1.0, 0.75, 0.05), None, "none is long enough"),
-    ([], (3.0, 1.0, 0.0, 0.05), None, "there is none at all"),
+    (
+        [(1.0, 10), (2.0, 18), (6.0, 60)],
+        (24.0, 1.0, 0.75, 0.05),
+        1,
+        "frontiers that are too short are ignored",
+    ),
+    (
+        [(1.0, 10), (2.0, 15)],
+        (3.0, 1.0, 0.75, 0.05),
+        1,
+        "a frontier of exactly the minimum length is long enough",
+    ),
+    ([(1.0, 10)], (3.0, 1.0, 0.75, 0.05), None, "no frontier is long enough"),
+    ([], (3.0, 1.0, 0.0, 0.05), None, "there are no frontiers"),
     (
         [(3.0, 9), (1.0, 2)],
         (1.0, 0.5, 0.0, 1.0),
         0,
-        "the distance is in meters, the size in cells, both times r",
+        "the distance is in metres and the size in cells; r converts cells to metres",
     ),
 )
 
 
-@exercise("72.1", praise="Greedy, and right.")
+@exercise("72.1", praise="This is the frontier that the greedy explorer chooses.")
 def cheapest(answer: Any) -> None:
-    """The index of the frontier that costs least."""
-    expect(callable(answer), f"cheapest is {answer!r}, not a function.", "def cheapest(...): ...")
+    """The index of the frontier with the lowest cost."""
+    expect(callable(answer), f"cheapest is {answer!r}, not a function.", "write def cheapest(...): ...")
     for frontiers, numbers, wanted, why in CASES:
         found = answer(list(frontiers), *numbers)
         potential, gain, least, r = numbers
         said = (
-            f"For {frontiers} with potential {potential}, gain {gain}, least {least} m and r {r} m it says "
-            f"{found!r}; right is {wanted!r}."
+            f"For {frontiers} with potential {potential}, gain {gain}, minimum {least} m and r {r} m it returned "
+            f"{found!r}, not {wanted!r}."
         )
         expect(found == wanted and isinstance(found, bool) is False, said, why)
 
@@ -60,12 +70,12 @@ LEVELS = (
     (0.15, False),
     (0.85, True),
 )
-"""What the battery has, and what is to be said then."""
+"""Battery levels, and the expected messages."""
 
 
-@exercise("72.2", praise="It rests when it has to, and not a moment longer.")
+@exercise("72.2", praise="The robot stops at a low battery and continues as soon as it is charged.")
 def guard(answer: Script) -> None:
-    """Stops the explorer for an empty battery, and lets it go on."""
+    """A node that pauses the explorer at a low battery and resumes it later."""
     with TurtleTrial(None) as trial:
         node = trial.graph.node("board")
         heard: list[bool] = []
@@ -80,53 +90,53 @@ def guard(answer: Script) -> None:
             right = [] if wanted is None else [wanted]
             expect(
                 heard == right,
-                f"At {level:.0%} it says {heard or 'nothing'} on explore/resume; right is {right or 'nothing'}.",
-                "False below 0.2, True above 0.8, each once, and first of all it has to have been low",
+                f"At {level:.0%} it published {heard or 'nothing'} on explore/resume, not {right or 'nothing'}.",
+                "publish False once below 0.2, and True once above 0.8, but only after the level was low",
             )
 
 
 R = 0.05
-"""The side of a cell [m]."""
+"""Size of a cell [m]."""
 
 
 def _cost(potential: float, gain: float, distance: float, length: float) -> float:
     return potential * distance * R - gain * length
 
 
-@exercise("72.3", praise="Careful, and home for dinner.", truths=("return_to_init",))
+@exercise("72.3", praise="The robot prefers short trips and returns at the end.", truths=("return_to_init",))
 def cautious(answer: Any) -> None:
-    """Parameters that weigh as asked."""
+    """Parameters that weigh distance and size as the task asks."""
     expect_type(answer, dict, "parameters is", "a dictionary")
     known = {"gain_scale", "potential_scale", "min_frontier_size", "progress_timeout", "return_to_init"}
     expect(
         answer.get("gain_scale") == 1,
         f"gain_scale is {answer.get('gain_scale')!r}, not 1.",
-        "as the task says",
+        "the task gives its value",
     )
     potential = answer.get("potential_scale")
     ok = isinstance(potential, int | float) and not isinstance(potential, bool)
-    expect(ok, f"potential_scale is {potential!r}, no number.", "a number between two borders")
+    expect(ok, f"potential_scale is {potential!r}, not a number.", "it is a number between two bounds")
     near, far = _cost(potential, 1.0, 2.0, 0.8), _cost(potential, 1.0, 5.0, 2.4)
     expect(
         near < far,
-        f"With potential_scale {potential:g} the near one costs {near:+.2f}, the large one at 5 m {far:+.2f}.",
-        "the way has to weigh more",
+        f"With potential_scale {potential:g} the near frontier costs {near:+.2f}, the large one at 5 m {far:+.2f}.",
+        "give the distance more weight",
     )
     middle = _cost(potential, 1.0, 3.0, 2.4)
     expect(
         middle < near,
-        f"With potential_scale {potential:g} the near one costs {near:+.2f}, the large one at 3 m {middle:+.2f}.",
-        "the way has to weigh less",
+        f"With potential_scale {potential:g} the near frontier costs {near:+.2f}, the large one at 3 m {middle:+.2f}.",
+        "give the distance less weight",
     )
     for name, wanted in (("min_frontier_size", 0.6), ("progress_timeout", 15), ("return_to_init", True)):
         expect(
             name in answer and answer[name] == wanted,
-            f"{name} is {answer.get(name)!r}; right is {wanted!r}.",
-            "see the table of parameters",
+            f"{name} is {answer.get(name)!r}, not {wanted!r}.",
+            "read the table of parameters",
         )
     others = sorted(set(answer) - known)
     expect(
         not others,
-        f"explore has no parameter {', '.join(map(str, others))} that matters here.",
-        "five are enough",
+        f"{', '.join(map(str, others))} is not a parameter of explore that matters here.",
+        "five parameters are enough",
     )

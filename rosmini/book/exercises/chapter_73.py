@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 73, many TurtleBots."""
+"""Checks of the exercises in chapter 73, many TurtleBots."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _twist(v: float, w: float = 0.0) -> Any:
 
 
 def _robots(graph: Graph, *starts: tuple[str, float, float, float], noise: float = 1.0) -> Simulator:
-    """A simulator of an empty world with robots that have a name, a place and a heading."""
+    """Start a simulator of an empty world; each robot has a name, a position and a heading."""
     node = graph.node("simulator")
     node.set_param("~robots", [dict(zip(("name", "x", "y", "yaw"), each, strict=True)) for each in starts])
     node.set_param("~noise", noise)
@@ -35,7 +35,7 @@ def _robots(graph: Graph, *starts: tuple[str, float, float, float], noise: float
 
 
 def _drive(graph: Graph, topic: str, v: float, w: float, seconds: float) -> None:
-    """Repeat a command ten times a second."""
+    """Publish a command ten times a second."""
     driver = graph.node("checking_driver", anonymous=True)
     cmd_vel = driver.publisher(topic, Twist, queue_size=1)
     cmd_vel.wait_for_subscribers()
@@ -48,66 +48,60 @@ def _drive(graph: Graph, topic: str, v: float, w: float, seconds: float) -> None
 # ---- 73.1: one more robot ----
 
 
-@exercise(
-    "73.1",
-    praise="Two robots came to their places in a world of Gazebo, each with its topics in a namespace of its own.",
-)
+@exercise("73.1", praise="Two robots were spawned in a Gazebo world, each with topics in its namespace.")
 def spawn_words(answer: Any) -> None:
-    """The words with which rosrun starts spawn_model for another robot."""
+    """The arguments with which rosrun starts spawn_model for another robot."""
     wanted = {"tb3_2": (1.0, -0.5, 1.5), "robby": (-1.0, 0.5, 0.0)}
     packages = PackageIndex()
     burger = packages.path("turtlebot3_description") / "urdf" / "turtlebot3_burger.urdf.xacro"
-    with redirect_stdout(StringIO()), Graph() as graph:  # what Gazebo logs is not the check's word
+    with redirect_stdout(StringIO()), Graph() as graph:  # hide Gazebo's log
         server = rosrun("gazebo_ros", "gzserver", graph=graph).instance()
         for name, (x, y, yaw) in wanted.items():
             graph.master.setParam("/checking", f"/{name}/robot_description", xacro.expand(burger))
             words = answer(name, x, y, yaw)
             if not isinstance(words, list | tuple) or not all(isinstance(word, str) for word in words):
                 raise Wrong(
-                    f"It returned a {type(words).__name__}, not a list of words.", "text.split() makes one"
+                    f"It returned a {type(words).__name__}, not a list of words.",
+                    "text.split() returns a list",
                 )
             said = StringIO()
             done = rosrun("gazebo_ros", "spawn_model", *words, graph=graph, stdout=said, stderr=said).wait()
             expect(
                 done == 0 and name in server.world.models,
-                f"spawn_model was started, but no model {name} came.",
-                "-urdf, -model, -param and the namespace in which the parameter is: look at the launch file",
+                f"spawn_model ran, but did not spawn a model {name}.",
+                "use -urdf, -model, -param and the namespace of the parameter, as in the launch file",
             )
             found = server.truth(name)
             expect(
                 math.dist(found, (x, y, yaw)) < 0.05,
-                f"{name} should come to ({x}, {y}) with heading {yaw}; it came to "
+                f"{name} should be spawned at ({x}, {y}) with heading {yaw}, but is at "
                 f"({found[0]:.1f}, {found[1]:.1f}) with heading {found[2]:.1f}.",
-                "-x and -y in metres, -Y for the heading in radians",
+                "set -x and -y in metres, and -Y, the heading, in radians",
             )
             topics = [topic for topic, _ in graph.master.getTopicTypes("/checking")[2]]
-            expect(
-                f"/{name}/scan" in topics,
-                f"There is no topic /{name}/scan.",
-                "the node has to be started in the robot's namespace",
-            )
+            expect(f"/{name}/scan" in topics, f"There is no topic /{name}/scan.", "start it in its namespace")
 
 
 # ---- 73.2: follow me ----
 
 
 def _gap(sim: Simulator, robot: str) -> float:
-    """The least range ahead of a robot."""
+    """Return the shortest range ahead of a robot."""
     ranges = sim.last_scan(robot).ranges
     return float(min(ranges[-10:].min(), ranges[:11].min()))
 
 
-@exercise("73.2", praise="Three robots drove in a row, and nobody touched anybody.")
+@exercise("73.2", praise="Three robots drove in a row without touching each other.")
 def follow(answer: Any) -> None:
-    """A node that keeps a robot 0.4 m behind what is ahead of it."""
+    """A node that keeps a robot 0.4 m behind the object ahead of it."""
     with Graph() as graph:
         sim = _robots(graph, ("alone", 0.0, 0.0, 0.0), ("nearby", -0.35, 0.0, 0.0))
         answer(graph, "alone")
         graph.run(5.0)
         expect(
             math.dist(sim.truth("alone")[:2], (0.0, 0.0)) < 0.02,
-            "With nothing ahead of it, and a robot right behind it, the follower did not stand still.",
-            "look ahead only, and stand if nothing is within a metre",
+            "The follower moved with nothing ahead of it and a robot right behind it.",
+            "use only beams ahead, and stop if nothing is within a metre",
         )
     with Graph() as graph:
         sim = _robots(graph, ("leader", 0.0, 0.0, 0.0), ("middle", -0.7, 0.0, 0.0), ("back", -1.4, 0.0, 0.0))
@@ -117,30 +111,30 @@ def follow(answer: Any) -> None:
         for _ in range(20):
             _drive(graph, "leader/cmd_vel", 0.1, 0.0, 1.0)
             touched = [robot for robot in sim.robots if sim.engine.touching(robot)]
-            expect(not touched, "The follower drove into the one ahead of it.", "stand when it is 0.4 m away")
+            expect(not touched, "The follower drove into the robot ahead.", "stop at a distance of 0.4 m")
         for robot in ("middle", "back"):
             gap = _gap(sim, robot)
             expect(
                 0.3 < gap < 0.6,
-                f"While the leader drives with 0.1 m/s, {robot} should be about 0.4 m behind; it is {gap:.1f} m.",
-                "drive faster the farther what is ahead is beyond 0.4 m",
+                f"While the leader drives at 0.1 m/s, {robot} should be about 0.4 m behind; it is {gap:.1f} m behind.",
+                "make the speed grow with the distance beyond 0.4 m",
             )
         graph.run(8.0)
         before = sim.truth("back")
         graph.run(2.0)
         expect(
             math.dist(before, sim.truth("back")) < 0.02 and 0.3 < _gap(sim, "back") < 0.5,
-            "The leader stands, but the last follower does not stand 0.4 m behind the one ahead of it.",
-            "at 0.4 m the speed is 0",
+            "The leader has stopped, but the last follower did not stop 0.4 m behind the robot ahead.",
+            "the speed is 0 at 0.4 m",
         )
 
 
 # ---- 73.3: seen from another robot ----
 
 
-@exercise("73.3", praise="Both trees hang from map, so tf finds the way up the one and down the other.")
+@exercise("73.3", praise="Both trees have the root map, so tf goes up one and down the other.")
 def seen_from(answer: Any) -> None:
-    """How far away, and in which direction, a robot's laser has another robot."""
+    """The distance and direction from a robot's laser to another robot."""
     buffer = Buffer(None)
 
     def tell(parent: str, child: str, transform: Rigid) -> None:
@@ -157,19 +151,17 @@ def seen_from(answer: Any) -> None:
         place = buffer.lookup_transform(f"{robot}/base_scan", f"{other}/base_footprint").transform.translation
         found = answer(buffer, robot, other)
         if not isinstance(found, tuple) or len(found) != 2:
-            raise Wrong(
-                "It has to return two numbers, the distance and the bearing.", "return distance, bearing"
-            )
+            raise Wrong("It must return two numbers, distance and bearing.", "return distance, bearing")
         distance, bearing = math.hypot(place.x, place.y), math.atan2(place.y, place.x)
         expect(
             abs(found[0] - distance) < 1e-3,
             f"Seen from the laser of {robot}, {other} is {distance:.3f} m away, not {found[0]:.3f} m.",
-            "look up base_footprint of the other one in base_scan of this one, each with its prefix",
+            "look up base_footprint of the other robot in base_scan of this one, each with its prefix",
         )
         expect(
             abs(found[1] - bearing) < 1e-3,
             f"Seen from the laser of {robot}, {other} is at {bearing:.3f} rad, not {found[1]:.3f} rad.",
-            "math.atan2(y, x)",
+            "use math.atan2(y, x)",
         )
 
 
@@ -196,11 +188,9 @@ def _best(graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float])
     return choices[far.index(min(far))]
 
 
-@exercise(
-    "73.4", praise="It looked three seconds ahead, once for each choice, and nobody in the world noticed."
-)
+@exercise("73.4", praise="Your function tried each choice for three seconds and left the world unchanged.")
 def rehearse(answer: Any) -> None:
-    """The command that takes a robot nearest to a goal within three seconds, found by trying each."""
+    """The command that brings a robot nearest to a goal within three seconds, found by trying each one."""
     choices = [(0.2, 0.0), (0.2, 0.5), (0.2, -0.5), (0.0, 0.0)]
     for blocked in (True, False):
         with Graph() as graph:
@@ -212,17 +202,17 @@ def rehearse(answer: Any) -> None:
             found = answer(graph, sim, choices, goal)
             expect(
                 found in choices,
-                f"It returned {found!r}, which is none of the choices.",
-                "return one of the pairs",
+                f"It returned {found!r}, which is not one of the choices.",
+                "return one of the given pairs",
             )
             expect(
                 all(sim.truth(each.name) == each.state["pose"] for each in before.host.engine.robots),
-                "Afterwards the robots are not where they were.",
-                "sim.restore(...) after each attempt, the last one too",
+                "After the call, the robots are not at their old poses.",
+                "call sim.restore(...) after each attempt, also after the last",
             )
             where = "with a robot ahead of it" if blocked else "with nothing ahead of it"
             expect(
                 found == wanted,
-                f"From (0, 0), {where}, {wanted} leads nearest to {goal}; your function chose {found}.",
-                "save, drive for three seconds, measure the distance to the goal, restore; then the next one",
+                f"From (0, 0), {where}, {wanted} ends nearest to {goal}; your function chose {found}.",
+                "for each command: save, drive for three seconds, measure the distance to the goal, and restore",
             )

@@ -1,4 +1,4 @@
-"""The exercises of chapter 74: what is new in a graph, who drives, and which nodes end."""
+"""Checks of the exercises in chapter 74: new nodes in a graph, the publishers of a topic, and nodes that end."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ STEERED: State = [
 ]
 
 
-@exercise("74.1", praise="This is what rqt_graph draws in bold.")
+@exercise("74.1", praise="rqt_graph draws the same nodes in bold.")
 def new_nodes(answer: Any) -> None:
-    """The nodes that are in the second state only."""
+    """The nodes that are only in the second state."""
     for before, after, wanted in (
         (ROBOT, STEERED, ["/a_script", "/server", "/teleop", "/watcher"]),
         (STEERED, ROBOT, []),
@@ -31,15 +31,15 @@ def new_nodes(answer: Any) -> None:
         found = answer(before, after)
         expect(
             found == wanted,
-            f"From {len(before[0])} to {len(after[0])} topics that are published, {wanted} came; your function "
+            f"Between {len(before[0])} and {len(after[0])} published topics, {wanted} are new; your function "
             f"returned {found!r}.",
-            "look into all three lists, subtract sets, and sort",
+            "collect the nodes of all three lists, subtract the sets, and sort",
         )
 
 
-@exercise("74.2", praise="Two names in this list are one too many.")
+@exercise("74.2", praise="If this list has two names, two nodes fight over the robot.")
 def drivers(answer: Any) -> None:
-    """Who publishes on a topic."""
+    """The publishers of a topic."""
     for state, topic, wanted in (
         (STEERED, "/cmd_vel", ["/a_script", "/move_base", "/teleop"]),
         (ROBOT, "/odom", ["/simulator"]),
@@ -49,14 +49,14 @@ def drivers(answer: Any) -> None:
         found = answer(state, topic)
         expect(
             found == wanted,
-            f"On {topic} these publish: {wanted}; your function returned {found!r}.",
-            "the publishers are the first list; one who subscribes does not drive",
+            f"The publishers of {topic} are {wanted}; your function returned {found!r}.",
+            "the first list contains the publishers; ignore the subscribers",
         )
 
 
-@exercise("74.3", praise="So the Master does, each time.")
+@exercise("74.3", praise="The Master does the same for each duplicate name.")
 def ended(answer: Any) -> None:
-    """Which nodes are ended, in order."""
+    """The nodes that the Master ends, in order."""
     stage = ["/move_base_node", "/stageros", "/slam_gmapping"]
     for launches, wanted in (
         ([stage, ["/move_base_node"]], ["/move_base_node"]),
@@ -68,5 +68,5 @@ def ended(answer: Any) -> None:
         expect(
             found == wanted,
             f"After {launches} the Master has ended {wanted}; your function returned {found!r}.",
-            "a node that took a name can lose it in turn",
+            "a node that took over a name can lose it again",
         )

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 90, Logo: programs, tried on paper and on a robot, and a node."""
+"""Checks of the exercises in chapter 90, Logo: programs, run on paper and on a robot, and a node."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ PLACES = ((60, 0), (60, 80), (0, 80))
 
 
 def _text(program: Any) -> str:
-    """The program of an answer, without the line of the magic. Raises `Wrong` for what is no text."""
-    expect(isinstance(program, str), f"An answer is a program as a text, not a {type(program).__name__}.")
+    """Return the program of an answer, without the line of the magic. Raises `Wrong` if it is not a string."""
+    expect(isinstance(program, str), f"The program must be a string, not a {type(program).__name__}.")
     return re.sub(r"\A\s*%%logo.*", "", program)
 
 
 def _words(program: Any) -> list[str]:
-    """The words of a program, in lower case and without brackets and comments."""
+    """Return the words of a program, in lower case, without brackets and comments."""
     return re.sub(r";.*|[\[\]()]", " ", _text(program).lower()).split()
 
 
 def _calls_itself(program: Any) -> bool:
-    """Whether a procedure of the program has its own name in its body."""
+    """Return whether a procedure of the program calls itself."""
     bodies = re.findall(r"(?:^|\s)to (\S+)(.*?)\send(?=\s|$)", " ".join(_words(program)))
     return any(name in body.split() for name, body in bodies)
 
 
 def drawn(program: Any, *lines: str) -> Drawing:
-    """Run a program on paper, then these lines; return what is drawn. Raises `Wrong` for what is no text."""
+    """Run a program on paper, then these lines; return the drawing. Raises `Wrong` if the program is not a string."""
     said: list[str] = []
     logo = Logo(say=said.append, limits=LIMITS)
     logo.run(_text(program))
@@ -51,7 +51,7 @@ def drawn(program: Any, *lines: str) -> Drawing:
 
 
 def _corners(drawing: Drawing) -> list[tuple[int, int]]:
-    """Where lines end, rounded to a step."""
+    """Return the end points of the lines, rounded to a step."""
     return [(round(line.end.x), round(line.end.y)) for line in drawing.lines]
 
 
@@ -63,11 +63,9 @@ def _is_home(drawing: Drawing) -> bool:
 # ---- 90.1: all regular polygons ----
 
 
-@exercise(
-    "90.1", praise="One line for all of them: whatever the number of sides, the turns make one whole turn."
-)
+@exercise("90.1", praise="One line draws every polygon: the turns always add up to one full turn.")
 def polygon(answer: Any) -> Any:
-    """Polygons of three, five and eight sides, and of another length."""
+    """Polygons with three, five and eight sides, and with different lengths."""
     for sides, length in ((3, 120), (5, 60), (8, 50)):
         drawing = drawn(answer, f"polygon {sides} {length}")
         found, call = len(drawing.lines), f"polygon {sides} {length}"
@@ -76,8 +74,8 @@ def polygon(answer: Any) -> Any:
         expect(lengths == {length}, f"The sides of `{call}` are {sorted(lengths)} steps long, not {length}.")
         expect(
             _is_home(drawing),
-            f"After `{call}` the turtle is not where and as it began.",
-            "all turns make 360 degrees",
+            f"After `{call}` the turtle has a different position or heading than at the start.",
+            "all turns add up to 360 degrees",
         )
     return drawn(answer, "polygon 3 90 polygon 5 90 polygon 8 90").show()
 
@@ -85,10 +83,12 @@ def polygon(answer: Any) -> Any:
 # ---- 90.2: stairs that end ----
 
 
-@exercise("90.2", praise="It asks whether it is done before it does anything.")
+@exercise("90.2", praise="Your procedure checks whether it is done before it draws.")
 def stairs(answer: Any) -> Any:
-    """Five steps, each smaller than the one before; and none."""
-    expect(not drawn(answer, "stairs 0 40").lines, "`stairs 0 40` drew something.", "ask first, then draw")
+    """Five steps, each smaller than the previous one; and no step."""
+    expect(
+        not drawn(answer, "stairs 0 40").lines, "`stairs 0 40` drew something.", "first compare, then draw"
+    )
     drawing = drawn(answer, "stairs 5 40")
     found = len(drawing.lines)
     expect(found == 10, f"`stairs 5 40` drew {found} lines, not 10.")
@@ -100,52 +100,56 @@ def stairs(answer: Any) -> Any:
     missing = next((a for a, b in zip(wanted, _corners(drawing), strict=True) if a != b), None)
     expect(
         missing is None,
-        f"A corner should be near {missing}, and is not there.",
-        "up first, then to the right",
+        f"There should be a corner near {missing}, but there is none.",
+        "draw up first, then to the right",
     )
-    expect(_calls_itself(answer), "The procedure does not call itself.", "stairs with one step less")
+    expect(_calls_itself(answer), "The procedure does not call itself.", "end with stairs and one step less")
     return drawing.show()
 
 
 # ---- 90.3: a delivery round ----
 
 
-@exercise("90.3", praise="The same program on paper and on wheels.")
+@exercise("90.3", praise="The same program draws on paper and drives a robot.")
 def visit(answer: Any) -> Any:
-    """A round on paper, another one, and the first one on a robot."""
+    """Two tours on paper, and the first of them on a robot."""
     line = f"visit [{' '.join(f'[{x} {y}]' for x, y in PLACES)}]"
     forbidden = sorted(set(_words(answer)) & {"setpos", "setxy", "setx", "sety"})
     expect(
         not forbidden,
-        f"{' and '.join(forbidden)} should not be in it.",
-        "turn towards the place, then go forward",
+        f"The program must not use {' and '.join(forbidden)}.",
+        "turn towards a point, then go forward",
     )
     for places in (PLACES, ((-50, 20), (30, -70))):
         call = f"visit [{' '.join(f'[{x} {y}]' for x, y in places)}]"
         drawing = drawn(answer, call)
         corners = _corners(drawing)
         expect(corners[: len(places)] == list(places), f"`{call}` went to {corners}.", "setheading towards ?")
-        expect(_is_home(drawing), f"After `{call}` the turtle is not home.", "home is the last word")
+        expect(_is_home(drawing), f"After `{call}` the turtle is not home.", "end with home")
         for stroke in drawing.lines[:-1]:
             bearing = math.degrees(math.atan2(stroke.end.x - stroke.start.x, stroke.end.y - stroke.start.y))
             ahead = abs(math.remainder(bearing - stroke.end.heading, 360)) < 1
-            expect(ahead, "It does not look where it goes.", "setheading towards ?, then forward")
+            expect(
+                ahead,
+                "The turtle does not face the point to which it moves.",
+                "use setheading towards ?, then forward",
+            )
     with Trial("empty") as trial:
         trial.graph.run(0.5)
         logo = Logo.on(trial.graph.node("logo"), say=lambda _: None, limits=LIMITS)
         logo.run(_text(answer))
         logo.run(line)
         x, y, _ = trial.robot.truth()
-        expect(math.hypot(x, y) < 0.3, f"The robot is not home: it stands at ({x:.1f}, {y:.1f}).")
+        expect(math.hypot(x, y) < 0.3, f"The robot is not home, but at ({x:.1f}, {y:.1f}).")
         return logo.drawing.show()
 
 
-# ---- 90.4: a turtle of your own ----
+# ---- 90.4: your own turtle ----
 
 
-@exercise("90.4", praise="A Logo of two words, for any node that has something to say.")
+@exercise("90.4", praise="Any node can now draw by publishing two words of Logo.")
 def tiny_logo(answer: Script) -> Any:
-    """A node that obeys commands on a topic, and lives through what it does not understand."""
+    """A node that obeys commands on a topic and survives invalid ones."""
     with Graph(strict=False) as graph:
         started = rosrun("turtlesim", "turtlesim_node", graph=graph, capture_output=True)
         sim = cast("TurtleSim", cast("Any", started).instance())
@@ -170,19 +174,19 @@ def tiny_logo(answer: Script) -> Any:
         ):
             publisher.publish(command)
             graph.run(0.5)
-        expect(handle.poll() is None, "It has ended.", "rospy.spin() keeps a node alive")
+        expect(handle.poll() is None, "The script has ended.", "rospy.spin() keeps a node alive")
         said = console.captured or ""
         expect(
             "bad callback" not in said and "Error" not in said,
             "A callback failed.",
-            "try ... except ValueError",
+            "catch it with try ... except ValueError",
         )
         turtle = sim.frame.turtles["turtle1"]
         x, y = turtle.x - 499 / 90, turtle.y - 499 / 90
-        place = f"The turtle is {x:.2f} m to the right and {y:.2f} m above the middle"
+        place = f"The turtle is {x:.2f} m to the right of the centre and {y:.2f} m above it"
         expect(
             math.hypot(x - 0, y + 2) < 0.01,
             f"{place}, not 0.00 and -2.00.",
-            "45 steps are a metre; right is clockwise",
+            "one metre is 45 steps; right turns clockwise",
         )
         return sim.show()

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 91, Actions."""
+"""Checks of the exercises in chapter 91, Actions."""
 
 from __future__ import annotations
 
@@ -33,36 +33,34 @@ def _ends(status: Status) -> set[Status]:
     return {end for after in nexts for end in _ends(after)}
 
 
-@exercise(
-    "91.1", praise="A goal that was accepted can no longer be rejected or recalled: the robot may have moved."
-)
+@exercise("91.1", praise="An accepted goal cannot be rejected or recalled: the robot may have moved.")
 def possible_ends(answer: Any) -> None:
-    """The final statuses that a goal can still come to."""
+    """The final statuses that a goal can still reach."""
     for status in Status:
         if status is Status.LOST:
             continue
         found, expected = answer(status), _ends(status)
-        expect_type(found, set, "It returned", "a set", "set() makes an empty one, and | unites two")
+        expect_type(found, set, "It returned", "a set", "set() is an empty set, and | unites two sets")
         expect(
             all(isinstance(end, Status) for end in found),
-            "The set holds something else than statuses.",
-            "take them from the dictionaries as they are",
+            "The set contains objects that are not statuses.",
+            "take them from the dictionaries unchanged",
         )
         if status.is_terminal:
             expect(
-                found == expected, f"{status.name} is final: it comes to itself only.", "status.is_terminal"
+                found == expected,
+                f"{status.name} is final, so the only end is itself.",
+                "check status.is_terminal",
             )
         missing = sorted(end.name for end in expected - found)
         expect(
             not missing,
-            f"From {status.name} a goal can also come to {', '.join(missing)}.",
-            "follow the arrows from each status that you reach, not only from the first",
+            f"From {status.name} a goal can also reach {', '.join(missing)}.",
+            "follow the arrows from every status that you reach, not only from the first",
         )
         extra = sorted(end.name for end in found - expected)
         expect(
-            not extra,
-            f"From {status.name} no way leads to the end {', '.join(extra)}.",
-            "look at figure 91.2",
+            not extra, f"From {status.name} a goal cannot reach {', '.join(extra)}.", "look at figure 91.2"
         )
 
 
@@ -70,7 +68,7 @@ def possible_ends(answer: Any) -> None:
 
 
 def _count(graph: Graph) -> None:
-    """Start a server that counts as the exercise asks."""
+    """Start a server that counts as the exercise requires."""
     node = graph.node("counter")
 
     def count(goal: Any) -> None:
@@ -86,10 +84,11 @@ def _count(graph: Graph) -> None:
 
 
 @exercise(
-    "91.2", praise="Between two looks at `is_preempt_requested` nobody can stop it: keep them close together."
+    "91.2",
+    praise="The goal can be stopped only where the server calls `is_preempt_requested`, so call it often.",
 )
 def start_counter(answer: Any) -> None:
-    """An action server that counts, tells, and stops."""
+    """An action server that counts, publishes feedback and can be stopped."""
     with Graph() as graph:
         answer(graph)
         expect_node(graph, "/counter")
@@ -97,7 +96,7 @@ def start_counter(answer: Any) -> None:
         expect(
             client.wait_for_server(1.0),
             "No action server answers on /count.",
-            'SimpleActionServer(node, "count", TestAction, ...)',
+            'use SimpleActionServer(node, "count", TestAction, ...)',
         )
         heard: list[tuple[int, int]] = []
         begin = graph.now()
@@ -106,27 +105,27 @@ def start_counter(answer: Any) -> None:
             heard.append((round((graph.now() - begin).to_sec()), feedback.feedback))
 
         client.send_goal(TestGoal(3), feedback_cb=note)
-        expect(client.wait_for_result(20.0), "A goal of 3 has not ended after 20 s.", "set_succeeded(...)")
+        expect(client.wait_for_result(20.0), "A goal of 3 has not ended after 20 s.", "use set_succeeded()")
         numbers = [number for _, number in heard]
         expect(
             numbers == [1, 2, 3],
             f"With the goal 3 the feedback was {numbers}, not [1, 2, 3].",
-            "publish_feedback(TestFeedback(number)) for each number, from 1",
+            "call publish_feedback(TestFeedback(number)) for each number, from 1",
         )
         seconds = [second for second, _ in heard]
         expect(
             seconds == [1, 2, 3],
-            f"The numbers came after {seconds} s, not one each second.",
-            "node.sleep(1.0) before each",
+            f"The numbers arrived after {seconds} s, not one each second.",
+            "call node.sleep(1.0) before each number",
         )
         _expect_end(client, Status.SUCCEEDED, 3)
         client.send_goal(TestGoal(100))
-        expect(not client.wait_for_result(4.5), "A goal of 100 ended within 4.5 s.", "one number each second")
+        expect(not client.wait_for_result(4.5), "A goal of 100 ended within 4.5 s.", "count once a second")
         client.cancel_goal()
         expect(
             client.wait_for_result(3.0),
-            "It was asked to stop, and went on for three seconds and more.",
-            "ask is_preempt_requested() before each number",
+            "After a request to stop, it continued for more than three seconds.",
+            "call is_preempt_requested() before each number",
         )
         _expect_end(client, Status.PREEMPTED, 4)
 
@@ -137,21 +136,24 @@ def _expect_end(client: SimpleActionClient, status: Status, number: int) -> None
     expect(
         found is status,
         f"A goal that should end as {status.name} ended as {found.name}.",
-        f"{step}(TestResult(number))",
+        f"call {step}(TestResult(number))",
     )
     expect(
         result.result == number,
-        f"The result is {result.result}, and the last number was {number}.",
-        f"{step}(TestResult(number))",
+        f"The result is {result.result}, but the last number was {number}.",
+        f"call {step}(TestResult(number))",
     )
 
 
 # ---- 91.3: patience ----
 
 
-@exercise("91.3", praise="After a cancellation it waits for the end: until then the robot may still move.")
+@exercise(
+    "91.3",
+    praise="Your function waits for the end after a cancellation, because the robot may move until then.",
+)
 def ask_with_patience(answer: Any) -> None:
-    """A goal that is cancelled after a while."""
+    """A goal that is cancelled after a timeout."""
     with Graph() as graph:
         _count(graph)
         client = SimpleActionClient(graph.node("check"), "count", TestAction)
@@ -165,31 +167,31 @@ def ask_with_patience(answer: Any) -> None:
             spent = (graph.now() - begin).to_sec()
             expect(
                 isinstance(found, tuple) and len(found) == 2,
-                "It did not return two things.",
+                "It did not return two values.",
                 "return client.get_state().name, client.get_result()",
             )
             case = f"a goal that takes {far} s and a patience of {seconds} s"
             expect(
                 abs(spent - took) < 0.1,
                 f"With {case} it returned after {spent:.1f} s, not after {took:.1f} s.",
-                "wait for the end at most so long; then cancel, and wait for the end once more",
+                "wait for the result with the timeout; then cancel, and wait again",
             )
             expect(
                 found[0] == status,
                 f"With {case} the status is {found[0]!r}, not {status!r}.",
-                "client.get_state().name, after the goal has ended",
+                "read client.get_state().name after the goal has ended",
             )
             expect(
                 getattr(found[1], "result", None) == number,
-                f"With {case} the second thing is not the result.",
-                "client.get_result()",
+                f"With {case} the second value is not the result.",
+                "return client.get_result()",
             )
 
 
 # ---- 91.4: choose your goals ----
 
 
-@exercise("91.4", praise="A rejected goal was never ACTIVE: its client knows that nothing was begun.")
+@exercise("91.4", praise="A rejected goal was never ACTIVE, so the client knows that nothing has started.")
 def start_adder(answer: Any) -> None:
     """A server that rejects some goals."""
     with Graph() as graph:
@@ -199,7 +201,7 @@ def start_adder(answer: Any) -> None:
         expect(
             client.wait_for_server(1.0),
             "No action server answers on /add.",
-            'ActionServer(node, "add", TwoIntsAction, on_goal)',
+            'use ActionServer(node, "add", TwoIntsAction, on_goal)',
         )
         for a, b in ((2, 3), (0, 0), (-1, 5), (5, -1)):
             _check_sum(graph, client, a, b)
@@ -214,15 +216,15 @@ def _check_sum(graph: Graph, client: ActionClient, a: int, b: int) -> None:
     expect(
         handle.get_comm_state() is CommState.DONE,
         f"{text} has not ended after a second.",
-        "after set_accepted() comes set_succeeded(...)",
+        "call set_accepted(), then set_succeeded(...)",
     )
     wanted = Status.REJECTED if min(a, b) < 0 else Status.SUCCEEDED
     found = handle.get_terminal_state()
     expect(
         found is wanted,
         f"{text} ended as {found.name}, not as {wanted.name}.",
-        "set_rejected() for a goal with a negative number, set_accepted() and set_succeeded(...) for any other",
+        "call set_rejected() for a goal with a negative number, set_accepted() and set_succeeded(...) for any other",
     )
     if wanted is Status.SUCCEEDED:
         total = handle.get_result().sum
-        expect(total == a + b, f"{text}: the sum is said to be {total}.", "TwoIntsResult(a + b)")
+        expect(total == a + b, f"{text} has the result {total}, not the sum.", "TwoIntsResult(a + b)")

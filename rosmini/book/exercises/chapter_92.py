@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 92, catkin: how packages are built."""
+"""Checks of the exercises in chapter 92, catkin: how packages are built."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ CIRCLES: tuple[dict[str, list[str]], ...] = (
 )
 
 
-@exercise("92.1", praise="catkin_make's first step is as short.")
+@exercise("92.1", praise="catkin_make starts with the same computation.")
 def build_order(answer: Any) -> None:
-    """An order of the packages in which each comes after those that it needs; ValueError for a circle."""
+    """An order in which each package comes after its dependencies; ValueError for a cycle."""
     for needs in WORKSPACES:
         found = call_bounded(answer, {name: list(each) for name, each in needs.items()})
         expect_type(found, list, "It returned", "a list", "return the names in a list")
@@ -46,7 +46,7 @@ def build_order(answer: Any) -> None:
             for other in others:
                 expect(
                     other not in needs or found.index(other) < found.index(name),
-                    f"{name} needs {other}, and comes before it in {found}.",
+                    f"{name} needs {other}, but comes before it in {found}.",
                 )
     for needs in CIRCLES:
         try:
@@ -55,9 +55,13 @@ def build_order(answer: Any) -> None:
             continue
         except RecursionError as error:
             raise Wrong(
-                f"{needs} has a circle, and the answer goes round in it for ever.", "raise ValueError(...)"
+                f"{needs} contains a cycle, and your function follows it for ever.",
+                "detect it, and raise ValueError(...)",
             ) from error
-        raise Wrong(f"{needs} has a circle, and the answer was {found!r}.", "raise ValueError(...)")
+        raise Wrong(
+            f"{needs} contains a cycle, but your function returned {found!r}.",
+            "detect it, and raise ValueError(...)",
+        )
 
 
 # ---- 92.2: rain and wind ----
@@ -84,7 +88,7 @@ FILES = {
 MADE = ("msg/_Rain.py", "msg/_Wind.py", "srv/_Forecast.py")
 
 
-@exercise("92.2", praise="Who depends on weather can import all three.")
+@exercise("92.2", praise="Packages that depend on weather can import all three classes.")
 def cmake(answer: object) -> None:
     """The CMakeLists.txt of a package with two messages and a service."""
     expect_type(answer, str, "cmake is", "a text")
@@ -99,21 +103,21 @@ def cmake(answer: object) -> None:
         expect(
             not said,
             f"catkin_make says: {said[0] if said else ''}",
-            "the manifest is right: look into your CMakeLists.txt",
+            "the manifest is correct; the mistake is in CMakeLists.txt",
         )
         made = workspace.devel / "lib" / "python3" / "dist-packages" / "weather"
         missing = [name for name in MADE if not (made / name).is_file()]
         expect(
             not missing,
-            f"Not made: {', '.join(missing)}.",
-            "add_message_files, add_service_files, generate_messages",
+            f"catkin_make did not generate {', '.join(missing)}.",
+            "call add_message_files, add_service_files and generate_messages",
         )
     exported = str(answer).partition("catkin_package")[2].partition(")")[0].split()
     for name in ("message_runtime", "geometry_msgs"):
         expect(
             name in exported,
-            f"catkin_package() does not tell that who uses weather needs {name}.",
-            "CATKIN_DEPENDS",
+            f"catkin_package() does not declare that users of weather need {name}.",
+            "list it after CATKIN_DEPENDS",
         )
 
 
@@ -135,21 +139,21 @@ FOUND = {
 }
 
 
-@exercise("92.3", praise="Two people at one computer, and each finds another robot.")
+@exercise("92.3", praise="On the same computer, each person finds a different version.")
 def found(answer: Any) -> None:
-    """Where Bob and Ada find three packages."""
+    """The workspaces in which Bob and Ada find three packages."""
     expect(
         isinstance(answer, tuple | list) and len(answer) == len(FOUND),
-        "The answer is two dictionaries: what Bob finds, and what Ada finds.",
-        "check(number, (bob, ada))",
+        "The answer must be two dictionaries: one for Bob and one for Ada.",
+        "call check(number, (bob, ada))",
     )
     for (who, right), given in zip(FOUND.items(), answer, strict=True):
-        expect_type(given, dict, f"{who} is", "a dictionary", '{"amcl": "~/base_ws", ...}')
+        expect_type(given, dict, f"{who} is", "a dictionary", 'write {"amcl": "~/base_ws", ...}')
         for name, workspace in right.items():
-            expect(name in given, f"{who} does not say where {name} is found.")
+            expect(name in given, f"{who} has no entry for {name}.")
             hint = (
-                "who sources base_ws knows nothing of what lies above it"
+                "sourcing base_ws hides the workspaces on top of it"
                 if given[name] == TRY
-                else "the search ends at the first package of that name, from top to bottom"
+                else "the search goes from top to bottom and ends at the first package of that name"
             )
             expect(given[name] == workspace, f"{who} does not find {name} in {given[name]}.", hint)

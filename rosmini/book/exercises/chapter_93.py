@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 93, Publish/subscribe."""
+"""Checks of the exercises in chapter 93, Publish/subscribe."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 # ---- 93.1: a better event service ----
 
 
-@exercise("93.1", praise="A subscriber's fault stays with the subscriber.")
+@exercise("93.1", praise="An error in one subscriber affects neither the publisher nor other subscribers.")
 def better_service(answer: Any) -> None:
     """An event service that survives its subscribers."""
-    with redirect_stdout(StringIO()):  # what it prints about a failed callback is its own affair
+    with redirect_stdout(StringIO()):  # it may print anything about a failed callback
         _examine(answer())
 
 
@@ -51,31 +51,35 @@ def _examine(service: Any) -> None:
         except ValueError:
             expect(
                 False,
-                "A callback failed, and the publisher was hit by its exception.",
-                "try and except in publish",
+                "A callback failed, and its exception reached the publisher.",
+                "use try and except in publish",
             )
         if event == 1:
             called = [name for name, _ in got]
-            expect("other" not in called, "A subscriber of another topic was called.", "one list a topic")
+            expect(
+                "other" not in called,
+                "A subscriber of another topic was called.",
+                "keep a list for each topic",
+            )
             expect(
                 "third" in called,
-                "A callback failed, and those after it were not called.",
-                "try inside the loop",
+                "A callback failed, and the callbacks after it were not called.",
+                "put try inside the loop",
             )
             expect(
                 "second" in called,
-                "A callback unsubscribed itself, and its neighbour was skipped.",
-                "copy the list",
+                "A callback unsubscribed itself, and the next one was skipped.",
+                "iterate over a copy of the list",
             )
             expect(
                 called == ["first", "second", "third"],
-                f"Called were {called}.",
-                "in the order of subscription",
+                f"The calls were {called}.",
+                "call them in the order of subscription",
             )
     expect(
         got[3:] == [("second", 2), ("third", 2)],
         f"After first had unsubscribed, the next event went to {[name for name, _ in got[3:]]}.",
-        "unsubscribe takes the callback out of its topic's list",
+        "remove the callback from its topic's list in unsubscribe",
     )
 
 
@@ -83,7 +87,7 @@ def _examine(service: Any) -> None:
 
 
 def _worked_on(queue: int, count: int, gap: float, work: float) -> list[int]:
-    """The numbers that a slow subscriber works on, found by running it."""
+    """Run a slow subscriber; return the numbers that it processes."""
     arrived: list[int] = []
     with Graph() as graph:
         slow = graph.node("slow")
@@ -102,30 +106,33 @@ def _worked_on(queue: int, count: int, gap: float, work: float) -> list[int]:
     return arrived
 
 
-@exercise("93.2", praise="The oldest make room, and the work goes on with the oldest that is left.")
+@exercise(
+    "93.2",
+    praise="A full queue drops its oldest message, and the subscriber continues with the oldest remaining one.",
+)
 def arrived(answer: Any) -> None:
-    """Which messages come through a queue of three."""
+    """The messages that pass through a queue of three."""
     expect_type(answer, (list, tuple), "arrived is", "a list", "[1, ...]")
     right = _worked_on(3, 10, 1.0, 3.3)
     for place, (found, expected) in enumerate(zip(answer, right, strict=False), start=1):
         expect(
             found == expected,
-            f"Up to the place {place} it is right; {found} is not worked on there.",
-            "write down what waits in the queue each time the work on a message is done",
+            f"The first {place - 1} entries are right, but {found} is not processed next.",
+            "write down the queue each time the subscriber finishes a message",
         )
     expect(
         len(answer) == len(right),
-        f"So far right, but {len(answer)} are too {'few' if len(answer) < len(right) else 'many'}.",
-        "what waits at the end is still worked on",
+        f"The entries are right, but {len(answer)} are too {'few' if len(answer) < len(right) else 'many'}.",
+        "messages in the queue at the end are still processed",
     )
 
 
 # ---- 93.3: the last few ----
 
 
-@exercise("93.3", praise="A latch keeps one message; yours keeps as many as you like.")
+@exercise("93.3", praise="A latched topic keeps one message; your node keeps any number.")
 def start_history(answer: Any) -> None:
-    """A node that gives the last messages to each newcomer."""
+    """A node that sends the last messages to each new subscriber."""
     heard: dict[str, list[str]] = {"early": [], "late": [], "later": []}
 
     def listen(name: str) -> None:
@@ -152,22 +159,23 @@ def start_history(answer: Any) -> None:
         when = "the second" if name == "late" else "the fifth"
         expect(
             heard[name] == right,
-            f"With a size of 3, a newcomer after {when} message heard {heard[name] or 'nothing'}, not {right}.",
-            "keep the last ones, oldest first, and send them to the newcomer only (publish_to)",
+            f"With a size of 3, a subscriber that started after {when} message received "
+            f"{heard[name] or 'nothing'}, not {right}.",
+            "keep the last messages, oldest first, and send them only to the new subscriber (publish_to)",
         )
     expect(
         heard["early"] == [],
-        f"One who had been there before all messages heard {heard['early']} on /history.",
-        "a newcomer's messages go to the newcomer only: publish_to",
+        f"A subscriber that started before all messages received {heard['early']} on /history.",
+        "send the stored messages only to the new subscriber: publish_to",
     )
 
 
 # ---- 93.4: say it once ----
 
 
-@exercise("93.4", praise="It remembers one bit of the past, and that is enough.")
+@exercise("93.4", praise="Your node stores one bit about the past, and that is enough.")
 def start_alarm(answer: Any) -> None:
-    """A filter that passes a message on when the temperature has come over the limit."""
+    """A filter that passes on a message when the temperature rises above the limit."""
     for limit, values, right in (
         (30.0, (25.0, 30.0, 31.0, 32.0, 30.0, 33.0, 20.0), [31.0, 33.0]),
         (10.0, (12.0, 11.0, 9.0, 10.5), [12.0, 10.5]),
@@ -178,7 +186,7 @@ def start_alarm(answer: Any) -> None:
             f"With the limit {limit:g} and the temperatures {_listed(values)} it passed on "
             f"{_listed(got) or 'nothing'}, "
             f"not {_listed(right)}.",
-            "over the limit now, and not over it before; exactly the limit is not over it",
+            "pass on a value above the limit if the previous one was not; exactly the limit is not above it",
         )
 
 

@@ -1,4 +1,4 @@
-"""What is right in the exercises of chapter 95, When things go wrong: scripts, tried in graphs that misbehave."""
+"""Checks of the exercises in chapter 95, When things go wrong: they run scripts in faulty graphs."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from rosmini.msgs.std_msgs.msg import Bool, Float64, String
 # ---- 95.1: late listeners ----
 
 
-@exercise("95.1", praise="Whoever comes late still hears it, once.")
+@exercise("95.1", praise="Late subscribers receive the message as well, exactly once.")
 def greet(answer: Script) -> None:
-    """One message on /greeting reaches those who subscribe after it was sent."""
+    """One message on /greeting also reaches nodes that subscribe later."""
     heard: dict[str, list[str]] = {}
     with Trial("arena", is_shown=False) as trial:
         trial.start(answer)
@@ -22,45 +22,45 @@ def greet(answer: Script) -> None:
             trial.run(2.0)
             expect(
                 got,
-                f"/{name} came late, and heard nothing.",
-                "the Publisher can keep its last message: latch",
+                f"/{name} subscribed late and received nothing.",
+                "latch=True makes the Publisher keep its last message",
             )
         trial.run(30.0)
         for name, got in heard.items():
-            expect(got[0] == "hello", f"/{name} heard {got[0]!r}, not 'hello'.")
+            expect(got[0] == "hello", f"/{name} received {got[0]!r}, not 'hello'.")
             expect(
-                len(got) == 1, f"/{name} heard it {len(got)} times.", "publish it once; latch does the rest"
+                len(got) == 1,
+                f"/{name} received it {len(got)} times.",
+                "publish once; the latch does the rest",
             )
 
 
 # ---- 95.2: a watchdog ----
 
 
-@exercise("95.2", praise="It barks when the laser falls silent, and only then.", gaps=2)
+@exercise("95.2", praise="The alarm is raised when scans stop, and only then.", gaps=2)
 def watchdog(answer: Script) -> None:
-    """True on /alarm while no scan has come for a second, and False while they come."""
+    """The node publishes True on /alarm when no scan has arrived for a second, and otherwise False."""
     got: list[bool] = []
     with Trial("arena", is_shown=False) as trial:
         trial.graph.node("owner").subscriber("alarm", Bool, lambda m: got.append(m.data))
         trial.start(answer)
         trial.run(3.0)
-        expect(got, "Nothing came on /alarm.", "a Timer that publishes a Bool, also while all is well")
-        expect(
-            not got[-1], "It raised the alarm though scans came.", "note the time in the callback of the scan"
-        )
+        expect(got, "There was no message on /alarm.", "publish a Bool from a Timer, also while scans arrive")
+        expect(not got[-1], "It raised the alarm although scans arrived.", "store the time of each scan")
         trial.graph.faults.disturb("/scan", lose=1.0)
         trial.run(0.75)
-        expect(not got[-1], "It raised the alarm before a second had passed.")
+        expect(not got[-1], "It raised the alarm before a second without scans had passed.")
         got.clear()
         trial.run(1.2)
         expect(
             got and got[-1],
-            "For nearly 2 s no scan came, and there was no alarm.",
-            "who calls you when none comes?",
+            "There was no scan for nearly 2 s, but no alarm.",
+            "the scan's callback is not called then, so compare the times in a Timer",
         )
         trial.graph.faults.clear()
         trial.run(1.0)
-        expect(not got[-1], "The scans are back, and the alarm goes on.")
+        expect(not got[-1], "Scans arrive again, but the alarm is still True.")
 
 
 # ---- 95.3: a doctor ----
@@ -68,9 +68,9 @@ def watchdog(answer: Script) -> None:
 MISSING = {"/battery": Float64, "/plan": String}
 
 
-@exercise("95.3", praise="That is the rule by which roswtf found the misspelt topic.")
+@exercise("95.3", praise="roswtf found the misspelt topic by the same rule.")
 def doctor(answer: Script) -> None:
-    """The topics that somebody subscribes to and nobody publishes are printed, one a line, sorted."""
+    """The script prints topics with subscribers but without publishers, one a line, sorted."""
     with Trial("arena", is_shown=False) as trial:
         for number, (topic, kind) in enumerate(MISSING.items()):
             trial.graph.node(f"waiting{number}").subscriber(topic, kind, print)
@@ -82,9 +82,9 @@ def doctor(answer: Script) -> None:
         found = trial.output.split()
         wanted = sorted(["/cmd_vel", *MISSING])
         for topic in wanted:
-            expect(
-                topic in found, f"Nobody publishes {topic}, and it was not printed.", "compare the two lists"
-            )
+            expect(topic in found, f"{topic} has no publisher, but was not printed.", "compare the two lists")
         extra = [each for each in found if each not in wanted]
-        expect(not extra, f"It printed {extra[0] if extra else ''}, too.", "only topics without a publisher")
-        expect(found == wanted, "They are not in alphabetical order, or one is there twice.", "sorted(...)")
+        expect(
+            not extra, f"It also printed {extra[0] if extra else ''}.", "print only those without a publisher"
+        )
+        expect(found == wanted, "They are not in alphabetical order, or not unique.", "use sorted(...)")

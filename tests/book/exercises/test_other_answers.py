@@ -68,4 +68,4 @@ def test_a_truth_value_is_no_number(number: str, answer: Any, true: Any) -> None
     """`check("30.1", True)` was right, since True == 1."""
     verdict = find(number).grade(answer(true))
     assert verdict.status is Status.WRONG
-    assert "True where a number or a text is asked for." in verdict.text
+    assert "True where a number or a string is expected." in verdict.text
