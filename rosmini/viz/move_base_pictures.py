@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import groupby
 from typing import Any
 
-from rosmini.navigation.move_base.parts import Inside, Part, inside
+from rosmini.navigation.move_base.parts import Part, Structure, structure_of
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import LINE_HEIGHT, arrow, box, drawing, ellipse, rule, text
 from rosmini.viz.graph_drawing import name as label_of
@@ -41,7 +41,7 @@ def move_base_picture(move_base: Any, *, title: str | None = None) -> Picture:
 
     """
     name = move_base.node.name
-    found = inside(move_base)
+    found = structure_of(move_base)
     state = graph_state(move_base.node.graph)
     arrows = [*found.links, *_outside(name, found, state)]
     head = f"{title or f'Inside {name}'}: {len(found.parts)} parts"
@@ -52,7 +52,7 @@ def move_base_picture(move_base: Any, *, title: str | None = None) -> Picture:
     return Picture(svg, text="\n".join([head, *lines]), alt=alt, caption=title)
 
 
-def _outside(name: str, found: Inside, state: GraphState) -> list[Arrow]:
+def _outside(name: str, found: Structure, state: GraphState) -> list[Arrow]:
     """What other nodes give the parts, and what the parts command; the topics between the same two in one arrow."""
     single = sorted({each for part in found.parts for each in _ends(name, part, state)})
     return [
@@ -63,18 +63,18 @@ def _outside(name: str, found: Inside, state: GraphState) -> list[Arrow]:
 
 def _ends(name: str, part: Part, state: GraphState) -> Iterator[Arrow]:
     """Every (from, to, topic) of a part and another node; of a topic without a publisher the topic is the source."""
-    heard = {topic: state.publishers.get(topic, frozenset()) - {name} for topic in part.hears}
+    heard = {topic: state.publishers.get(topic, frozenset()) - {name} for topic in part.subscribes}
     for topic, publishers in heard.items():
         yield from ((publisher, part.name, topic) for publisher in publishers)
     if heard and not any(heard.values()):
         yield from ((topic, part.name, "") for topic in heard)
-    for topic in part.says:
+    for topic in part.publishes:
         yield from (
             (part.name, node + OBEYS, topic) for node in state.subscribers.get(topic, frozenset()) - {name}
         )
 
 
-def _draw(name: str, found: Inside, arrows: list[Arrow], state: GraphState, title: str, alt: str) -> str:
+def _draw(name: str, found: Structure, arrows: list[Arrow], state: GraphState, title: str, alt: str) -> str:
     parts = {part.name: part for part in found.parts}
     others = sorted({end for source, target, _ in arrows for end in (source, target)} - set(parts))
     vertices = [_room(part, name) for part in found.parts]

@@ -92,7 +92,7 @@ def _text(slam: GridSlam, which: int, cells: NDArray[np.uint8], own: Floats) -> 
     return (
         f"the map of {name}: {fixed(width, 1)} x {fixed(height, 1)} m, "
         f"{fixed(100 * float(np.mean(cells == 100)), 0)} % of it occupied; its path: {plural(len(own), 'scan')}, "
-        f"{fixed(length_of(own), 1)} m; {slam.forefathers()[0]} of the first {len(slam.poses)} particles live on"
+        f"{fixed(length_of(own), 1)} m; {slam.surviving_counts()[0]} of the first {len(slam.poses)} particles live on"
     )
 
 

@@ -17,7 +17,7 @@ from rosmini.msgs.geometry_msgs.msg import PoseStamped
 from rosmini.msgs.move_base_msgs.msg import MoveBaseAction
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.navigation.costmap_2d import Costmap2D
-from rosmini.navigation.move_base.recoveries import BadList, checked
+from rosmini.navigation.move_base.recoveries import InvalidList, parsed_entries
 from rosmini.navigation.nav_core import BadGoal, pose_stamped
 from rosmini.navigation.nav_core.poses import checked_goal
 
@@ -245,8 +245,8 @@ def no_turning(answer: Any) -> None:
     """Two clearing behaviours, the larger area first, and no rotation."""
     expect_type(answer, dict, "parameters is", "a dictionary")
     try:
-        named = checked(answer.get("recovery_behaviors"))
-    except BadList as error:
+        named = parsed_entries(answer.get("recovery_behaviors"))
+    except InvalidList as error:
         expect(False, f"move_base refuses this list: {error}", 'write a list of {"name": ..., "type": ...}')
         return
     kinds = [kind.replace("::", "/") for _, kind in named]

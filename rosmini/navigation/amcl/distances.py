@@ -9,17 +9,17 @@ Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 Table = NDArray[np.float32]
 
-NUDGE = 1e-4
+BORDER_STEP = 1e-4
 """A beam steps this distance [cells] past the border of a cell, so that rounding does not leave it short of it."""
-ROUNDING = 2e-6
+RANGE_ROUNDING = 2e-6
 """An addition to that, as a fraction of the maximum range; a few times the rounding error of `float32`."""
-UPRIGHT = 1e-7
+MIN_DIRECTION = 1e-7
 """Minimum absolute value of a beam's direction along each axis, which avoids dividing by zero."""
-CORNER = 1.4143
+CORNER_DISTANCE = 1.4143
 """Half a cell diagonal in the beam's cell plus half of one in the nearest blocked cell [cells]."""
-SHARE = 0.4
+REMOVAL_FRACTION = 0.4
 """Fraction of finished beams at which they are removed from the arrays; removing costs as much as a step."""
-ROUNDS = 8
+REMOVAL_STEPS = 8
 """Number of steps after which finished beams are removed in any case."""
 
 
@@ -54,7 +54,7 @@ def clearances(blocked: Bools, farthest: int) -> Table:
     The shape is (h + 2, w + 2), because the map gets a blocked border.
     """
     walled = np.pad(blocked, 1, constant_values=True)
-    free = np.maximum(distances(walled, farthest) - CORNER, 0.0)
+    free = np.maximum(distances(walled, farthest) - CORNER_DISTANCE, 0.0)
     return np.where(walled, -1.0, free).astype(np.float32)
 
 
@@ -62,15 +62,15 @@ def march(clear: Table, poses: Floats, bearings: Floats, limit: float) -> Floats
     """Return the ranges (n, b) [cells] of beams from poses (n, 3) [cells, cells, rad] at bearings [rad], up to `limit`.
 
     All beams step at once: by the distance that is certainly free, or else to the border of the cell (sphere tracing,
-    Hart 1996, on a grid). The result is exact except where a beam cuts a corner by less than `NUDGE`.
+    Hart 1996, on a grid). The result is exact except where a beam cuts a corner by less than `BORDER_STEP`.
     """
     width, beams = clear.shape[1], len(bearings)
-    rays, base = rays_from(clear.shape, poses, bearings, NUDGE + ROUNDING * limit)
+    rays, base = rays_from(clear.shape, poses, bearings, BORDER_STEP + RANGE_ROUNDING * limit)
     longest, table = np.float32(limit), clear.ravel()
-    gone, index = np.zeros(len(base), dtype=np.float32), np.arange(len(base))
+    travelled, index = np.zeros(len(base), dtype=np.float32), np.arange(len(base))
     found, rounds = np.full(len(base), longest), 0
     while len(index):
-        at = rays[:2] * gone
+        at = rays[:2] * travelled
         at += rays[2:4]
         cell = np.floor(at)
         column, row = cell.astype(np.int32)
@@ -80,14 +80,14 @@ def march(clear: Table, poses: Floats, bearings: Floats, limit: float) -> Floats
         at *= rays[6:]
         step = np.minimum(at[0], at[1])
         np.maximum(step, free, out=step)
-        done = (free < 0) | (gone >= longest)
+        done = (free < 0) | (travelled >= longest)
         step[done] = 0
-        gone += step
+        travelled += step
         rounds += 1
-        if rounds % ROUNDS == 0 or np.count_nonzero(done) > SHARE * len(done):
-            found[index[done]] = gone[done]
+        if rounds % REMOVAL_STEPS == 0 or np.count_nonzero(done) > REMOVAL_FRACTION * len(done):
+            found[index[done]] = travelled[done]
             kept = np.flatnonzero(~done)
-            index, base, gone, rays = index[kept], base[kept], gone[kept], rays.take(kept, axis=1)
+            index, base, travelled, rays = index[kept], base[kept], travelled[kept], rays.take(kept, axis=1)
     return np.minimum(found, longest).astype(np.float64).reshape(len(poses), beams)
 
 
@@ -108,7 +108,7 @@ def rays_from(
     rays = np.empty((8, len(angles)), dtype=np.float32)
     rays[0], rays[1] = np.cos(angles), np.sin(angles)
     direction = rays[:2]
-    direction[np.abs(direction) < UPRIGHT] = UPRIGHT
+    direction[np.abs(direction) < MIN_DIRECTION] = MIN_DIRECTION
     rays[2:4] = np.repeat((poses[:, :2] - low).T, len(bearings), axis=1)
     rays[4:6] = np.where(direction > 0, 1 + nudge, -nudge)
     rays[6:] = 1 / direction

@@ -27,15 +27,15 @@ from rosmini.core.graph.show import show
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-BINS = (0.5, 0.5, math.radians(10))
+CELL_SIZES = (0.5, 0.5, math.radians(10))
 """Dimensions of a histogram cell [m, m, rad]."""
-CIRCLE = 36
+HEADING_CELLS = 36
 """Number of histogram cells along the heading."""
-LEAST_ERROR = 1e-9
+MIN_ERROR = 1e-9
 """Lower bound of `kld_err`: a value of 0 gives the maximum number of particles."""
-GRAIN = 1 << 48
+WEIGHT_UNITS = 1 << 48
 """Weights are rounded to multiples of 1 / GRAIN, so that every machine draws the same particles."""
-NEAR = 0.5
+CONVERGENCE_DISTANCE = 0.5
 """Convergence threshold: all particles lie within this distance [m] of their mean, along x and along y."""
 
 Uniform = Callable[[int], Floats]
@@ -81,7 +81,7 @@ class ParticleFilter:
     ) -> None:
         if not 1 <= fewest <= most:
             raise RosminiError(
-                f"a filter of {fewest} to {most} particles: min_particles has to be from 1 to max_particles"
+                f"min_particles ({fewest}) must be at least 1 and at most max_particles ({most})"
             )
         self.fewest, self.most, self.error, self.quantile = fewest, most, error, quantile
         self.slow, self.fast, self.selective = slow, fast, selective
@@ -97,13 +97,13 @@ class ParticleFilter:
         spread = axes * np.sqrt(np.maximum(deviations, 0.0))
         drawn = np.asarray(mean) + matrix_product(self.random.standard_normal((self.most, 3)), spread.T)
         drawn[:, 2] = normalize_angle(drawn[:, 2])
-        self._begin(drawn)
+        self._set_particles(drawn)
 
     def initialize_uniform(self, uniform: Uniform) -> None:
         """Draw all particles uniformly from the free space, for global localisation."""
-        self._begin(uniform(self.most))
+        self._set_particles(uniform(self.most))
 
-    def _begin(self, particles: Floats) -> None:
+    def _set_particles(self, particles: Floats) -> None:
         self.particles = particles
         self.weights = np.full(len(particles), 1 / len(particles))
         self.average_slow = self.average_fast = 0.0
@@ -144,7 +144,7 @@ class ParticleFilter:
         least = np.maximum(bins - 1, 1).astype(float)
         part = 2 / (9 * least)
         root = 1 - part + np.sqrt(part) * self.quantile
-        found = np.ceil(least / (2 * max(self.error, LEAST_ERROR)) * (root * root * root))
+        found = np.ceil(least / (2 * max(self.error, MIN_ERROR)) * (root * root * root))
         limits: Ints = np.clip(np.where(bins <= 1, self.most, found), self.fewest, self.most).astype(np.int64)
         return limits
 
@@ -153,7 +153,7 @@ class ParticleFilter:
         if self.selective and self.effective > 0.5 * len(self.particles):
             return
         share = self.random_share
-        parts = np.rint(self.weights * GRAIN).astype(np.int64)
+        parts = np.rint(self.weights * WEIGHT_UNITS).astype(np.int64)
         ends = np.cumsum(parts)
         drawn = self.particles[
             np.searchsorted(ends, self.random.integers(ends[-1], size=self.most), side="right")
@@ -162,7 +162,7 @@ class ParticleFilter:
         if lost.any():
             drawn[lost] = uniform(int(lost.sum()))
         new = np.zeros(self.most, dtype=np.int64)
-        new[np.unique(packed(cells(drawn)), return_index=True)[1]] = 1
+        new[np.unique(cell_numbers(cells(drawn)), return_index=True)[1]] = 1
         enough = np.flatnonzero(np.arange(1, self.most + 1) > self.limit(np.cumsum(new)))
         count = int(enough[0]) + 1 if len(enough) else self.most
         self.particles = drawn[:count]
@@ -170,32 +170,32 @@ class ParticleFilter:
         if share > 0:
             self.average_slow = self.average_fast = 0.0
         off = np.abs(self.particles[:, :2] - self.particles[:, :2].mean(axis=0))
-        self.converged = bool((off <= NEAR).all())
+        self.converged = bool((off <= CONVERGENCE_DISTANCE).all())
 
     # -- results -------------------------------------------------------------------------------------------------
 
     def clusters(self) -> list[Cluster]:
         """Return clusters of particles in adjacent histogram cells, heaviest first."""
-        labels = clustered(cells(self.particles))
+        labels = cluster_labels(cells(self.particles))
         found = [
-            summed(self.particles[labels == label], self.weights[labels == label])
+            cluster_of(self.particles[labels == label], self.weights[labels == label])
             for label in range(int(labels.max()) + 1)
         ]
         return sorted(found, key=lambda cluster: -cluster.weight)
 
     def mean(self) -> Cluster:
         """Return all particles as one cluster."""
-        return summed(self.particles, self.weights)
+        return cluster_of(self.particles, self.weights)
 
 
 def cells(particles: Floats) -> Ints:
     """Return the histogram cell (n, 3) of each particle."""
-    found: Ints = np.floor(particles / np.array(BINS)).astype(np.int64)
-    found[:, 2] %= CIRCLE
+    found: Ints = np.floor(particles / np.array(CELL_SIZES)).astype(np.int64)
+    found[:, 2] %= HEADING_CELLS
     return found
 
 
-def packed(keys: Ints) -> Ints:
+def cell_numbers(keys: Ints) -> Ints:
     """Return an integer (n,) for each cell (n, 3) that is the same only for equal cells."""
     low = keys.min(axis=0)
     spans = keys.max(axis=0) - low + 1
@@ -204,10 +204,10 @@ def packed(keys: Ints) -> Ints:
     return found
 
 
-def clustered(keys: Ints) -> Ints:
+def cluster_labels(keys: Ints) -> Ints:
     """Return the cluster number (n,) of each cell (n, 3); cells that touch, also at corners, share a cluster."""
-    _, first, back = np.unique(packed(keys), return_index=True, return_inverse=True)
-    one, other = touching(keys[first])
+    _, first, back = np.unique(cell_numbers(keys), return_index=True, return_inverse=True)
+    one, other = touching_pairs(keys[first])
     labels = np.arange(len(first))
     while True:
         least = labels.copy()
@@ -221,16 +221,16 @@ def clustered(keys: Ints) -> Ints:
     return found
 
 
-def touching(unique: Ints) -> tuple[Ints, Ints]:
+def touching_pairs(unique: Ints) -> tuple[Ints, Ints]:
     """Return the indices of both cells in each pair of touching cells (n, 3); the heading wraps around."""
     # A margin of one cell makes the number of every neighbour unique.
     low = unique.min(axis=0) - 1
     spans = unique.max(axis=0) - low + 2
-    spans[2] = CIRCLE
+    spans[2] = HEADING_CELLS
 
     def numbers(keys: Ints) -> Ints:
-        found: Ints = ((keys[:, 0] - low[0]) * spans[1] + keys[:, 1] - low[1]) * CIRCLE + keys[:, 2] % CIRCLE
-        return found
+        positions: Ints = (keys[:, 0] - low[0]) * spans[1] + keys[:, 1] - low[1]
+        return positions * HEADING_CELLS + keys[:, 2] % HEADING_CELLS
 
     known = numbers(unique)
     order = np.argsort(known)
@@ -245,7 +245,7 @@ def touching(unique: Ints) -> tuple[Ints, Ints]:
     return np.concatenate(ones), np.concatenate(others)
 
 
-def summed(particles: Floats, weights: Floats) -> Cluster:
+def cluster_of(particles: Floats, weights: Floats) -> Cluster:
     """Return mean and covariance of particles."""
     weight = float(weights.sum())
     shares = weights / weight if weight > 0 else np.full(len(weights), 1 / len(weights))

@@ -16,9 +16,9 @@ from .field import BeamMixture, LikelihoodField
 
 Floats = NDArray[np.float64]
 
-MILLIMETRES = 3
+RANGE_DECIMALS = 3
 """Number of decimals of ranges [m]: rounding hides differences in the last bit between machines."""
-DIGITS = 9
+LIKELIHOOD_DECIMALS = 9
 """Number of decimals of log-likelihoods, for the same reason."""
 
 
@@ -42,7 +42,7 @@ class Scan:
         known: Floats = np.nan_to_num(
             self.ranges.astype(np.float64), nan=self.range_max, posinf=self.range_max, neginf=0.0
         )
-        rounded = np.round(np.clip(known, 0.0, self.range_max), MILLIMETRES)
+        rounded = np.round(np.clip(known, 0.0, self.range_max), RANGE_DECIMALS)
         return np.asarray(rounded, dtype=np.float64)
 
     @property
@@ -75,7 +75,7 @@ class LaserModel:
     max_beams: int = 30
     skip: BeamSkip | None = None
 
-    def chosen(self, count: int) -> slice:
+    def used_beams(self, count: int) -> slice:
         """Return which of `count` beams to use: about `max_beams`, evenly spaced."""
         return slice(0, count, max(1, (count - 1) // max(1, self.max_beams - 1)))
 
@@ -89,13 +89,13 @@ class LaserModel:
         if self.kind not in _MODELS:
             hint = nearest(self.kind, _MODELS)
             raise RosminiError(
-                f"there is no laser model {self.kind!r} but {', '.join(_MODELS)}. {hint}".rstrip()
+                f"unknown laser model {self.kind!r}; the models are {', '.join(_MODELS)}. {hint}".rstrip()
             )
-        chosen = self.chosen(len(scan.ranges))
-        ranges, bearings = scan.seen[chosen], scan.directions[chosen]
+        used_beams = self.used_beams(len(scan.ranges))
+        ranges, bearings = scan.seen[used_beams], scan.directions[used_beams]
         skip = self.skip if converged else None
         found = _MODELS[self.kind](world, particles, scan, ranges, bearings, self.mixture, skip)
-        rounded: Floats = np.round(found, DIGITS)
+        rounded: Floats = np.round(found, LIKELIHOOD_DECIMALS)
         return rounded
 
 

@@ -21,7 +21,7 @@ from .parameters import AmclParameters
 
 Floats = NDArray[np.float64]
 
-NO_MAP = "there is no map yet: the robot cannot be looked for everywhere on it"
+NO_MAP = "there is no map yet: global localisation needs one"
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class FreeSpace:
     def __init__(self, free: NDArray[np.bool_], resolution: float, origin: tuple[float, float]) -> None:
         self.cells = np.flatnonzero(free)
         if not len(self.cells):
-            raise RosminiError("the map has no free cell: there is nowhere the robot could be")
+            raise RosminiError("the map has no free cell where the robot could be")
         self.width = free.shape[1]
         self.resolution, self.origin = resolution, origin
 
@@ -125,7 +125,7 @@ class Localizer:
         self.filter.initialize(pose, covariance)
         self.odometry = None
 
-    def globally(self) -> None:
+    def initialize_globally(self) -> None:
         """Restart the filter with a uniform distribution. Raises `RosminiError` without a map."""
         self.filter.initialize_uniform(self._uniform)
         self.odometry = None
@@ -147,7 +147,7 @@ class Localizer:
         before, p = self.odometry, self.parameters
         if before is None:
             self._due, self.updates = set(self._lasers), 0
-        elif self.force or self._far(before, odometry):
+        elif self.force or self._has_moved(before, odometry):
             self._due = set(self._lasers)
         if laser not in self._due:
             return None
@@ -170,11 +170,11 @@ class Localizer:
             self.filter.resample(self._uniform)
         return before is None or resampled
 
-    def _far(self, before: Pose, now: Pose) -> bool:
+    def _has_moved(self, before: Pose, now: Pose) -> bool:
         """True if the motion between two odometry poses exceeds `update_min_d` or `update_min_a`."""
         turned = abs(math.remainder(now[2] - before[2], math.tau))
-        way = max(abs(now[0] - before[0]), abs(now[1] - before[1]))
-        return way > self.parameters.update_min_d or turned > self.parameters.update_min_a
+        distance = max(abs(now[0] - before[0]), abs(now[1] - before[1]))
+        return distance > self.parameters.update_min_d or turned > self.parameters.update_min_a
 
     def estimate(self) -> Estimate:
         """Return the estimated pose of the robot."""

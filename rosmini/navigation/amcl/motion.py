@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 MODELS = ("diff", "omni", "diff-corrected", "omni-corrected")
 
-SHORT = 0.01
+MIN_DISTANCE = 0.01
 """Over shorter distances [m] the robot counts as turning on the spot, since the direction is unreliable."""
 
 
@@ -50,7 +50,9 @@ def moved(
     """
     if model not in MODELS:
         hint = nearest(model, MODELS)
-        raise RosminiError(f"there is no odometry model {model!r} but {', '.join(MODELS)}. {hint}".rstrip())
+        raise RosminiError(
+            f"unknown odometry model {model!r}; the models are {', '.join(MODELS)}. {hint}".rstrip()
+        )
     x, y, turn = compose(inverse(before), after)
     turn = normalize_angle(turn)
     sample = _diff if model.startswith("diff") else _omni
@@ -62,18 +64,18 @@ def _diff(
 ) -> Floats:
     """Sample a turn, a straight drive and another turn, for a robot with differential drive."""
     x, y, turn = motion
-    way = math.hypot(x, y)
-    first = 0.0 if way < SHORT else math.atan2(y, x)
+    distance = math.hypot(x, y)
+    first = 0.0 if distance < MIN_DISTANCE else math.atan2(y, x)
     last = normalize_angle(turn - first)
     # Driving backwards does not count as a half turn.
-    loose1, loose2 = (min(abs(angle), math.pi - abs(angle)) for angle in (first, last))
+    turn1, turn2 = (min(abs(angle), math.pi - abs(angle)) for angle in (first, last))
     variances = (
-        alphas[0] * loose1**2 + alphas[1] * way**2,
-        alphas[2] * way**2 + alphas[3] * (loose1**2 + loose2**2),
-        alphas[0] * loose2**2 + alphas[1] * way**2,
+        alphas[0] * turn1**2 + alphas[1] * distance**2,
+        alphas[2] * distance**2 + alphas[3] * (turn1**2 + turn2**2),
+        alphas[0] * turn2**2 + alphas[1] * distance**2,
     )
     spread = np.sqrt(variances) if corrected else np.array(variances)
-    turned, driven, last_turned = (np.array((first, way, last)) - noise * spread).T
+    turned, driven, last_turned = (np.array((first, distance, last)) - noise * spread).T
     heading = particles[:, 2] + turned
     return np.column_stack(
         [
@@ -89,16 +91,24 @@ def _omni(
 ) -> Floats:
     """Sample a drive in any direction with a turn, for an omnidirectional robot."""
     x, y, turn = motion
-    way = math.hypot(x, y)
+    distance = math.hypot(x, y)
     a1, a2, a3, a4, a5 = alphas
     if corrected:
-        variances = a3 * way**2 + a4 * turn**2, a4 * turn**2 + a5 * way**2, a1 * turn**2 + a2 * way**2
+        variances = (
+            a3 * distance**2 + a4 * turn**2,
+            a4 * turn**2 + a5 * distance**2,
+            a1 * turn**2 + a2 * distance**2,
+        )
         spread = np.sqrt(variances)
     else:
         spread = np.array(
-            (a3 * way**2 + a1 * turn**2, a1 * turn**2 + a5 * way**2, a4 * turn**2 + a2 * way**2)
+            (
+                a3 * distance**2 + a1 * turn**2,
+                a1 * turn**2 + a5 * distance**2,
+                a4 * turn**2 + a2 * distance**2,
+            )
         )
-    along, aside, turned = (np.array((way, 0.0, turn)) + noise * spread).T
+    along, aside, turned = (np.array((distance, 0.0, turn)) + noise * spread).T
     bearing = math.atan2(y, x) + particles[:, 2]
     cos, sin = np.cos(bearing), np.sin(bearing)
     return np.column_stack(

@@ -33,21 +33,21 @@ from .parameters import LASERS, AmclConfig, AmclParameters
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
-PATIENCE = 0.5
+TRANSFORM_TIMEOUT = 0.5
 """Maximum time that a scan waits for its transforms [s]."""
-MAP_PAUSE = 0.5
+MAP_RETRY_PERIOD = 0.5
 """Interval between requests for the map [s]."""
-SILENCE = 15.0
+SCAN_TIMEOUT = 15.0
 """Time without a scan after which there is a warning [s]."""
-BACK_NS = 1_000_000_000
+MAX_DISORDER_NS = 1_000_000_000
 """Scans of several lasers may be out of order by less than this; more is a jump back in time."""
-STRAIGHT = 1e-3
+MAX_MAP_ROTATION = 1e-3
 """A map counts as rotated if its origin's heading exceeds this angle [rad]."""
-LEAP = 5.0
+MAX_JUMP = 5.0
 """Maximum plausible distance between two updates [m]."""
-DIAGNOSED = 1.0
+DIAGNOSTICS_PERIOD = 1.0
 """Interval between messages on `/diagnostics` [s]."""
-PLACES = ((0, 0), (0, 1), (1, 0), (1, 1))
+COVARIANCE_INDICES = ((0, 0), (0, 1), (1, 0), (1, 1))
 """Indices of x and y in a six by six covariance; that of the heading is (5, 5)."""
 
 
@@ -70,7 +70,7 @@ class Amcl:
         self._lasers: dict[str, tuple[Pose, bool]] = {}
         self._last_scan_ns = self._saved_ns = node.clock.now_ns()
         self._last_stamp_ns = 0
-        self._at_start: dict[str, Any] | None = None
+        self._initial_config: dict[str, Any] | None = None
         """The initial values of the parameters that can change at run time."""
         self._advertise()
         self._server = Server(node, AmclConfig, self._reconfigure)
@@ -89,8 +89,8 @@ class Amcl:
             "/diagnostics", message_class("diagnostic_msgs/DiagnosticArray"), queue_size=1
         )
         empty = service_class("std_srvs/Empty")
-        node.service("global_localization", empty, self._globally)
-        node.service("request_nomotion_update", empty, self._nomotion)
+        node.service("global_localization", empty, self._initialize_globally)
+        node.service("request_nomotion_update", empty, self._request_update)
         node.service("set_map", service_class("nav_msgs/SetMap"), self._set_map)
 
     def _subscribe(self) -> None:
@@ -103,11 +103,11 @@ class Amcl:
         )
         node.subscriber("scan", message_class("sensor_msgs/LaserScan"), self._scan, queue_size=100)
         if self.parameters.use_map_topic:
-            node.subscriber("map", message_class("nav_msgs/OccupancyGrid"), self._map_heard, queue_size=1)
+            node.subscriber("map", message_class("nav_msgs/OccupancyGrid"), self._on_map, queue_size=1)
         else:
             node.spawn("map", self._request_map)
-        node.timer(SILENCE, self._check_scans)
-        node.timer(DIAGNOSED, self._diagnose)
+        node.timer(SCAN_TIMEOUT, self._check_scans)
+        node.timer(DIAGNOSTICS_PERIOD, self._diagnose)
         if self.parameters.save_pose_rate > 0:
             node.on_shutdown(self._save_pose)
 
@@ -115,22 +115,22 @@ class Amcl:
         name = self.node.search_param("tf_prefix")
         if name is not None and self.node.get_param(name):
             self.node.logwarn(
-                f"the parameter {name} is set, and amcl does not look at it (tf2 knows no prefixes, in Noetic either): "
+                f"the parameter {name} is set, but amcl ignores it (as in Noetic, tf2 has no prefixes): "
                 "write the prefix into ~odom_frame_id, ~base_frame_id and ~global_frame_id"
             )
 
     # -- parameters ----------------------------------------------------------------------------------------------
 
     def _reconfigure(self, config: Any, level: int) -> Any:
-        if self._at_start is None:
-            self._at_start = {**config, "restore_defaults": False}
+        if self._initial_config is None:
+            self._initial_config = {**config, "restore_defaults": False}
         elif config["restore_defaults"]:
-            config.update(self._at_start)
+            config.update(self._initial_config)
         changes = {one.name: config[one.name] for one in fields(AmclConfig)}
         if changes["min_particles"] > changes["max_particles"]:
             self.node.logwarn(
-                f"min_particles, {changes['min_particles']}, is above max_particles, {changes['max_particles']}: both "
-                "are set to the former"
+                f"min_particles ({changes['min_particles']}) is above max_particles ({changes['max_particles']}): both "
+                "are set to min_particles"
             )
             config["max_particles"] = changes["max_particles"] = changes["min_particles"]
         before = self.parameters
@@ -178,12 +178,12 @@ class Amcl:
                 if self.node.is_shutdown():
                     return
                 self.node.logwarn("Request for map failed; trying again...")
-                self.node.sleep(MAP_PAUSE)
+                self.node.sleep(MAP_RETRY_PERIOD)
             else:
                 if not self._take_map(answer.map):
-                    self.node.sleep(MAP_PAUSE)
+                    self.node.sleep(MAP_RETRY_PERIOD)
 
-    def _map_heard(self, grid: Any) -> None:
+    def _on_map(self, grid: Any) -> None:
         if self._map is not None and self.parameters.first_map_only:
             return
         self._take_map(grid)
@@ -202,22 +202,22 @@ class Amcl:
             taken = GridMap.from_message(grid)
             self.localizer.set_map(taken)
         except RosminiError as error:
-            self.node.logerr(f"the map cannot be used, and the one before stays: {error}")
+            self.node.logerr(f"the map cannot be used, keeping the previous one: {error}")
             return False
-        if abs(taken.origin[2]) > STRAIGHT:
+        if abs(taken.origin[2]) > MAX_MAP_ROTATION:
             self.node.logwarn(
-                f"the map's origin is turned by {math.degrees(taken.origin[2]):.1f} degrees, and amcl takes it as if "
-                "it were not: scans will not fit; give it a map whose origin has the yaw 0"
+                f"the map's origin is rotated by {math.degrees(taken.origin[2]):.1f} degrees, which amcl ignores: "
+                "scans will not fit; use a map whose origin has yaw 0"
             )
         first, self._map = self._map is None, grid
         self._lasers = {}
         if first:
             self._warn_outside(self.localizer.filter.mean().mean)
         elif not again:
-            self.localizer.initialize(self._believed(), self._start_covariance())
+            self.localizer.initialize(self._estimated_pose(), self._start_covariance())
         return True
 
-    def _believed(self) -> Pose:
+    def _estimated_pose(self) -> Pose:
         return self._start_pose() if self._estimate is None else self.localizer.estimate().pose
 
     def _set_map(self, request: Any) -> Any:
@@ -230,13 +230,13 @@ class Amcl:
 
     # -- initial poses -------------------------------------------------------------------------------------------
 
-    def _globally(self, _: Any) -> Any:
+    def _initialize_globally(self, _: Any) -> Any:
         self.node.loginfo("Initializing with uniform distribution")
-        self.localizer.globally()
+        self.localizer.initialize_globally()
         self.node.loginfo("Global initialisation done!")
         return {}
 
-    def _nomotion(self, _: Any) -> Any:
+    def _request_update(self, _: Any) -> Any:
         self.localizer.force = True
         return {}
 
@@ -274,7 +274,7 @@ class Amcl:
             return 0.0, 0.0, 0.0
         try:
             found = self.buffer.lookup_transform_full(
-                p.base_frame_id, stamp, p.base_frame_id, self.node.now(), p.odom_frame_id, PATIENCE
+                p.base_frame_id, stamp, p.base_frame_id, self.node.now(), p.odom_frame_id, TRANSFORM_TIMEOUT
             )
         except TransformException as error:
             # Before the first scan the odometry may be missing; the robot has not moved then.
@@ -287,8 +287,8 @@ class Amcl:
         free = self.localizer.free
         if free is not None and pose[:2] not in free:
             self.node.logwarn(
-                f"the initial pose ({pose[0]:.2f}, {pose[1]:.2f}) is not in free space of the map: the particles may "
-                "never find the robot; give another pose, or call global_localization"
+                f"the initial pose ({pose[0]:.2f}, {pose[1]:.2f}) is not in the free space of the map: the particles "
+                "may never find the robot; set another pose, or call global_localization"
             )
 
     # -- scans ---------------------------------------------------------------------------------------------------
@@ -303,17 +303,17 @@ class Amcl:
             odometry = self._odometry(stamp)
             scan = self._checked(message, laser, upside_down)
         except TransformException as error:
-            self.node.logwarn(f"a scan of {frame} is left out: {error}", throttle=5.0)
+            self.node.logwarn(f"a scan of {frame} is ignored: {error}", throttle=5.0)
             return
         except RosminiError as error:
             self.node.logerr(error, throttle=5.0)
             return
-        self._notice_jump(stamp)
-        self._warn_of_leap(odometry)
-        news = self.localizer.update(frame, scan, odometry)
-        if news is not None:
+        self._restart_after_time_jump(stamp)
+        self._warn_of_odometry_jump(odometry)
+        has_estimate = self.localizer.update(frame, scan, odometry)
+        if has_estimate is not None:
             self._publish_cloud(stamp)
-        if news:
+        if has_estimate:
             self._estimate = found = self.localizer.estimate()
             self._publish_pose(found, stamp)
             self._correction = compose(found.pose, inverse(odometry))
@@ -321,31 +321,33 @@ class Amcl:
             self._broadcast(stamp)
             self._maybe_save()
 
-    def _notice_jump(self, stamp: Time) -> None:
+    def _restart_after_time_jump(self, stamp: Time) -> None:
         """Restart at the initial pose if time has jumped back: a bag in a loop, or a simulation that was reset."""
         before, self._last_stamp_ns = self._last_stamp_ns, stamp.to_nsec()
-        if self._last_stamp_ns < before - BACK_NS:
+        if self._last_stamp_ns < before - MAX_DISORDER_NS:
             self._saved_ns = self.node.clock.now_ns()
             pose = self._start_pose()
             self.node.logwarn(
-                f"scans jump back in time, from {before * 1e-9:.3f} s to {stamp.to_sec():.3f} s: the robot is looked "
-                f"for at the initial pose ({pose[0]:.2f}, {pose[1]:.2f}) again"
+                f"scans jump back in time, from {before * 1e-9:.3f} s to {stamp.to_sec():.3f} s: restarting at "
+                f"the initial pose ({pose[0]:.2f}, {pose[1]:.2f})"
             )
             self.localizer.initialize(pose, self._start_covariance())
 
-    def _warn_of_leap(self, odometry: Pose) -> None:
+    def _warn_of_odometry_jump(self, odometry: Pose) -> None:
         before = self.localizer.odometry
-        if before is not None and math.dist(before[:2], odometry[:2]) > LEAP:
+        if before is not None and math.dist(before[:2], odometry[:2]) > MAX_JUMP:
             self.node.logwarn(
                 f"the odometry jumps from ({before[0]:.2f}, {before[1]:.2f}) to ({odometry[0]:.2f}, "
-                f"{odometry[1]:.2f}), over {LEAP:.0f} m between two scans: the particles go with it; give an initial "
-                "pose if the robot did not"
+                f"{odometry[1]:.2f}), more than {MAX_JUMP:.0f} m between two scans: the particles move with it; set an "
+                "initial pose if the robot did not move"
             )
 
     def _laser(self, frame: str) -> tuple[Pose, bool]:
         """Return the laser's pose on the robot, and True if it is mounted upside down."""
         if frame not in self._lasers:
-            found = self.buffer.lookup_transform(self.parameters.base_frame_id, frame, Time(0), PATIENCE)
+            found = self.buffer.lookup_transform(
+                self.parameters.base_frame_id, frame, Time(0), TRANSFORM_TIMEOUT
+            )
             q = found.transform.rotation
             up = 1 - 2 * (q.x * q.x + q.y * q.y)
             self._lasers[frame] = planar_transform(found), up < 0
@@ -354,7 +356,7 @@ class Amcl:
     def _odometry(self, stamp: Time) -> Pose:
         p = self.parameters
         return planar_transform(
-            self.buffer.lookup_transform(p.odom_frame_id, p.base_frame_id, stamp, PATIENCE)
+            self.buffer.lookup_transform(p.odom_frame_id, p.base_frame_id, stamp, TRANSFORM_TIMEOUT)
         )
 
     def _checked(self, message: Any, laser: Pose, upside_down: bool) -> Scan:
@@ -365,7 +367,7 @@ class Amcl:
         if len(ranges) < 2 or not known or message.angle_increment == 0:
             raise RosminiError(
                 f"a scan of {message.header.frame_id} has {len(ranges)} ranges, the angle_min {message.angle_min}, the "
-                f"angle_increment {message.angle_increment} and the range_min {message.range_min}: it is left out"
+                f"angle_increment {message.angle_increment} and the range_min {message.range_min}: it is ignored"
             )
         top = message.range_max if p.laser_max_range <= 0 else min(message.range_max, p.laser_max_range)
         low = message.range_min if p.laser_min_range <= 0 else max(message.range_min, p.laser_min_range)
@@ -379,7 +381,7 @@ class Amcl:
 
     def _check_scans(self, _: Any) -> None:
         silent = (self.node.clock.now_ns() - self._last_scan_ns) * 1e-9
-        if silent > SILENCE:
+        if silent > SCAN_TIMEOUT:
             self.node.logwarn(
                 f"No laser scan received (and thus no pose updates have been published) for {silent:f} seconds.  "
                 f"Verify that data is being published on the {self.node.resolve('scan')} topic."
@@ -397,7 +399,7 @@ class Amcl:
         message.header.frame_id, message.header.stamp = self.parameters.global_frame_id, stamp
         set_pose(message.pose.pose, from_yaw(*found.pose))
         whole = np.zeros((6, 6))
-        for row, column in PLACES:
+        for row, column in COVARIANCE_INDICES:
             whole[row, column] = found.covariance[row, column]
         whole[5, 5] = found.covariance[2, 2]
         message.pose.covariance = whole.ravel().tolist()
@@ -463,7 +465,7 @@ def planar_covariance(values: Any) -> NDArray[np.float64]:
     """Return the part (3, 3) for x, y and heading of a covariance of 36 numbers, made symmetric."""
     whole = np.asarray(values, dtype=float).reshape(6, 6)
     found = np.zeros((3, 3))
-    for row, column in PLACES:
+    for row, column in COVARIANCE_INDICES:
         found[row, column] = (whole[row, column] + whole[column, row]) / 2
     found[2, 2] = whole[5, 5]
     return found

@@ -9,7 +9,7 @@ from rosmini.core.parameters import Parameters, parameter
 
 from .motion import MODELS
 
-FARTHEST = 1e6
+MAX_COORDINATE = 1e6
 """Maximum absolute value of a coordinate; larger values are mistakes."""
 LASERS = ("beam", "likelihood_field", "likelihood_field_prob")
 
@@ -30,13 +30,13 @@ class AmclConfig(Parameters):
     base_frame_id: str = parameter("base_link", "the robot's frame")
     global_frame_id: str = parameter("map", "the map's frame")
     update_min_d: float = parameter(
-        0.2, "an update takes so much driving", unit="m", minimum=0.0, maximum=5.0
+        0.2, "distance driven before an update", unit="m", minimum=0.0, maximum=5.0
     )
     update_min_a: float = parameter(
-        math.pi / 6, "or so much turning", unit="rad", minimum=0.0, maximum=math.tau
+        math.pi / 6, "angle turned before an update", unit="rad", minimum=0.0, maximum=math.tau
     )
-    min_particles: int = parameter(100, "the fewest particles", minimum=0, maximum=1000)
-    max_particles: int = parameter(5000, "the most particles", minimum=0, maximum=10000)
+    min_particles: int = parameter(100, "minimum number of particles", minimum=0, maximum=1000)
+    max_particles: int = parameter(5000, "maximum number of particles", minimum=0, maximum=10000)
     kld_err: float = parameter(
         0.01,
         "the divergence that may remain between true and estimated distribution",
@@ -46,39 +46,39 @@ class AmclConfig(Parameters):
     kld_z: float = parameter(
         0.99, "the normal quantile of the probability that it is met", minimum=0.0, maximum=1.0
     )
-    resample_interval: int = parameter(2, "so many updates until the next resampling", minimum=0, maximum=20)
-    selective_resampling: bool = parameter(False, "resample only when fewer than half of the particles count")
+    resample_interval: int = parameter(2, "number of updates between resamplings", minimum=0, maximum=20)
+    selective_resampling: bool = parameter(
+        False, "resample only when the effective number is below half of the particles"
+    )
     recovery_alpha_slow: float = parameter(
-        0.0, "how fast the slow average of likelihoods follows; 0: no recovery", minimum=0.0, maximum=0.5
+        0.0, "decay rate of the long-term average likelihood; 0: no recovery", minimum=0.0, maximum=0.5
     )
     recovery_alpha_fast: float = parameter(
-        0.0, "how fast the fast average follows; 0: no recovery", minimum=0.0, maximum=1.0
+        0.0, "decay rate of the short-term average likelihood; 0: no recovery", minimum=0.0, maximum=1.0
     )
     laser_model_type: str = parameter("likelihood_field", "how scans are weighed", choices=LASERS)
     laser_min_range: float = parameter(
         -1.0,
-        "beams that are no longer count as the longest; -1: what the scan says",
+        "beams up to this length count as the longest; -1: the scan's range_min",
         unit="m",
         minimum=-1.0,
         maximum=1000.0,
     )
     laser_max_range: float = parameter(
         -1.0,
-        "beams that are longer hit nothing; -1: what the scan says",
+        "longer beams count as no hit; -1: the scan's range_max",
         unit="m",
         minimum=-1.0,
         maximum=1000.0,
     )
-    laser_max_beams: int = parameter(30, "so many beams of a scan are looked at", minimum=0, maximum=250)
+    laser_max_beams: int = parameter(30, "number of beams of a scan that are used", minimum=0, maximum=250)
     laser_z_hit: float = parameter(
         0.95, "share of beams that hit what is in the map", minimum=0.0, maximum=1.0
     )
     laser_z_short: float = parameter(
         0.1, "share of beams that end early (beam only)", minimum=0.0, maximum=1.0
     )
-    laser_z_max: float = parameter(
-        0.05, "share of beams that see nothing (beam only)", minimum=0.0, maximum=1.0
-    )
+    laser_z_max: float = parameter(0.05, "share of beams without a hit (beam only)", minimum=0.0, maximum=1.0)
     laser_z_rand: float = parameter(0.05, "share of beams that end anywhere", minimum=0.0, maximum=1.0)
     laser_sigma_hit: float = parameter(
         0.2, "deviation of a beam that hits", unit="m", minimum=0.0, maximum=10.0
@@ -87,14 +87,14 @@ class AmclConfig(Parameters):
         0.1, "decay of beams that end early (beam only)", unit="1/m", minimum=0.0, maximum=10.0
     )
     laser_likelihood_max_dist: float = parameter(
-        2.0, "what is farther from everything counts as so far", unit="m", minimum=0.0, maximum=20.0
+        2.0, "upper bound of the distance to an obstacle", unit="m", minimum=0.0, maximum=20.0
     )
     do_beamskip: bool = parameter(
-        False, "leave out beams that most particles cannot explain (likelihood_field_prob only)"
+        False, "ignore beams that most particles cannot explain (likelihood_field_prob only)"
     )
     beam_skip_distance: float = parameter(
         0.5,
-        "a beam agrees with a particle if it ends so near to something",
+        "a beam agrees with a particle if it ends within this distance of an obstacle",
         unit="m",
         minimum=0.0,
         maximum=2.0,
@@ -104,17 +104,17 @@ class AmclConfig(Parameters):
     )
     tf_broadcast: bool = parameter(True, "publish the transform from the map to the odometry's frame")
     transform_tolerance: float = parameter(
-        0.1, "by so much that transform is dated into the future", unit="s", minimum=0.0, maximum=2.0
+        0.1, "how far that transform is dated in the future", unit="s", minimum=0.0, maximum=2.0
     )
     force_update_after_initialpose: bool = parameter(
-        False, "weigh the next scan after an initial pose, though the robot stands"
+        False, "use the next scan after an initial pose even if the robot has not moved"
     )
     force_update_after_set_map: bool = parameter(
-        False, "weigh the next scan after a new map, though the robot stands"
+        False, "use the next scan after a new map even if the robot has not moved"
     )
     gui_publish_rate: float = parameter(
         -1.0,
-        "how often scans and paths may be published for display; -1: never less",
+        "maximum rate of publishing scans and paths for display; -1: no limit",
         unit="Hz",
         minimum=-1.0,
         maximum=100.0,
@@ -122,9 +122,9 @@ class AmclConfig(Parameters):
     save_pose_rate: float = parameter(
         0.5, "how often the pose is written to the parameters", unit="Hz", minimum=-1.0, maximum=10.0
     )
-    use_map_topic: bool = parameter(False, "listen on map in place of asking static_map")
-    first_map_only: bool = parameter(False, "keep the first map that comes")
-    restore_defaults: bool = parameter(False, "set all of these to what they were at the start")
+    use_map_topic: bool = parameter(False, "subscribe to map instead of calling static_map")
+    first_map_only: bool = parameter(False, "use only the first map")
+    restore_defaults: bool = parameter(False, "reset all of these to their initial values")
 
 
 @dataclass(frozen=True)
@@ -133,20 +133,22 @@ class AmclParameters(AmclConfig):
 
     allowed = ("bag_scan_period", "tf_prefix")
 
-    beam_skip_error_threshold: float = parameter(0.9, "if more beams would be left out, none is")
+    beam_skip_error_threshold: float = parameter(
+        0.9, "if a larger fraction of beams would be ignored, all are used"
+    )
     std_warn_level_x: float = parameter(
-        0.2, "above this deviation `/diagnostics` warns; below 0: never", unit="m"
+        0.2, "standard deviation above which `/diagnostics` warns; negative: never", unit="m"
     )
     std_warn_level_y: float = parameter(0.2, "the same along y", unit="m")
     std_warn_level_yaw: float = parameter(0.1, "the same of the heading", unit="rad")
     initial_pose_x: float = parameter(
-        0.0, "where the robot is at the start", unit="m", minimum=-FARTHEST, maximum=FARTHEST
+        0.0, "where the robot is at the start", unit="m", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
     )
     initial_pose_y: float = parameter(
-        0.0, "where the robot is at the start", unit="m", minimum=-FARTHEST, maximum=FARTHEST
+        0.0, "where the robot is at the start", unit="m", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
     )
     initial_pose_a: float = parameter(
-        0.0, "its heading at the start", unit="rad", minimum=-FARTHEST, maximum=FARTHEST
+        0.0, "its heading at the start", unit="rad", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
     )
     initial_cov_xx: float = parameter(
         0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6

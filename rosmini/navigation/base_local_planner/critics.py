@@ -16,7 +16,7 @@ from rosmini.core.geometry.poses import Pose
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-GOES_BACK = -5.0
+OSCILLATING = -5.0
 """The score of trajectories that the oscillation critic rejects."""
 
 
@@ -34,30 +34,30 @@ class Oscillation:
     """The sign of the last non-zero velocity in x, y and theta; 0 initially."""
     allowed: list[int] = field(default_factory=lambda: [0, 0, 0])
     """The only allowed sign in x, y and theta; 0 allows both."""
-    stood_at: Pose = (0.0, 0.0, 0.0)
+    reset_pose: Pose = (0.0, 0.0, 0.0)
 
     def score(self, commands: Floats) -> Floats:
-        """Return 0 or `GOES_BACK` for each command (n, 3)."""
-        wrong = (np.sign(commands) * np.asarray(self.allowed) < 0).any(axis=1)
-        return np.where(wrong, GOES_BACK, 0.0)
+        """Return 0 or `OSCILLATING` for each command (n, 3)."""
+        forbidden = (np.sign(commands) * np.asarray(self.allowed) < 0).any(axis=1)
+        return np.where(forbidden, OSCILLATING, 0.0)
 
     def update(self, pose: Pose, command: Floats, min_vel_trans: float) -> None:
         """Record the command that was chosen at `pose`."""
-        if self._note(command, min_vel_trans):
-            self.stood_at = pose
+        if self._record(command, min_vel_trans):
+            self.reset_pose = pose
         if any(self.allowed):
-            x, y, theta = (now - then for now, then in zip(pose, self.stood_at, strict=True))
+            x, y, theta = (now - then for now, then in zip(pose, self.reset_pose, strict=True))
             if math.hypot(x, y) > self.reset_distance or abs(theta) > self.reset_angle:
                 self.reset()
 
-    def _note(self, command: Floats, min_vel_trans: float) -> bool:
-        changed = self._turned(0, command[0])
+    def _record(self, command: Floats, min_vel_trans: float) -> bool:
+        changed = self._sign_changed(0, command[0])
         if abs(command[0]) <= min_vel_trans:
             # Turns and sideways steps count only while the robot is not driving ahead.
-            changed = self._turned(1, command[1]) | self._turned(2, command[2]) | changed
+            changed = self._sign_changed(1, command[1]) | self._sign_changed(2, command[2]) | changed
         return changed
 
-    def _turned(self, axis: int, velocity: float) -> bool:
+    def _sign_changed(self, axis: int, velocity: float) -> bool:
         sign = int(np.sign(velocity))
         if sign == 0:
             return False
@@ -83,7 +83,7 @@ def prefer_forward(commands: Floats, penalty: float = 1.0) -> Floats:
     return np.where((x < 0) | ((x < 0.1) & (turn < 0.2)), penalty, turn * 10)
 
 
-def together(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
+def combined_scores(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
     """Combine the critics' raw scores (n, k): return costs (n) and the index of the rejecting critic (n), or -1.
 
     Critics are applied in order, without those of scale 0 (`SimpleScoredSamplingPlanner::scoreTrajectory`). The cost
@@ -93,8 +93,8 @@ def together(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
     if not len(asked):
         return np.zeros(len(raw)), np.full(len(raw), -1)
     given = raw[:, asked]
-    against = given < 0
-    first = np.argmax(against, axis=1)
-    rejected = against.any(axis=1)
+    negative = given < 0
+    first = np.argmax(negative, axis=1)
+    rejected = negative.any(axis=1)
     totals = np.where(rejected, given[np.arange(len(raw)), first], (given * scales[asked]).sum(axis=1))
     return totals, np.where(rejected, asked[first], -1)

@@ -20,7 +20,7 @@ from rosmini.navigation.costmap_2d.costmap import INSCRIBED_INFLATED_OBSTACLE
 from rosmini.navigation.nav_core import ControlFailure, NoValidCommand, TransformMissing, pose_stamped
 from rosmini.navigation.nav_core.clouds import point_cloud
 
-from .goal_functions import behind, part_in_reach
+from .goal_functions import passed_count, slice_in_reach
 from .map_grid import MapGrid
 from .trajectory import Samples
 
@@ -62,9 +62,9 @@ class Following:
             raise ControlFailure("Received plan with zero length: the local planner has nothing to follow")
         frame = self._frame_pose()
         here = compose(inverse(frame), robot)
-        part = compose(frame, self.poses[part_in_reach(self.poses, here, self.costmap.grid)])
+        part = compose(frame, self.poses[slice_in_reach(self.poses, here, self.costmap.grid)])
         if prune and len(part):
-            passed = behind(part, robot)
+            passed = passed_count(part, robot)
             part, self.poses = part[passed:], self.poses[passed:]
         if not len(part):
             size = self.costmap.grid.size_m
@@ -161,7 +161,7 @@ def sim_period(node: Node, label: str) -> float:
     frequency = node.get_param(name) if name else 20.0
     if isinstance(frequency, bool) or not isinstance(frequency, int | float):
         raise ParameterError(
-            f"parameter {node.resolve_parameter(name)} is {frequency!r}; it has to be a number [Hz]"
+            f"parameter {node.resolve_parameter(name)} is {frequency!r}; it must be a number [Hz]"
         )
     if frequency <= 0:
         node.logwarn(
@@ -198,7 +198,7 @@ def no_command(text: str, samples: Samples) -> NoValidCommand:
     if samples.refused:
         number = str(samples.refused) if len(samples) else "all"
         listed += [
-            f"{number} are slower than the slowest that the robot drives and turns, or faster than it may"
+            f"{number} are slower than the minimum velocities of the robot, or faster than the maximum"
         ]
     return NoValidCommand(
         f"{text}: of {tried} sampled velocities, {', '.join(listed)}", sampled=tried, rejected=counts

@@ -13,11 +13,11 @@ from rosmini.navigation.costmap_2d.costmap import Costmap2D
 
 Floats = NDArray[np.float64]
 
-BEHIND = 1.0
+PRUNE_DISTANCE = 1.0
 """Poses farther behind than this [m] are pruned, up to the first one that is nearer."""
 
 
-def part_in_reach(plan: Floats, robot: Pose, grid: Costmap2D) -> slice:
+def slice_in_reach(plan: Floats, robot: Pose, grid: Costmap2D) -> slice:
     """Return the slice of a plan (n, 3) within the costmap's reach, which is half of its longer side.
 
     As in ROS it includes the first pose beyond. `robot` and `plan` must be in the same frame.
@@ -32,23 +32,23 @@ def part_in_reach(plan: Floats, robot: Pose, grid: Costmap2D) -> slice:
     return slice(first, first + int(beyond[0]) + 1 if len(beyond) else len(plan))
 
 
-def behind(plan: Floats, robot: Pose) -> int:
-    """Return the number of poses at the start of a plan (n, 3) that are more than `BEHIND` away from the robot."""
-    near = ((plan[:, 0] - robot[0]) ** 2 + (plan[:, 1] - robot[1]) ** 2) < BEHIND * BEHIND
+def passed_count(plan: Floats, robot: Pose) -> int:
+    """Return the number of poses at the start of a plan (n, 3) farther than `PRUNE_DISTANCE` from the robot."""
+    near = ((plan[:, 0] - robot[0]) ** 2 + (plan[:, 1] - robot[1]) ** 2) < PRUNE_DISTANCE * PRUNE_DISTANCE
     return int(np.argmax(near)) if near.any() else len(plan)
 
 
-def distance_to(pose: Pose, goal: Pose) -> float:
+def distance_to_goal(pose: Pose, goal: Pose) -> float:
     """Return the distance to the goal [m]."""
     return math.hypot(goal[0] - pose[0], goal[1] - pose[1])
 
 
-def turn_to(pose: Pose, goal: Pose) -> float:
+def turn_to_goal(pose: Pose, goal: Pose) -> float:
     """Return the rotation from the pose's heading to the goal's, in (-pi, pi] [rad]."""
     return shortest_angular_distance(pose[2], goal[2])
 
 
-def stands(velocity: Floats, theta_stopped_vel: float, trans_stopped_vel: float) -> bool:
+def is_stopped(velocity: Floats, theta_stopped_vel: float, trans_stopped_vel: float) -> bool:
     """True if a velocity (3) counts as standing still."""
     return bool(
         abs(velocity[2]) <= theta_stopped_vel

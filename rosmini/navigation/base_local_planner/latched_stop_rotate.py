@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.nav_core import ControlFailure
 
-from .goal_functions import distance_to, stands, turn_to
+from .goal_functions import distance_to_goal, is_stopped, turn_to_goal
 from .limits import LocalPlannerLimits
 
 Floats = NDArray[np.float64]
@@ -35,17 +35,17 @@ class LatchedStopRotate:
 
     def is_position_reached(self, pose: Pose, goal: Pose, limits: LocalPlannerLimits) -> bool:
         """True if the robot is within tolerance of the goal's position or, with `latch`, has been."""
-        if (self.latch and self.reached) or distance_to(pose, goal) <= limits.xy_goal_tolerance:
+        if (self.latch and self.reached) or distance_to_goal(pose, goal) <= limits.xy_goal_tolerance:
             self.reached = True
             return True
         return False
 
     def is_goal_reached(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> bool:
         """True if the robot has reached position and heading and is standing still."""
-        if not ((self.latch and self.reached) or distance_to(pose, goal) <= limits.xy_goal_tolerance):
+        if not ((self.latch and self.reached) or distance_to_goal(pose, goal) <= limits.xy_goal_tolerance):
             return False
         self.reached = self.reached or self.latch
-        return abs(turn_to(pose, goal)) <= limits.yaw_goal_tolerance and stands(
+        return abs(turn_to_goal(pose, goal)) <= limits.yaw_goal_tolerance and is_stopped(
             velocity, limits.theta_stopped_vel, limits.trans_stopped_vel
         )
 
@@ -62,28 +62,28 @@ class LatchedStopRotate:
 
         Raises `ControlFailure` if the robot cannot brake or turn there without a collision.
         """
-        turn = turn_to(pose, goal)
+        turn = turn_to_goal(pose, goal)
         if abs(turn) <= limits.yaw_goal_tolerance:
             self.rotating = False
             return np.zeros(3)
-        if not self.rotating and not stands(velocity, limits.theta_stopped_vel, limits.trans_stopped_vel):
+        if not self.rotating and not is_stopped(velocity, limits.theta_stopped_vel, limits.trans_stopped_vel):
             return checked(
-                braked(velocity, limits.accelerations, period), why_not, "Stopping cmd in collision"
+                decelerated(velocity, limits.accelerations, period), why_not, "Stopping cmd in collision"
             )
         self.rotating = True
         most, least = limits.max_vel_theta, limits.min_vel_theta
         speed = min(most, max(least, abs(turn)))
-        speed = follow(speed, turn, float(velocity[2]), limits.acc_lim_theta, period)
+        speed = reachable_turn_speed(speed, turn, float(velocity[2]), limits.acc_lim_theta, period)
         speed = min(most, max(least, speed))
         return checked(np.array([0.0, 0.0, math.copysign(speed, turn)]), why_not, "Rotation cmd in collision")
 
 
-def braked(velocity: Floats, accelerations: Floats, period: float) -> Floats:
+def decelerated(velocity: Floats, accelerations: Floats, period: float) -> Floats:
     """Return the velocity (3) after braking at the maximum deceleration for one period."""
     return np.sign(velocity) * np.maximum(0.0, np.abs(velocity) - accelerations * period)
 
 
-def follow(speed: float, turn: float, now: float, acceleration: float, period: float) -> float:
+def reachable_turn_speed(speed: float, turn: float, now: float, acceleration: float, period: float) -> float:
     """Return a turning speed within reach in one period from which the robot can stop at the end of `turn` [rad]."""
     speed = min(max(abs(speed), abs(now) - acceleration * period), abs(now) + acceleration * period)
     return min(math.sqrt(2 * acceleration * abs(turn)), abs(speed))

@@ -87,7 +87,7 @@ class MapGrid:
         return int(self.distances.size) + 1
 
 
-def finer(points: Floats, resolution: float) -> Floats:
+def densified(points: Floats, resolution: float) -> Floats:
     """Return a plan (n, 2 or more columns) with points inserted so that no gap exceeds `resolution`."""
     if len(points) < 2:
         return points
@@ -106,7 +106,7 @@ def finer(points: Floats, resolution: float) -> Floats:
 
 def plan_cells(grid: Costmap2D, plan: Floats) -> Ints:
     """Return the cells (n, 2), as (mx, my), of the first part of a plan (n, 2) on known cells of the costmap."""
-    points = finer(plan[:, :2], grid.resolution)
+    points = densified(plan[:, :2], grid.resolution)
     cells = np.floor((points - np.asarray(grid.origin)) / grid.resolution).astype(np.int64)
     inside = np.all((cells >= 0) & (cells < (grid.width, grid.height)), axis=1)
     inside[inside] = grid.costs[cells[inside, 1], cells[inside, 0]] != NO_INFORMATION
@@ -122,15 +122,15 @@ def path_grid(grid: Costmap2D, plan: Floats, within: Ints | None = None) -> MapG
 
     `within` (n, 2) are the cells (mx, my) under the robot, which never stop the wavefront.
     """
-    return spread(grid, plan_cells(grid, plan), within)
+    return grid_from(grid, plan_cells(grid, plan), within)
 
 
 def goal_grid(grid: Costmap2D, plan: Floats) -> MapGrid:
     """Return the distances to the plan's last point (n, 2) before it leaves the costmap: `MapGrid::setLocalGoal`."""
-    return spread(grid, plan_cells(grid, plan)[-1:])
+    return grid_from(grid, plan_cells(grid, plan)[-1:])
 
 
-def spread(grid: Costmap2D, targets: Ints, within: Ints | None = None) -> MapGrid:
+def grid_from(grid: Costmap2D, targets: Ints, within: Ints | None = None) -> MapGrid:
     """Return the distances to the cells `targets` (n, 2); `within` as in `path_grid`."""
     size = grid.width * grid.height
     distances: Distances = np.full((grid.height, grid.width), size + 1, dtype=np.int32)

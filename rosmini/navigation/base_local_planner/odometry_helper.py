@@ -20,9 +20,9 @@ class OdometryHelper:
         self._warn = node.logwarn
         self._warned = False
         if topic:
-            node.subscriber(topic, message_class("nav_msgs/Odometry"), self._note, queue_size=1)
+            node.subscriber(topic, message_class("nav_msgs/Odometry"), self._on_odometry, queue_size=1)
 
-    def _note(self, message: Any) -> None:
+    def _on_odometry(self, message: Any) -> None:
         twist = message.twist.twist
         values = (twist.linear.x, twist.linear.y, twist.angular.z)
         if all(map(math.isfinite, values)):
@@ -30,6 +30,6 @@ class OdometryHelper:
         elif not self._warned:
             self._warned = True
             self._warn(
-                f"the odometry says that the robot drives at {values}: a velocity has to be finite numbers. The last "
-                "one that was holds, without another warning."
+                f"the odometry reports the velocity {values}, which is not finite: using the last finite one, without "
+                "further warnings"
             )

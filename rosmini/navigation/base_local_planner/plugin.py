@@ -17,8 +17,8 @@ from rosmini.core.tf import Buffer
 from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
 
 from .following import Following, Publications, ignore, no_command, rename, sim_period, twist
-from .goal_functions import distance_to, stands, turn_to
-from .latched_stop_rotate import braked, checked, follow
+from .goal_functions import distance_to_goal, is_stopped, turn_to_goal
+from .latched_stop_rotate import checked, decelerated, reachable_turn_speed
 from .limits import LocalPlannerLimits
 from .odometry_helper import OdometryHelper
 from .trajectory import Samples
@@ -26,7 +26,7 @@ from .trajectory_planner import TrajectoryPlanner, TrajectoryPlannerParameters
 
 Floats = NDArray[np.float64]
 
-STANDS = 1e-2
+STOPPED_SPEED = 1e-2
 """Up to this speed [m/s] and turning speed [rad/s] the robot counts as standing still."""
 
 RENAMED = {
@@ -41,7 +41,7 @@ RENAMED = {
 MISSPELT = {"acc_limit_x": "acc_lim_x", "acc_limit_y": "acc_lim_y", "acc_limit_th": "acc_lim_th"}
 """Names that were wrong in early documentation; as in ROS they are ignored with an error message."""
 
-OTHERS = (
+NOT_READ = (
     *(each.name for each in fields(LocalPlannerLimits)),
     *(
         "forward_point_distance",
@@ -61,21 +61,21 @@ class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
     """All parameters of `base_local_planner/TrajectoryPlannerROS`, including those that are read only once."""
 
     controller_frequency: float | None = parameter(
-        None, "how often it is asked for a command; by default move_base's", unit="Hz"
+        None, "how often commands are computed; by default the value of move_base", unit="Hz"
     )
-    prune_plan: bool = parameter(True, "forget what of the plan lies more than 1 m behind")
-    yaw_goal_tolerance: float = parameter(0.05, "so well turned is turned to the goal", unit="rad")
-    xy_goal_tolerance: float = parameter(0.1, "so near is at the goal", unit="m")
-    latch_xy_goal_tolerance: bool = parameter(False, "having been at the goal's position once is enough")
+    prune_plan: bool = parameter(True, "drop the part of the plan more than 1 m behind the robot")
+    yaw_goal_tolerance: float = parameter(0.05, "tolerance of the heading at the goal", unit="rad")
+    xy_goal_tolerance: float = parameter(0.1, "tolerance of the position at the goal", unit="m")
+    latch_xy_goal_tolerance: bool = parameter(False, "having reached the goal's position once is sufficient")
     stop_time_buffer: float = parameter(0.2, "not used, as in ROS", unit="s")
-    meter_scoring: bool = parameter(False, "distances are weighed in metres, not in cells")
-    world_model: str = parameter("costmap", "how the world is seen", choices=("costmap",))
-    publish_cost_grid_pc: bool = parameter(False, "publish what each cell costs")
+    meter_scoring: bool = parameter(False, "weigh distances in metres instead of cells")
+    world_model: str = parameter("costmap", "the model of the world", choices=("costmap",))
+    publish_cost_grid_pc: bool = parameter(False, "publish the cost of each cell")
     global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
     odom_topic: str = parameter("odom", "the topic of the odometry")
     backup_vel: float | None = parameter(None, "the former name of escape_vel", unit="m/s")
 
-    allowed = (*RENAMED, *MISSPELT, *OTHERS, "point_grid")
+    allowed = (*RENAMED, *MISSPELT, *NOT_READ, "point_grid")
 
 
 class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/TrajectoryPlannerROS"):
@@ -88,10 +88,10 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         """Read the parameters, advertise the topics, and subscribe to the odometry."""
         super().initialize(name, buffer, costmap)
         self.node, label = costmap.node, f"~{name}/"
-        self._mend_names(label)
+        self._convert_names(label)
         settings = TrajectoryPlannerSettings.read(self.node, label)
         self._settings = settings
-        self._say_what_is_odd(settings, label)
+        self._warn_of_settings(settings, label)
         self.publications = Publications(self.node, name, costmap.global_frame)
         self.following = Following(buffer, costmap)
         dynamic = {each.name: getattr(settings, each.name) for each in fields(TrajectoryPlannerParameters)}
@@ -102,10 +102,10 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         )
         self.odometry = OdometryHelper(self.node, settings.odom_topic)
         self._latched = self._rotating = self._reached = False
-        self._at_start: dict[str, Any] | None = None
+        self._initial_config: dict[str, Any] | None = None
         self._server = Server(self.node, TrajectoryPlannerParameters, self._reconfigure, namespace=label)
 
-    def _mend_names(self, label: str) -> None:
+    def _convert_names(self, label: str) -> None:
         node = self.node
         for old, new in RENAMED.items():
             rename(node, label, old, new)
@@ -116,8 +116,8 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
                     "appropriately. The documentation used to be wrong on this, sorry for any confusion."
                 )
         known = {each.name for each in fields(TrajectoryPlannerSettings)}
-        ignore(node, label, [name for name in OTHERS if name not in known], "it is one of DWAPlannerROS")
-        ignore(node, label, ["point_grid"], "it was one of another world_model")
+        ignore(node, label, [name for name in NOT_READ if name not in known], "it belongs to DWAPlannerROS")
+        ignore(node, label, ["point_grid"], "it belonged to another world_model")
         velocities = node.get_param(label + "y_vels", "")
         if isinstance(velocities, list):
             node.set_param(label + "y_vels", ",".join(map(str, velocities)))
@@ -130,7 +130,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
             if not node.has_param(label + "escape_vel"):
                 node.set_param(label + "escape_vel", backup)
 
-    def _say_what_is_odd(self, settings: TrajectoryPlannerSettings, label: str) -> None:
+    def _warn_of_settings(self, settings: TrajectoryPlannerSettings, label: str) -> None:
         if settings.escape_vel >= 0:
             self.node.logwarn(
                 "You've specified a positive escape velocity. This is probably not what you want and will cause the "
@@ -146,10 +146,10 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
 
     def _reconfigure(self, config: Any, _: int) -> Any:
         names = [each.name for each in fields(TrajectoryPlannerParameters)]
-        if self._at_start is None:
-            self._at_start = {name: config[name] for name in names}
+        if self._initial_config is None:
+            self._initial_config = {name: config[name] for name in names}
         elif config["restore_defaults"]:
-            config.update({**self._at_start, "restore_defaults": False})
+            config.update({**self._initial_config, "restore_defaults": False})
         self.planner.reconfigure(TrajectoryPlannerParameters(**{name: config[name] for name in names}))
         self._reached = False
         return config
@@ -175,7 +175,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         pose = planar_pose(self.costmap.robot_pose())
         plan = self.following.local(pose, prune=self._settings.prune_plan)
         goal = (float(plan[-1, 0]), float(plan[-1, 1]), float(plan[-1, 2]))
-        if self._latched or distance_to(pose, goal) <= self._settings.xy_goal_tolerance:
+        if self._latched or distance_to_goal(pose, goal) <= self._settings.xy_goal_tolerance:
             self._latched = self._latched or self._settings.latch_xy_goal_tolerance
             command = self._at_goal(pose, goal, plan)
             self.publications.path(self.publications.global_plan, plan)
@@ -201,21 +201,23 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         return samples
 
     def _at_goal(self, pose: Pose, goal: Pose, plan: Floats) -> Floats:
-        turn, velocity = turn_to(pose, goal), self.odometry.velocity
+        turn, velocity = turn_to_goal(pose, goal), self.odometry.velocity
         if abs(turn) <= self._settings.yaw_goal_tolerance:
             self._rotating = self._latched = False
             self._reached = True
             return np.zeros(3)
         # Update the distances that the check below uses.
         self._sample(pose, plan)
-        if not self._rotating and not stands(velocity, STANDS, STANDS):
-            command = braked(velocity, self.parameters.accelerations, self.planner.sim_period)
+        if not self._rotating and not is_stopped(velocity, STOPPED_SPEED, STOPPED_SPEED):
+            command = decelerated(velocity, self.parameters.accelerations, self.planner.sim_period)
             return checked(command, lambda asked: self._why_not(pose, asked), "Stopping cmd in collision")
         self._rotating = True
         p = self.parameters
         most, least = p.max_vel_theta, p.min_in_place_vel_theta
         speed = min(most, max(least, abs(turn)))
-        speed = follow(speed, turn, float(velocity[2]), p.acc_lim_theta, self.planner.sim_period)
+        speed = reachable_turn_speed(
+            speed, turn, float(velocity[2]), p.acc_lim_theta, self.planner.sim_period
+        )
         # The velocity limits take precedence over the acceleration.
         speed = min(most, max(least, speed))
         command = np.array([0.0, 0.0, math.copysign(speed, turn)])

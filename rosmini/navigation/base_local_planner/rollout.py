@@ -218,13 +218,13 @@ def rollout(
                 nose = cell_of(
                     x + shift * cos, y + shift * sin, origin_x, origin_y, resolution, width, height
                 )
-                before = looked_up(front, nose, False, before, n, 1, i, where)
-                beside = looked_up(path, nose, False, beside, n, 2, i, where)
-                off = looked_up(path, cell, True, off, n, 3, i, where)
-                ahead = looked_up(goal, cell, True, ahead, n, 4, i, where)
-            vx = nearer(vx, targets[n, 0], limits[0] * dt)
-            vy = nearer(vy, targets[n, 1], limits[1] * dt)
-            w = nearer(w, targets[n, 2], limits[2] * dt)
+                before = looked_up_distance(front, nose, False, before, n, 1, i, where)
+                beside = looked_up_distance(path, nose, False, beside, n, 2, i, where)
+                off = looked_up_distance(path, cell, True, off, n, 3, i, where)
+                ahead = looked_up_distance(goal, cell, True, ahead, n, 4, i, where)
+            vx = approached(vx, targets[n, 0], limits[0] * dt)
+            vy = approached(vy, targets[n, 1], limits[1] * dt)
+            w = approached(w, targets[n, 2], limits[2] * dt)
             x, y, theta = x + (vx * cos - vy * sin) * dt, y + (vx * sin + vy * cos) * dt, theta + w * dt
         raw[n, 0], raw[n, 1], raw[n, 2], raw[n, 3], raw[n, 4] = under, before, beside, off, ahead
 
@@ -240,14 +240,14 @@ def cell_of(
     return my * width + mx if mx < width and my < height else -1
 
 
-def nearer(value: float, target: float, most: float) -> float:
+def approached(value: float, target: float, most: float) -> float:
     """Return `value` moved towards `target` by at most `most`."""
     if value < target:
         return min(target, value + most)
     return max(target, value - most)
 
 
-def looked_up(
+def looked_up_distance(
     distances: Distances, cell: int, strict: bool, last: float, n: int, critic: int, i: int, where: Ints
 ) -> float:
     """Return a cell's distance, or `last` if that is negative; record the first negative point in `where`."""
@@ -308,4 +308,6 @@ def compiled_rollout() -> Callable[..., None]:
         number[:, ::1],
         whole[:, ::1],
     )
-    return machine_code(rollout, signature, (outline_cost, line_cost, cell_of, nearer, looked_up))
+    return machine_code(
+        rollout, signature, (outline_cost, line_cost, cell_of, approached, looked_up_distance)
+    )

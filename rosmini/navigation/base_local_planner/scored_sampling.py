@@ -22,10 +22,10 @@ KERNEL = "rosmini.navigation.base_local_planner.rollout:compiled_rollout"
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-SLACK = 1e-4
+TOLERANCE = 1e-4
 """Tolerance for velocities outside the limits [m/s, rad/s]."""
 
-MOST_POINTS = 20_000_000
+MAX_POINTS = 20_000_000
 """Maximum number of points of all trajectories in a cycle; they take half a gigabyte."""
 
 
@@ -54,9 +54,9 @@ def roll_out(
     """Call the kernel: `grids` of path, goal, front; `motion`: starts (n, 3), targets (n, 3), accelerations (3)."""
     starts, targets, limits = motion
     count, most = len(targets), int(steps.max(initial=1))
-    if count * most > MOST_POINTS:
+    if count * most > MAX_POINTS:
         raise ParameterError(
-            f"{count} trajectories of up to {most} points are more than the {MOST_POINTS:,} points of a cycle: take a "
+            f"{count} trajectories of up to {most} points exceed the limit of {MAX_POINTS:,} points a cycle: use a "
             "larger sim_granularity or angular_sim_granularity, a shorter sim_time or fewer samples"
         )
     points = np.zeros((count, most, 3))
@@ -108,8 +108,8 @@ class Sampling:
         for name in ("sim_granularity", "angular_sim_granularity"):
             if getattr(self, name) <= 0:
                 raise ParameterError(
-                    f"{name} is {getattr(self, name):g}: trajectories are checked in steps of this size, so it has to "
-                    "be more than 0"
+                    f"{name} is {getattr(self, name):g}: trajectories are checked in steps of this size, so it must "
+                    "be greater than 0"
                 )
 
     def velocities(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> Floats:
@@ -134,8 +134,8 @@ class Sampling:
     def steps(self, velocities: Floats, limits: LocalPlannerLimits) -> Ints:
         """Return the number of steps of each velocity (n, 3); 0 for velocities that the robot cannot follow."""
         speeds, turns = np.hypot(velocities[:, 0], velocities[:, 1]), np.abs(velocities[:, 2])
-        slow = (speeds + SLACK < limits.min_vel_trans) & (turns + SLACK < limits.min_vel_theta)
-        fast = speeds - SLACK > limits.max_vel_trans
+        slow = (speeds + TOLERANCE < limits.min_vel_trans) & (turns + TOLERANCE < limits.min_vel_theta)
+        fast = speeds - TOLERANCE > limits.max_vel_trans
         steps = np.ceil(
             np.maximum(
                 speeds * self.sim_time / self.sim_granularity,

@@ -83,7 +83,7 @@ class Samples:
             return ""
         at = int(self.where[number, critic])
         place = f" at point {at + 1} of {int(self.lengths[number])}" if at >= 0 else ""
-        words = REASONS.get((self.critics[critic], int(self.raw[number, critic])), "rejects it")
+        words = REASONS.get((self.critics[critic], int(self.raw[number, critic])), "rejected")
         return f"{self.critics[critic]}: {words}{place}"
 
     def table(self, count: int = 8) -> str:
@@ -131,10 +131,10 @@ REASONS: dict[tuple[str, int], str] = {
     ("obstacle", -1): "the footprint meets an obstacle",
     ("obstacle", -2): "the footprint meets unknown cells",
     ("obstacle", -3): "the footprint leaves the local costmap",
-    ("path", -2): "no way leads from there to the plan",
+    ("path", -2): "no path leads from there to the plan",
     ("path", -3): "its centre enters an obstacle",
     ("path", -4): "it leaves the local costmap",
-    ("goal", -2): "no way leads from there to the local goal",
+    ("goal", -2): "no path leads from there to the local goal",
     ("goal", -3): "its centre enters an obstacle",
     ("goal", -4): "it leaves the local costmap",
     ("goal_front", -4): "its nose leaves the local costmap",
@@ -143,7 +143,7 @@ REASONS: dict[tuple[str, int], str] = {
 """Meanings of the critics' negative scores. (ROS has -6 for every obstacle; here the code names its kind.)"""
 
 
-def joined(first: Samples, *others: Samples, best: int | None = None) -> Samples:
+def concatenated(first: Samples, *others: Samples, best: int | None = None) -> Samples:
     """Return all samples as one, with the index `best` of the chosen one."""
     parts = [first, *others]
     most = max(part.points.shape[1] for part in parts)

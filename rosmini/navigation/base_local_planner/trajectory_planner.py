@@ -19,17 +19,17 @@ from rosmini.core.parameters import Parameters, parameter
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 
 from .costmap_model import footprint_cells, line_cells
-from .map_grid import MapGrid, plan_cells, spread
-from .scored_sampling import SLACK, roll_out
-from .trajectory import Samples, joined
+from .map_grid import MapGrid, grid_from, plan_cells
+from .scored_sampling import TOLERANCE, roll_out
+from .trajectory import Samples, concatenated
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 CRITICS = ("obstacle", "path", "goal", "heading")
-BLOCKED = -1.0
+COLLISION_COST = -1.0
 """The cost of a trajectory whose footprint touches an obstacle."""
-IMPOSSIBLE = -2.0
+UNREACHABLE_COST = -2.0
 """The cost of a trajectory that ends where no path leads to the plan."""
 HEADING_SCALE = 0.3
 STRAFE = 0.1
@@ -56,13 +56,13 @@ class TrajectoryPlannerParameters(Parameters):
         0.4, "the slowest turn on the spot", unit="rad/s", minimum=0.0, maximum=20.0
     )
     sim_time: float = parameter(
-        1.7, "how far trajectories are driven ahead", unit="s", minimum=0.0, maximum=10.0
+        1.7, "the duration of simulated trajectories", unit="s", minimum=0.0, maximum=10.0
     )
     sim_granularity: float = parameter(
-        0.025, "between two points of a trajectory", unit="m", minimum=0.0, maximum=5.0
+        0.025, "distance between two points of a trajectory", unit="m", minimum=0.0, maximum=5.0
     )
     angular_sim_granularity: float = parameter(
-        0.025, "between the headings of two points", unit="rad", minimum=0.0, maximum=math.pi / 2
+        0.025, "angle between the headings of two points", unit="rad", minimum=0.0, maximum=math.pi / 2
     )
     path_distance_bias: float = parameter(0.6, "weight of the distance to the plan", minimum=0.0, maximum=5.0)
     goal_distance_bias: float = parameter(
@@ -72,7 +72,7 @@ class TrajectoryPlannerParameters(Parameters):
         0.01, "weight of the costs under the footprint", minimum=0.0, maximum=5.0
     )
     oscillation_reset_dist: float = parameter(
-        0.05, "after this distance it may turn back again", unit="m", minimum=0.0, maximum=5.0
+        0.05, "after this distance it may turn the other way again", unit="m", minimum=0.0, maximum=5.0
     )
     escape_reset_dist: float = parameter(
         0.1, "after this distance it has escaped", unit="m", minimum=0.0, maximum=5.0
@@ -83,18 +83,18 @@ class TrajectoryPlannerParameters(Parameters):
     vx_samples: int = parameter(20, "how many velocities ahead are tried", minimum=1, maximum=300)
     vtheta_samples: int = parameter(20, "how many turns are tried", minimum=1, maximum=300)
     heading_lookahead: float = parameter(
-        0.325, "so far ahead a turn on the spot is judged", unit="m", minimum=0.0, maximum=5.0
+        0.325, "how far ahead a turn on the spot is judged", unit="m", minimum=0.0, maximum=5.0
     )
-    holonomic_robot: bool = parameter(True, "it can step aside")
-    escape_vel: float = parameter(-0.1, "how it backs up", unit="m/s", minimum=-2.0, maximum=2.0)
-    dwa: bool = parameter(False, "try only what is reached in one cycle, not in sim_time")
-    heading_scoring: bool = parameter(False, "score the heading, and the distances at one point only")
+    holonomic_robot: bool = parameter(True, "whether the robot can move sideways")
+    escape_vel: float = parameter(-0.1, "the velocity of backing up", unit="m/s", minimum=-2.0, maximum=2.0)
+    dwa: bool = parameter(False, "try only velocities within reach of one cycle, not of sim_time")
+    heading_scoring: bool = parameter(False, "score the heading, and distances at one point only")
     heading_scoring_timestep: float = parameter(
-        0.1, "at the point at this time", unit="s", minimum=0.0, maximum=1.0
+        0.1, "the time of that point", unit="s", minimum=0.0, maximum=1.0
     )
-    simple_attractor: bool = parameter(False, "straight to the end of the plan, without distances")
-    y_vels: str = parameter("-0.3,-0.1,0.1,-0.3", "velocities to the side, if nothing else is possible")
-    restore_defaults: bool = parameter(False, "set all parameters to what they were at the start")
+    simple_attractor: bool = parameter(False, "drive straight to the end of the plan, without path distances")
+    y_vels: str = parameter("-0.3,-0.1,0.1,-0.3", "sideways velocities to try if nothing else is possible")
+    restore_defaults: bool = parameter(False, "reset all parameters to their initial values")
 
     @property
     def accelerations(self) -> Floats:
@@ -107,7 +107,7 @@ class TrajectoryPlannerParameters(Parameters):
             return [float(word) for word in self.y_vels.replace(",", " ").strip(" []").split()]
         except ValueError:
             raise ParameterError(
-                f"y_vels is {self.y_vels!r}: it has to be numbers [m/s] with commas between them, such as -0.3,0.3"
+                f"y_vels is {self.y_vels!r}: it must be numbers [m/s] separated by commas, such as -0.3,0.3"
             ) from None
 
 
@@ -123,7 +123,7 @@ class Turning:
     stuck_right: bool = False
     stuck_left: bool = False
 
-    def note(self, velocity: float) -> None:
+    def record(self, velocity: float) -> None:
         """Record a velocity to the left (positive) or to the right (negative)."""
         if velocity < 0:
             self.right, self.stuck_right = True, self.stuck_right or self.right
@@ -149,7 +149,7 @@ class TrajectoryPlanner:
         self.goal: MapGrid | None = None
         self.turning, self.strafing = Turning(), Turning()
         self.escaping = False
-        self._stood_at = (0.0, 0.0)
+        self._turned_at = (0.0, 0.0)
         self._escaped_from: Pose = (0.0, 0.0, 0.0)
         self.reconfigure(parameters)
 
@@ -158,8 +158,8 @@ class TrajectoryPlanner:
         for name in ("sim_granularity", "angular_sim_granularity", "sim_time"):
             if getattr(parameters, name) <= 0:
                 raise ParameterError(
-                    f"{name} is {getattr(parameters, name):g}: trajectories of no length, or of infinitely many "
-                    "points, cannot be scored, so it has to be more than 0"
+                    f"{name} is {getattr(parameters, name):g}: it must be greater than 0, because trajectories without "
+                    "length or with infinitely many points cannot be scored"
                 )
         self.sideways = parameters.sideways()
         self.parameters = parameters
@@ -172,8 +172,8 @@ class TrajectoryPlanner:
         self.plan, self.footprint = plan, footprint
         here = footprint_cells(grid, pose, footprint, fill=True)
         cells = plan_cells(grid, plan)
-        self.path = spread(grid, cells, np.array(here, dtype=np.int64).reshape(-1, 2))
-        self.goal = spread(grid, cells[-1:])
+        self.path = grid_from(grid, cells, np.array(here, dtype=np.int64).reshape(-1, 2))
+        self.goal = grid_from(grid, cells[-1:])
         return len(cells) > 0
 
     # -- one cycle -----------------------------------------------------------------------------------------------
@@ -198,17 +198,17 @@ class TrajectoryPlanner:
             aside[:, 1] = self.sideways
             more = self._scored(grid, pose, velocity, aside)
             best = self._best_aside(grid, samples, more, open_space)
-            samples = joined(samples, more)
+            samples = concatenated(samples, more)
         if best is None:
             back = np.array([[self.parameters.escape_vel, 0.0, 0.0]])
             return self._escape(pose, samples, self._scored(grid, pose, velocity, back))
         command = samples.commands[best]
         if not command[0] > 0:
             if command[2] != 0:
-                self.turning.note(command[2])
+                self.turning.record(command[2])
             else:
-                self.strafing.note(-command[1])
-            self._stood_at = pose[:2]
+                self.strafing.record(-command[1])
+            self._turned_at = pose[:2]
         self._forget(pose)
         return replace(samples, best=best)
 
@@ -279,19 +279,19 @@ class TrajectoryPlanner:
         """Back up, even into an obstacle, unless no path leads to the plan."""
         cost = float(back.totals[0])
         self._forget_turns(pose)
-        if not self.escaping and cost > IMPOSSIBLE:
+        if not self.escaping and cost > UNREACHABLE_COST:
             self._escaped_from, self.escaping = pose, True
         self._forget_escape(pose)
-        if cost == BLOCKED:
+        if cost == COLLISION_COST:
             back = replace(back, totals=np.ones(1), rejected_by=np.full(1, -1))
-        return joined(samples, back, best=len(samples) if back.totals[0] >= 0 else None)
+        return concatenated(samples, back, best=len(samples) if back.totals[0] >= 0 else None)
 
     def _forget(self, pose: Pose) -> None:
         self._forget_turns(pose)
         self._forget_escape(pose)
 
     def _forget_turns(self, pose: Pose) -> None:
-        if math.dist(pose[:2], self._stood_at) > self.parameters.oscillation_reset_dist:
+        if math.dist(pose[:2], self._turned_at) > self.parameters.oscillation_reset_dist:
             self.turning, self.strafing = Turning(), Turning()
 
     def _forget_escape(self, pose: Pose) -> None:
@@ -313,7 +313,7 @@ class TrajectoryPlanner:
 
     def _scored(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
         if self.path is None or self.goal is None:
-            raise RuntimeError("a plan comes before its trajectories: call update_plan")
+            raise RuntimeError("there is no plan: call update_plan first")
         p, count = self.parameters, len(velocities)
         steps = self._steps(velocities)
         scored = self._scored_points(steps)
@@ -325,7 +325,7 @@ class TrajectoryPlanner:
         raw, where = np.zeros((count, 4)), np.full((count, 4), -1)
         raw[:, :3], where[:, :3] = found.raw[:, [0, 3, 4]], found.where[:, [0, 3, 4]]
         if p.simple_attractor:
-            self._attract(found.points, steps, raw, where)
+            self._score_attractor(found.points, steps, raw, where)
         elif p.heading_scoring:
             raw[:, 3] = self._headings(grid, found.points, steps, scored)
         bias = grid.resolution if self.meter_scoring else 1.0
@@ -333,7 +333,7 @@ class TrajectoryPlanner:
         scales = np.array(
             [p.occdist_scale, p.path_distance_bias * bias, p.goal_distance_bias * bias, heading]
         )
-        totals, rejected_by = _judged(raw, where, scales)
+        totals, rejected_by = _totals(raw, where, scales)
         return Samples(
             CRITICS,
             scales,
@@ -354,9 +354,9 @@ class TrajectoryPlanner:
         if not p.heading_scoring:
             return np.full(len(steps), -1)
         dt = p.sim_time / steps
-        return np.ceil(p.heading_scoring_timestep / dt - SLACK).astype(np.int64)
+        return np.ceil(p.heading_scoring_timestep / dt - TOLERANCE).astype(np.int64)
 
-    def _attract(self, points: Floats, steps: Ints, raw: Floats, where: Ints) -> None:
+    def _score_attractor(self, points: Floats, steps: Ints, raw: Floats, where: Ints) -> None:
         ends = points[np.arange(len(steps)), steps - 1, :2]
         raw[:, 1], raw[:, 2] = 0.0, ((ends - self.plan[-1, :2]) ** 2).sum(axis=1)
         where[:, 1:3] = -1
@@ -402,11 +402,11 @@ def _cheapest(samples: Samples, count: int) -> int | None:
     return int(np.argmin(np.where(samples.accepted[:count], samples.totals[:count], np.inf)))
 
 
-def _judged(raw: Floats, where: Ints, scales: Floats) -> tuple[Floats, Ints]:
+def _totals(raw: Floats, where: Ints, scales: Floats) -> tuple[Floats, Ints]:
     """Return costs and rejecting critics: the critic of the earliest point, and at the same point the obstacle."""
     first = np.where(raw < 0, where, np.iinfo(np.int64).max)
     critic = np.argmin(first, axis=1)
     rejected = (raw < 0).any(axis=1)
-    codes = np.where(critic == 0, BLOCKED, IMPOSSIBLE)
+    codes = np.where(critic == 0, COLLISION_COST, UNREACHABLE_COST)
     totals: Floats = np.where(rejected, codes, (raw * scales).sum(axis=1))
     return totals, np.where(rejected, critic, -1)

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from .carrot import carrot
+from .carrot import nearest_legal_pose
 
-__all__ = ["carrot"]
+__all__ = ["nearest_legal_pose"]

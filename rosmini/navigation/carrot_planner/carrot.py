@@ -11,7 +11,7 @@ STEPS = 100
 """Number of steps from the goal back to the start."""
 
 
-def carrot(start: Pose, goal: Pose, is_legal: Callable[[Pose], bool]) -> Pose | None:
+def nearest_legal_pose(start: Pose, goal: Pose, is_legal: Callable[[Pose], bool]) -> Pose | None:
     """Return the legal pose nearest to the goal, out of `STEPS` on the line back to the start, or None.
 
     The heading changes evenly along the line.

@@ -17,7 +17,7 @@ from rosmini.navigation.nav_core import (
     pose_stamped,
 )
 
-from .carrot import carrot
+from .carrot import nearest_legal_pose
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class CarrotParameters(Parameters):
     """The parameters of `carrot_planner/CarrotPlanner`, in `~CarrotPlanner/`."""
 
     step_size: float | None = parameter(
-        None, "has no effect, as in ROS: a step is a hundredth of the way", unit="m"
+        None, "has no effect, as in ROS: a step is a hundredth of the distance", unit="m"
     )
     min_dist_from_robot: float = parameter(0.10, "has no effect, as in ROS", unit="m")
 
@@ -54,7 +54,7 @@ class CarrotPlanner(BaseGlobalPlanner, plugin="carrot_planner/CarrotPlanner"):
             raise PlanningFailure(text, frame=frame, expected=self.costmap.global_frame)
         begin, end = planar_pose(start), planar_pose(goal)
         footprint = self.costmap.footprint
-        target = carrot(
+        target = nearest_legal_pose(
             begin,
             end,
             lambda pose: len(footprint) > 2 and footprint_cost(self.costmap.grid, pose, footprint) >= 0,
@@ -64,7 +64,7 @@ class CarrotPlanner(BaseGlobalPlanner, plugin="carrot_planner/CarrotPlanner"):
             self.node.logwarn(text)
             raise GoalBlocked(
                 f"{text}: on the line from ({begin[0]:.2f}, {begin[1]:.2f}) to ({end[0]:.2f}, {end[1]:.2f}) the "
-                "footprint touches an obstacle everywhere, where the robot stands, too",
+                "footprint touches an obstacle everywhere, even at the start",
                 start=begin[:2],
                 goal=end[:2],
             )

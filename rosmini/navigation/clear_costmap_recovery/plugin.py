@@ -21,10 +21,10 @@ class ClearCostmapParameters(Parameters):
     """The parameters of a `clear_costmap_recovery/ClearCostmapRecovery`, in `~NAME/`."""
 
     reset_distance: float = parameter(
-        3.0, "side of the square around the robot outside of which is cleared", unit="m"
+        3.0, "side of the square around the robot; the area outside it is cleared", unit="m"
     )
-    invert_area_to_clear: bool = parameter(False, "clear inside of the square instead")
-    force_updating: bool = parameter(False, "update the costmaps at once, and not when they are due")
+    invert_area_to_clear: bool = parameter(False, "clear the inside of the square instead")
+    force_updating: bool = parameter(False, "update the costmaps immediately, not at the next period")
     affected_maps: str = parameter("both", "which costmaps: local, global or both")
     layer_names: tuple[str, ...] = parameter(("obstacles",), "the layers that are cleared")
 
@@ -60,7 +60,7 @@ class ClearCostmapRecovery(RecoveryBehavior, plugin="clear_costmap_recovery/Clea
         if known and not set(wanted) & set(known):
             hint = next((found for each in wanted if (found := nearest(each, known))), "")
             self.node.logwarn(
-                f"{self.name} will clear nothing: ~{self.name}/layer_names is [{', '.join(wanted)}], and the layers of "
+                f"{self.name} will clear nothing: ~{self.name}/layer_names is [{', '.join(wanted)}], but the layers of "
                 f"the costmaps are {', '.join(dict.fromkeys(known))}. Set it to those that hold obstacles"
                 f"{': ' + hint if hint else ''}"
             )

@@ -29,7 +29,7 @@ NO_INFORMATION = 255
 Costs = NDArray[np.uint8]
 Ints = NDArray[np.int64]
 
-LARGEST = 100_000_000
+MAX_CELLS = 100_000_000
 """Maximum number of cells in a costmap, such as a map of 10,000 x 10,000."""
 
 
@@ -66,16 +66,16 @@ class Costmap2D:
         """Create a grid with all cells at cost `default`. Raises `CostmapError` for invalid dimensions."""
         if not (math.isfinite(resolution) and resolution > 0):
             raise CostmapError(
-                f"the resolution is {resolution}: it has to be the side of a cell in metres, above 0"
+                f"the resolution is {resolution}: it must be the side of a cell in metres, greater than 0"
             )
-        if width < 0 or height < 0 or width * height > LARGEST:
+        if width < 0 or height < 0 or width * height > MAX_CELLS:
             raise CostmapError(
-                f"a costmap of {width} x {height} cells: sides have to be 0 or more, and no more than {LARGEST:,} "
-                "cells in all; take a coarser resolution or a smaller window"
+                f"a costmap of {width} x {height} cells: both sides must be at least 0, and the total at most "
+                f"{MAX_CELLS:,} cells; use a coarser resolution or a smaller window"
             )
         if not all(map(math.isfinite, origin)):
             raise CostmapError(
-                f"the origin of a costmap is {origin}: it has to be two finite numbers, in metres"
+                f"the origin of a costmap is {origin}: it must be two finite numbers, in metres"
             )
         self.costs: Costs = np.full((height, width), default, dtype=np.uint8)
         self.resolution = float(resolution)
@@ -89,7 +89,9 @@ class Costmap2D:
         """Create a costmap from a copy of these costs (h, w)."""
         array = np.array(costs, dtype=np.uint8, order="C")
         if array.ndim != 2:
-            raise CostmapError(f"costs have the shape {array.shape}: they have to be a table (rows, columns)")
+            raise CostmapError(
+                f"costs have the shape {array.shape}: they must be a two-dimensional array (rows, columns)"
+            )
         made = cls(0, 0, resolution, origin)
         made.costs = array
         return made

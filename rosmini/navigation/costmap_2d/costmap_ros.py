@@ -30,7 +30,7 @@ from .inflation_layer import InflationLayer
 from .layer import Layer
 from .layered import LayeredCostmap
 from .migration import inherit, migrate
-from .parameters import CostmapConfig, CostmapParameters, set_above
+from .parameters import CostmapConfig, CostmapParameters, name_above
 from .polygons import fill
 from .publisher import Costmap2DPublisher
 
@@ -38,11 +38,11 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
     from rosmini.core.tf import Buffer
 
-PATIENCE = 5.0
+WARN_PERIOD = 5.0
 """Interval between warnings while the robot's transform is missing [s]."""
-NAMES = tuple(each.name for each in fields(CostmapConfig))
+DYNAMIC_NAMES = tuple(each.name for each in fields(CostmapConfig))
 """Names of the parameters that can change while the costmap runs."""
-BLOCKED = 0.01
+POLL_PERIOD = 0.01
 """Interval between checks for the first update [s]."""
 
 
@@ -56,7 +56,7 @@ class Costmap2DROS:
     def __init__(self, name: str, buffer: Buffer, node: Node) -> None:
         self.name, self.node, self.buffer = name, node, buffer
         self.namespace = f"~{name}/"
-        self._read()
+        self._read_parameters()
         settings = self._settings
         self.global_frame = self._frame("global_frame", settings.global_frame)
         self.base_frame = self._frame("robot_base_frame", settings.robot_base_frame)
@@ -65,7 +65,7 @@ class Costmap2DROS:
             self.global_frame,
             rolling_window=settings.rolling_window,
             track_unknown_space=settings.track_unknown_space,
-            report=self._failed,
+            report=self._report_failure,
         )
         self.stopped = False
         self._paused = False
@@ -93,31 +93,31 @@ class Costmap2DROS:
 
     # -- setup ---------------------------------------------------------------------------------------------------
 
-    def _read(self) -> None:
+    def _read_parameters(self) -> None:
         """Convert old parameter forms to the current one, and read the parameters."""
         node, namespace = self.node, self.namespace
         migrate_sizes(node, namespace)
         tracks_unknown = node.get_param(namespace + "track_unknown_space", False, expect=bool)
-        self._first_footprint = footprint_of_parameters(node, namespace)
+        self._initial_footprint = footprint_of_parameters(node, namespace)
         migrate(node, namespace, self.name)
         self._settings = CostmapParameters.read(node, namespace, track_unknown_space=tracks_unknown)
         if not self._settings.resolution > 0:
             raise ParameterError(
-                f"parameter {node.resolve(namespace + 'resolution')} is {self._settings.resolution:g}: it has to be "
-                "the side of a cell in metres, above 0"
+                f"parameter {node.resolve(namespace + 'resolution')} is {self._settings.resolution:g}: it must be "
+                "the side of a cell in metres, greater than 0"
             )
 
     def _frame(self, parameter: str, frame: str) -> str:
         if frame.startswith("/"):
             self.node.logwarn(
-                f"parameter {self.node.resolve(self.namespace + parameter)} is '{frame}': frames have no leading slash "
-                f"any more, '{frame.lstrip('/')}' is taken"
+                f"parameter {self.node.resolve(self.namespace + parameter)} is '{frame}': frame names no "
+                f"longer have a leading slash, using '{frame.lstrip('/')}'"
             )
         return frame.lstrip("/")
 
     def _wait_for_robot(self) -> None:
         """Block until the robot's pose is known."""
-        while not self.buffer.wait_for_transform(self.global_frame, self.base_frame, timeout=PATIENCE):
+        while not self.buffer.wait_for_transform(self.global_frame, self.base_frame, timeout=WARN_PERIOD):
             why = self.buffer.tree.why_not(self.global_frame, self.base_frame)
             self.node.logwarn(
                 f"Timed out waiting for transform from {self.base_frame} to {self.global_frame} to become available "
@@ -138,26 +138,26 @@ class Costmap2DROS:
         """Subscribe to footprints, advertise the placed footprint, and set the footprint given by parameters."""
         settings, node = self._settings, self.node
         node.subscriber(
-            self._private(settings.footprint_topic),
+            self._topic_name(settings.footprint_topic),
             message_class("geometry_msgs/Polygon"),
             lambda polygon: self._take_footprint(outlines.points_of(polygon)),
             queue_size=1,
             skip_own_mismatch=True,
         )
         self._footprints = node.publisher(
-            self._private(settings.published_footprint_topic),
+            self._topic_name(settings.published_footprint_topic),
             message_class("geometry_msgs/PolygonStamped"),
             queue_size=1,
         )
         self._footprints.expect_nobody()
-        self.set_footprint(self._first_footprint)
+        self.set_footprint(self._initial_footprint)
 
-    def _private(self, topic: str) -> str:
+    def _topic_name(self, topic: str) -> str:
         return topic if topic.startswith(("/", "~")) else self.namespace + topic
 
     def _reconfigure(self, config: Any, _: int) -> Any:
         """Apply the parameters that can change at any time."""
-        new = CostmapConfig(**{name: config[name] for name in NAMES})
+        new = CostmapConfig(**{name: config[name] for name in DYNAMIC_NAMES})
         self._tolerance_ns = round(new.transform_tolerance * 1e9)
         if not self.layered.is_size_locked and new.resolution > 0:
             # As in the original: truncated, so a window of 0.15 m at 0.05 m is three cells wide.
@@ -197,8 +197,8 @@ class Costmap2DROS:
             self._timer = None
         self._publish_ns = round(1e9 / publish_frequency) if publish_frequency > 0 else 0
         if update_frequency > 0:
-            self._timer = self.node.timer(1 / update_frequency, lambda _: self._turn())
-            self._turn()
+            self._timer = self.node.timer(1 / update_frequency, lambda _: self._update_and_publish())
+            self._update_and_publish()
 
     # -- queries -------------------------------------------------------------------------------------------------
 
@@ -254,7 +254,7 @@ class Costmap2DROS:
             found = self.buffer.tree.lookup(self.global_frame, frame)
         except TransformException as error:
             raise TransformMissing(
-                f"a pose in the frame '{frame}' cannot be had in '{self.global_frame}': {error}",
+                f"a pose in the frame '{frame}' cannot be transformed to '{self.global_frame}': {error}",
                 frame=frame,
                 global_frame=self.global_frame,
             ) from error
@@ -265,8 +265,8 @@ class Costmap2DROS:
 
     def explain(self, mx: int, my: int) -> CellCosts:
         """Return the cost that each layer gives a cell, or None, with reasons. Raises `IndexError` outside the grid."""
-        said = {layer.name: layer.explain(mx, my) for layer in self.layers if layer.is_enabled}
-        return CellCosts(self.grid, mx, my, said)
+        explanations = {layer.name: layer.explain(mx, my) for layer in self.layers if layer.is_enabled}
+        return CellCosts(self.grid, mx, my, explanations)
 
     def show(self, **options: Any) -> Any:
         """Draw the costs and the robot; see `Costmap2D.show` for the options."""
@@ -342,7 +342,7 @@ class Costmap2DROS:
         if self._timer is not None and not self._initialized:
             self.update()
         while self._timer is not None and not self._initialized:
-            self.node.sleep(BLOCKED)
+            self.node.sleep(POLL_PERIOD)
 
     def reset_layers(self) -> None:
         """Clear all costs, including those in the layers."""
@@ -359,7 +359,7 @@ class Costmap2DROS:
 
     # -- updates -------------------------------------------------------------------------------------------------
 
-    def _turn(self) -> None:
+    def _update_and_publish(self) -> None:
         self.update()
         if not self._publish_ns or not self.layered.is_initialized:
             return
@@ -406,14 +406,15 @@ class Costmap2DROS:
     def _take_footprint(self, footprint: NDArray[np.float64]) -> None:
         if len(footprint) < 3 or not np.isfinite(footprint).all():
             self.node.logerr(
-                f"a footprint of {len(footprint)} points came on a topic: at least three with finite numbers are needed"
+                f"ignoring a footprint of {len(footprint)} points from a topic: it needs at least three "
+                "points with finite numbers"
             )
             return
         self.set_footprint(footprint)
 
-    def _failed(self, layer: Layer, error: Exception) -> None:
+    def _report_failure(self, layer: Layer, error: Exception) -> None:
         self.node.logerr(
-            f"{self.name}: the layer {layer.name} ({type(layer).__name__}) failed, and this update is without it: "
+            f"{self.name}: the layer {layer.name} ({type(layer).__name__}) failed and is missing from this update: "
             f"{type(error).__name__}: {error}",
             throttle=1.0,
         )
@@ -431,8 +432,8 @@ def migrate_sizes(node: Node, namespace: str) -> None:
             whole = math.floor(value + 0.5)
             if whole != value:
                 node.logwarn(
-                    f"parameter {node.resolve(namespace + name)} is {value:g} m: a costmap's sides are whole metres, "
-                    f"{whole} m is taken"
+                    f"parameter {node.resolve(namespace + name)} is {value:g} m: the sides of a costmap must be whole "
+                    f"metres, using {whole} m"
                 )
             node.set_param(namespace + name, whole)
 
@@ -442,7 +443,7 @@ def footprint_of_parameters(node: Node, namespace: str) -> NDArray[np.float64]:
 
     The value is copied into this namespace, where dynamic_reconfigure reads it. Raises `ParameterError`.
     """
-    found = set_above(node, namespace, "footprint")
+    found = name_above(node, namespace, "footprint")
     if found is not None:
         value = node.get_param(found)
         if value not in ("", "[]"):
@@ -460,7 +461,7 @@ def footprint_of_parameters(node: Node, namespace: str) -> NDArray[np.float64]:
             node.set_param(namespace + "footprint", outlines.footprint_text(made))
             return made
         node.set_param(namespace + "footprint", value)
-    found = set_above(node, namespace, "robot_radius")
+    found = name_above(node, namespace, "robot_radius")
     if found is None:
         return np.zeros((0, 2))
     radius = node.get_param(found, expect=float)

@@ -26,13 +26,15 @@ class CellCosts(dict[str, int | None]):
     As text, one line describes the cell and one line each layer.
     """
 
-    def __init__(self, grid: Costmap2D, mx: int, my: int, said: Mapping[str, tuple[int | None, str]]) -> None:
-        super().__init__({name: cost for name, (cost, _) in said.items()})
+    def __init__(
+        self, grid: Costmap2D, mx: int, my: int, explanations: Mapping[str, tuple[int | None, str]]
+    ) -> None:
+        super().__init__({name: cost for name, (cost, _) in explanations.items()})
         self.cost = grid.cost(mx, my)
         """The cell's cost in the master grid."""
         self.cell = (mx, my)
         self.point = grid.map_to_world(mx, my)
-        self._words = {name: words for name, (_, words) in said.items()}
+        self._texts = {name: text for name, (_, text) in explanations.items()}
 
     def __str__(self) -> str:
         meaning = MEANINGS.get(self.cost, "near something")
@@ -40,7 +42,7 @@ class CellCosts(dict[str, int | None]):
             f"cell {self.cell} at ({self.point[0]:.2f}, {self.point[1]:.2f}) m costs {self.cost}: {meaning}"
         ]
         for name, cost in self.items():
-            words = self._words[name]
+            text = self._texts[name]
             shown = "nothing" if cost is None else str(cost)
-            lines.append(f"  {name}: {shown}{f' ({words})' if words else ''}")
+            lines.append(f"  {name}: {shown}{f' ({text})' if text else ''}")
         return "\n".join(lines)

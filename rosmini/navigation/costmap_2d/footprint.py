@@ -15,7 +15,7 @@ from rosmini.core.geometry.poses import Pose, transform_points
 
 Footprint = NDArray[np.float64]
 
-CORNERS = 16
+CIRCLE_VERTICES = 16
 """Number of vertices in the polygon that approximates a round robot."""
 
 EXAMPLE = "[[x1, y1], [x2, y2], [x3, y3], ...] in metres, at least three points"
@@ -23,7 +23,7 @@ EXAMPLE = "[[x1, y1], [x2, y2], [x3, y3], ...] in metres, at least three points"
 
 def footprint_from_radius(radius: float) -> Footprint:
     """Return a regular polygon with 16 vertices on a circle of this radius [m]; its inscribed radius is 0.98 of it."""
-    angles = np.arange(CORNERS) * math.tau / CORNERS
+    angles = np.arange(CIRCLE_VERTICES) * math.tau / CIRCLE_VERTICES
     return np.stack([np.cos(angles) * radius, np.sin(angles) * radius], axis=-1)
 
 
@@ -68,31 +68,31 @@ def footprint_from_text(text: str, name: str) -> Footprint:
     points: list[list[float]] = []
     point: list[float] = []
     depth = 0
-    for match in _PART.finditer(text):
-        part = match[0]
-        if part == "[":
+    for match in _TOKEN.finditer(text):
+        word = match[0]
+        if word == "[":
             depth, point = depth + 1, []
-        elif part == "]":
+        elif word == "]":
             depth -= 1
             if depth == 1:
                 points.append(point)
         elif match["number"] and depth == 2:
-            point.append(float(part))
+            point.append(float(word))
         else:
-            raise _no_footprint(text, name, f"{part!r} is not a number inside two brackets")
+            raise _parse_error(text, name, f"{word!r} is not a number inside two brackets")
         if not 0 <= depth <= 2:
-            raise _no_footprint(
+            raise _parse_error(
                 text, name, "more ']' than '['" if depth < 0 else "more than two brackets are open"
             )
     if depth:
-        raise _no_footprint(text, name, "a ']' is missing")
+        raise _parse_error(text, name, "a ']' is missing")
     return footprint_from_list(points, name)
 
 
-_PART = re.compile(r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|[^\s,]")
+_TOKEN = re.compile(r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|[^\s,]")
 
 
-def _no_footprint(text: str, name: str, problem: str) -> ParameterError:
+def _parse_error(text: str, name: str, problem: str) -> ParameterError:
     return ParameterError(
         f"Error parsing footprint parameter {name}: {problem}. The footprint string was {text!r:.200}; it must be "
         f"{EXAMPLE}"

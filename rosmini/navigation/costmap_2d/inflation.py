@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from .costmap import INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, Costs
 from .layer import Window
 
-AT_ONCE = 300_000
+BATCH_CELLS = 300_000
 """Number of cells processed at a time."""
 
 
@@ -100,7 +100,7 @@ def inflate(
     """
     if radius <= 0 or window.is_empty:
         return
-    rows = max(4 * radius, AT_ONCE // (window.xn - window.x0))
+    rows = max(4 * radius, BATCH_CELLS // (window.xn - window.x0))
     for first in range(window.y0, window.yn, rows):
         band = Window(window.x0, first, window.xn, min(first + rows, window.yn))
         _inflate_band(costs, band, radius, table, inflate_unknown)
@@ -117,7 +117,7 @@ def _inflate_band(costs: Costs, window: Window, radius: int, table: Costs, infla
         return
     inner = np.s_[window.y0 - y0 : window.yn - y0, window.x0 - x0 : window.xn - x0]
     added = np.take(table, squared_distances(lethal, radius)[inner])
-    old = window.of(costs)
+    old = window.view(costs)
     least = 1 if inflate_unknown else INSCRIBED_INFLATED_OBSTACLE
     learnt = (old == NO_INFORMATION) & (added >= least)
     np.maximum(old, added, out=old)

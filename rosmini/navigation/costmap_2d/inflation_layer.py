@@ -26,7 +26,7 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
         self._inflate_unknown = False
         self._cells = 0
         self._table = np.zeros(2, dtype=np.uint8)
-        self._again = True
+        self._needs_full_update = True
         self._last = Bounds()
 
     def on_initialize(self) -> None:
@@ -48,7 +48,7 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
         self._table = cost_table(
             self._cells, resolution, self.layered.inscribed_radius, self.cost_scaling_factor
         )
-        self._again = True
+        self._needs_full_update = True
 
     def match_size(self) -> None:
         """Recompute the costs for the new resolution."""
@@ -58,8 +58,8 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
         """Widen the bounds by the inflation radius around all changes in this update and the previous one."""
         del robot
         last, self._last = self._last, bounds.copy()
-        if self._again:
-            self._again = False
+        if self._needs_full_update:
+            self._needs_full_update = False
             bounds.touch_all()
             return
         bounds.min_x, bounds.max_x = min(bounds.min_x, last.min_x), max(bounds.max_x, last.max_x)
@@ -85,12 +85,12 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
         distance = math.sqrt(squared.min()) * grid.resolution
         inscribed = self.layered.inscribed_radius
         cost = cost_at(distance, inscribed, self.cost_scaling_factor)
-        said = f"the nearest obstacle is {distance:.2f} m away"
+        text = f"the nearest obstacle is {distance:.2f} m away"
         if distance == 0:
             return cost, "an obstacle"
         if distance <= inscribed:
-            return cost, f"{said}, within the inscribed radius of {inscribed:.2f} m"
+            return cost, f"{text}, within the inscribed radius of {inscribed:.2f} m"
         return (
             cost,
-            f"{said}: 252 exp(-{self.cost_scaling_factor:g} ({distance:.3f} - {inscribed:.3f})) = {cost}",
+            f"{text}: 252 exp(-{self.cost_scaling_factor:g} ({distance:.3f} - {inscribed:.3f})) = {cost}",
         )

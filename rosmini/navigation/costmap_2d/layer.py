@@ -54,7 +54,7 @@ class Window(NamedTuple):
         """True if the window lies completely inside a grid."""
         return self.x0 >= 0 and self.y0 >= 0 and self.xn <= grid.width and self.yn <= grid.height
 
-    def of(self, costs: Costs) -> Costs:
+    def view(self, costs: Costs) -> Costs:
         """Return the window's part of a grid (h, w), as a view."""
         return costs[self.y0 : self.yn, self.x0 : self.xn]
 
@@ -228,12 +228,12 @@ class CostmapLayer(Layer):
         window = Window(max(x0 + 1, 0), max(y0 + 1, 0), min(x1, self.grid.width), min(y1, self.grid.height))
         if inside:
             if not window.is_empty:
-                window.of(self.costs)[...] = NO_INFORMATION
+                window.view(self.costs)[...] = NO_INFORMATION
         else:
-            kept = None if window.is_empty else window.of(self.costs).copy()
+            kept = None if window.is_empty else window.view(self.costs).copy()
             self.costs[...] = NO_INFORMATION
             if kept is not None:
-                window.of(self.costs)[...] = kept
+                window.view(self.costs)[...] = kept
         if self.grid.costs.size:
             width, height = self.grid.size_m
             x, y = self.grid.origin
@@ -243,25 +243,25 @@ class CostmapLayer(Layer):
 
     def update_with_max(self, grid: Costmap2D, window: Window) -> None:
         """Write the greater of both costs where this layer's cost is known."""
-        mine, master = window.of(self.costs), window.of(grid.costs)
+        mine, master = window.view(self.costs), window.view(grid.costs)
         # Adding 1 turns unknown, 255, into 0, which is less than every known cost.
         one = np.uint8(1)
         np.subtract(np.maximum(mine + one, master + one), one, out=master)
 
     def update_with_overwrite(self, grid: Costmap2D, window: Window) -> None:
         """Write this layer's costs where they are known."""
-        mine = window.of(self.costs)
-        np.copyto(window.of(grid.costs), mine, where=mine != NO_INFORMATION)
+        mine = window.view(self.costs)
+        np.copyto(window.view(grid.costs), mine, where=mine != NO_INFORMATION)
 
     def update_with_true_overwrite(self, grid: Costmap2D, window: Window) -> None:
         """Write all of this layer's costs, including unknown ones."""
-        np.copyto(window.of(grid.costs), window.of(self.costs))
+        np.copyto(window.view(grid.costs), window.view(self.costs))
 
     def explain(self, mx: int, my: int) -> tuple[int | None, str]:
         """Return the layer's cost at a cell of the master grid, or None where it is unknown, and a description."""
         cell = self.grid.world_to_map(*self.layered.grid.map_to_world(mx, my))
         if cell is None:
-            return None, "the cell is outside of what it covers"
+            return None, "the cell is outside the area of the layer"
         cost = self.grid.cost(*cell)
         if cost == NO_INFORMATION:
             return None, "unknown"

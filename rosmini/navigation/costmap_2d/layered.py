@@ -47,7 +47,7 @@ class LayeredCostmap:
         self._report = report
         self._failed: set[Layer] = set()
         self._enabled: list[Layer] = []
-        self._whole = True
+        self._needs_full_update = True
 
     def add(self, layer: Layer) -> None:
         """Add a layer on top of the others."""
@@ -64,7 +64,7 @@ class LayeredCostmap:
         """Change the size [cells], resolution and origin [m] of the master grid and its layers; costs are lost."""
         self.is_size_locked = self.is_size_locked or lock
         self.grid.resize(width, height, resolution, origin)
-        self._whole = True
+        self._needs_full_update = True
         for layer in self.layers:
             layer.match_size()
 
@@ -78,7 +78,7 @@ class LayeredCostmap:
     def reset(self) -> None:
         """Clear all costs, including those in the layers."""
         self.grid.costs[...] = self.grid.default
-        self._whole = True
+        self._needs_full_update = True
         for layer in self.layers:
             layer.reset()
 
@@ -89,25 +89,25 @@ class LayeredCostmap:
         otherwise the inflation at the edges would miss obstacles that appeared, or keep those that are gone.
         """
         if self.is_rolling and self._roll(robot) != (0, 0):
-            self._whole = True
+            self._needs_full_update = True
         if not self.layers:
             return self.window
         enabled = [layer for layer in self.layers if layer.is_enabled]
-        self._whole = self._whole or enabled != self._enabled
+        self._needs_full_update = self._needs_full_update or enabled != self._enabled
         self._enabled = enabled
         self._failed.clear()
         bounds = Bounds()
         for layer in enabled:
-            self._guarded(layer, partial(self._update_bounds, layer, robot, bounds))
-        if self._whole:
+            self._run_step(layer, partial(self._update_bounds, layer, robot, bounds))
+        if self._needs_full_update:
             bounds.touch_all()
-            self._whole = False
+            self._needs_full_update = False
         self.window = window = self._cells(bounds)
         if window.is_empty:
             return window
-        window.of(self.grid.costs)[...] = self.grid.default
+        window.view(self.grid.costs)[...] = self.grid.default
         for layer in enabled:
-            self._guarded(layer, partial(layer.update_costs, self.grid, window))
+            self._run_step(layer, partial(layer.update_costs, self.grid, window))
         self.is_initialized = True
         return window
 
@@ -119,12 +119,12 @@ class LayeredCostmap:
         before = bounds.copy()
         layer.update_bounds(robot, bounds)
         if not bounds.contains(before):
-            said = f"the bounds were {before}, and are {bounds} after it: a layer may only widen them"
+            change = f"it changed the bounds from {before} to {bounds}, but a layer may only widen them"
             bounds.touch(before.min_x, before.min_y)
             bounds.touch(before.max_x, before.max_y)
-            raise RosminiError(f"Illegal bounds change, the offending layer is {layer.name}: {said}")
+            raise RosminiError(f"Illegal bounds change, the offending layer is {layer.name}: {change}")
 
-    def _guarded(self, layer: Layer, step: Callable[[], object]) -> None:
+    def _run_step(self, layer: Layer, step: Callable[[], object]) -> None:
         try:
             step()
         except Exception as error:

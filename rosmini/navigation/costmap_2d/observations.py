@@ -106,7 +106,7 @@ def scan_cloud(scan: Any, *, inf_is_valid: bool = False) -> Floats:
     first, step = float(scan.angle_min), float(scan.angle_increment)
     if not (np.isfinite(first) and np.isfinite(step)):
         raise ScanError(
-            f"angle_min is {first} and angle_increment {step}: they have to be finite numbers, in radians"
+            f"angle_min is {first} and angle_increment {step}: both must be finite numbers, in radians"
         )
     if inf_is_valid:
         ranges = np.where(np.isposinf(ranges), scan.range_max - EPSILON, ranges)

@@ -42,16 +42,16 @@ class CostmapConfig(Parameters):
     origin_y: float = parameter(0.0, "its lower edge", unit="m")
     footprint: str = parameter("[]", "the robot's outline in its base frame, as a list of points", unit="m")
     robot_radius: float = parameter(
-        0.46, "of a round robot, where there is no footprint", unit="m", minimum=0.0, maximum=10.0
+        0.46, "radius of a round robot, used without a footprint", unit="m", minimum=0.0, maximum=10.0
     )
-    footprint_padding: float = parameter(0.01, "by how much the outline is widened", unit="m")
+    footprint_padding: float = parameter(0.01, "the margin added to the outline", unit="m")
 
 
 @dataclass(frozen=True)
 class PluginEntry(Parameters):
     """One layer in the `plugins` list."""
 
-    name: str = parameter("", "what the layer is called")
+    name: str = parameter("", "the name of the layer")
     type: str = parameter("", "its type, such as costmap_2d::StaticLayer")
 
 
@@ -65,10 +65,14 @@ class CostmapParameters(CostmapConfig):
     global_frame: str = parameter("map", "the frame of the costs")
     robot_base_frame: str = parameter("base_link", "the robot's frame")
     rolling_window: bool = parameter(False, "whether the window moves with the robot")
-    track_unknown_space: bool = parameter(False, "whether a cell nobody knows is unknown (255), not free")
-    always_send_full_costmap: bool = parameter(False, "publish all costs each time, not what changed")
-    footprint_topic: str = parameter("footprint", "where another footprint may come from")
-    published_footprint_topic: str = parameter("footprint", "where the robot's footprint is published")
+    track_unknown_space: bool = parameter(
+        False, "whether cells that no layer knows are unknown (255), not free"
+    )
+    always_send_full_costmap: bool = parameter(False, "publish all costs each time, not only changes")
+    footprint_topic: str = parameter("footprint", "the topic on which another footprint may arrive")
+    published_footprint_topic: str = parameter(
+        "footprint", "the topic on which the robot's footprint is published"
+    )
 
     def others(self) -> Iterable[str]:
         """The namespaces of the layers."""
@@ -81,7 +85,7 @@ class LayerConfig(Parameters):
 
     dynamic = True
 
-    enabled: bool = parameter(True, "whether the layer takes part")
+    enabled: bool = parameter(True, "whether the layer is used")
 
 
 @dataclass(frozen=True)
@@ -89,15 +93,17 @@ class StaticParameters(LayerConfig):
     """Parameters of `costmap_2d::StaticLayer`."""
 
     map_topic: str = parameter("map", "where the map comes from")
-    first_map_only: bool = parameter(False, "take the first map and no other")
-    subscribe_to_updates: bool = parameter(False, "listen to the map's topic with _updates, too")
+    first_map_only: bool = parameter(False, "use only the first map")
+    subscribe_to_updates: bool = parameter(False, "also subscribe to the map's topic with _updates")
     track_unknown_space: bool = parameter(
         True, "whether an unknown cell of the map is unknown (255), not free"
     )
-    use_maximum: bool = parameter(False, "let a greater cost of the layers below stand")
-    lethal_cost_threshold: int = parameter(100, "from this value on a cell is an obstacle")
+    use_maximum: bool = parameter(False, "keep a greater cost of the layers below")
+    lethal_cost_threshold: int = parameter(100, "a cell of at least this value is an obstacle")
     unknown_cost_value: int = parameter(-1, "the value of an unknown cell")
-    trinary_costmap: bool = parameter(True, "take values below the threshold as free, not as costs between")
+    trinary_costmap: bool = parameter(
+        True, "treat values below the threshold as free instead of scaling them"
+    )
 
 
 @dataclass(frozen=True)
@@ -107,12 +113,12 @@ class InflationConfig(LayerConfig):
     dynamic = True
 
     cost_scaling_factor: float = parameter(
-        10.0, "how steeply the costs fall with the distance", unit="1/m", minimum=0.0, maximum=100.0
+        10.0, "how steeply the costs fall with distance", unit="1/m", minimum=0.0, maximum=100.0
     )
     inflation_radius: float = parameter(
-        0.55, "up to which distance an obstacle has costs", unit="m", minimum=0.0, maximum=50.0
+        0.55, "the distance up to which an obstacle adds costs", unit="m", minimum=0.0, maximum=50.0
     )
-    inflate_unknown: bool = parameter(False, "whether unknown cells get costs, too")
+    inflate_unknown: bool = parameter(False, "whether unknown cells also get costs")
 
 
 @dataclass(frozen=True)
@@ -121,13 +127,13 @@ class ObstacleConfig(LayerConfig):
 
     dynamic = True
 
-    footprint_clearing_enabled: bool = parameter(True, "take the ground under the robot for free")
+    footprint_clearing_enabled: bool = parameter(True, "clear the cells under the robot")
     max_obstacle_height: float = parameter(
-        2.0, "what is higher is no obstacle", unit="m", minimum=0.0, maximum=50.0
+        2.0, "points above this height are not obstacles", unit="m", minimum=0.0, maximum=50.0
     )
     combination_method: int = parameter(
         MAXIMUM,
-        "0 overwrites what is below, 1 takes the greater cost, 99 does nothing",
+        "0 overwrites the layers below, 1 keeps the greater cost, 99 does nothing",
         minimum=0,
         maximum=99,
     )
@@ -138,9 +144,9 @@ class ObstacleStatics(Parameters):
     """Parameters of `costmap_2d::ObstacleLayer` that are read only once."""
 
     observation_sources: str = parameter("", "the names of the sources, separated by spaces")
-    transform_tolerance: float = parameter(0.2, "how long a transform may take to come", unit="s")
+    transform_tolerance: float = parameter(0.2, "maximum delay of a transform", unit="s")
     track_unknown_space: bool | None = parameter(
-        None, "whether a cell that nobody saw is unknown; as the costmap has it, by default"
+        None, "whether cells not yet seen are unknown; by default the costmap's setting"
     )
     obstacle_range: float = parameter(2.5, "for sources that set none", unit="m")
     raytrace_range: float = parameter(3.0, "for sources that set none", unit="m")
@@ -163,11 +169,13 @@ class VoxelConfig(ObstacleConfig):
 
     origin_z: float = parameter(0.0, "the floor of the voxels", unit="m", minimum=0.0)
     z_resolution: float = parameter(0.2, "the height of a voxel", unit="m", minimum=0.0, maximum=50.0)
-    z_voxels: int = parameter(10, "voxels of a column", minimum=0, maximum=16)
+    z_voxels: int = parameter(10, "number of voxels in a column", minimum=0, maximum=16)
     unknown_threshold: int = parameter(
-        15, "up to so many unknown voxels a column is known", minimum=0, maximum=16
+        15, "a column with at most this many unknown voxels is known", minimum=0, maximum=16
     )
-    mark_threshold: int = parameter(0, "up to so many marked voxels a column is free", minimum=0, maximum=16)
+    mark_threshold: int = parameter(
+        0, "a column with at most this many marked voxels is free", minimum=0, maximum=16
+    )
 
 
 @dataclass(frozen=True)
@@ -181,44 +189,44 @@ class VoxelParameters(ObstacleParameters, VoxelConfig):
 class SourceParameters(Parameters):
     """Parameters of one observation source of an obstacle layer (`~global_costmap/obstacle_layer/scan/`)."""
 
-    topic: str | None = parameter(None, "where it comes from; by default the name of the source")
-    sensor_frame: str = parameter("", "where the sensor is; by default the frame that its messages name")
+    topic: str | None = parameter(None, "the topic of the source; by default its name")
+    sensor_frame: str = parameter("", "the frame of the sensor; by default that of its messages")
     observation_persistence: float = parameter(
         0.0, "how long an observation is kept; 0 keeps the newest", unit="s"
     )
     expected_update_rate: float = parameter(
-        0.0, "after how long without a message the costmap is out of date; 0 for never", unit="s"
+        0.0, "time without a message after which the costmap is out of date; 0 for never", unit="s"
     )
     data_type: str = parameter(
-        "PointCloud", "what its messages are", choices=("PointCloud", "PointCloud2", "LaserScan")
+        "PointCloud", "the type of its messages", choices=("PointCloud", "PointCloud2", "LaserScan")
     )
-    min_obstacle_height: float = parameter(0.0, "points below are left out", unit="m")
-    max_obstacle_height: float = parameter(2.0, "points above are left out", unit="m")
-    inf_is_valid: bool = parameter(False, "whether a beam of a scan that met nothing clears")
+    min_obstacle_height: float = parameter(0.0, "points below are ignored", unit="m")
+    max_obstacle_height: float = parameter(2.0, "points above are ignored", unit="m")
+    inf_is_valid: bool = parameter(False, "whether a beam without a hit clears cells")
     clearing: bool = parameter(False, "whether its rays clear")
     marking: bool = parameter(True, "whether its points are obstacles")
     obstacle_range: float | None = parameter(
         None,
-        "up to this distance points are obstacles; by default that of a namespace above, or 2.5",
+        "points up to this distance are obstacles; by default that of a parent namespace, or 2.5",
         unit="m",
     )
     raytrace_range: float | None = parameter(
-        None, "up to this distance rays clear; by default that of a namespace above, or 3.0", unit="m"
+        None, "rays clear up to this distance; by default that of a parent namespace, or 3.0", unit="m"
     )
 
 
-def set_above(node: Node, namespace: str, name: str) -> str | None:
+def name_above(node: Node, namespace: str, name: str) -> str | None:
     """Return the full name of a parameter in this namespace or the nearest parent (`searchParam`), or None."""
-    place = node.resolve_parameter(namespace).rstrip("/")
+    parent = node.resolve_parameter(namespace).rstrip("/")
     while True:
-        if node.has_param(f"{place}/{name}"):
-            return f"{place}/{name}"
-        if not place:
+        if node.has_param(f"{parent}/{name}"):
+            return f"{parent}/{name}"
+        if not parent:
             return None
-        place = place.rpartition("/")[0]
+        parent = parent.rpartition("/")[0]
 
 
-def found_above(node: Node, namespace: str, name: str, kind: type, default: Any) -> Any:
+def parameter_above(node: Node, namespace: str, name: str, kind: type, default: Any) -> Any:
     """Return the value of a parameter found this way, or the default. Raises `ParameterError` for a wrong type."""
-    found = set_above(node, namespace, name)
+    found = name_above(node, namespace, name)
     return default if found is None else node.get_param(found, expect=kind)

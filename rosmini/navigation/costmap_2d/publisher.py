@@ -39,13 +39,13 @@ class Costmap2DPublisher:
         self._always_send_full = always_send_full
         self._sent: tuple[Any, ...] | None = None
         self._changed: Window | None = None
-        self._whole = node.publisher(
-            topic, message_class("nav_msgs/OccupancyGrid"), queue_size=1, on_connect=self._greet
+        self._whole_publisher = node.publisher(
+            topic, message_class("nav_msgs/OccupancyGrid"), queue_size=1, on_connect=self._send_whole
         )
-        self._part = node.publisher(
+        self._update_publisher = node.publisher(
             topic + "_updates", message_class("map_msgs/OccupancyGridUpdate"), queue_size=1
         )
-        for publisher in (self._whole, self._part):
+        for publisher in (self._whole_publisher, self._update_publisher):
             publisher.expect_nobody()
 
     def changed(self, window: Window) -> None:
@@ -68,14 +68,14 @@ class Costmap2DPublisher:
         changed, self._changed = self._changed, None
         if self._always_send_full or self._sent != geometry:
             self._sent = geometry
-            if self._whole.num_connections():
-                self._whole.publish(self._message())
-        elif changed is not None and self._part.num_connections():
-            self._part.publish(self._update(changed))
+            if self._whole_publisher.num_connections():
+                self._whole_publisher.publish(self._message())
+        elif changed is not None and self._update_publisher.num_connections():
+            self._update_publisher.publish(self._update(changed))
 
-    def _greet(self, subscriber: str) -> None:
+    def _send_whole(self, subscriber: str) -> None:
         """Send the whole grid to a new subscriber."""
-        self._whole.publish_to(subscriber, self._message())
+        self._whole_publisher.publish_to(subscriber, self._message())
 
     def _geometry(self) -> tuple[Any, ...]:
         grid = self._grid
@@ -99,5 +99,5 @@ class Costmap2DPublisher:
         update.header.stamp = self._node.now()
         update.x, update.y = window.x0, window.y0
         update.width, update.height = window.xn - window.x0, window.yn - window.y0
-        update.data = published_values()[window.of(self._grid.costs)].ravel()
+        update.data = published_values()[window.view(self._grid.costs)].ravel()
         return update

@@ -13,13 +13,13 @@ from rosmini.core.tf.rigid import transform_points
 from rosmini.msgs import message_class
 
 from .observations import Floats, Observation, ObservationBuffer, cloud2_points, cloud_points, scan_cloud
-from .parameters import SourceParameters, found_above
+from .parameters import SourceParameters, parameter_above
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
     from rosmini.core.tf import Buffer
 
-QUEUE = 50
+QUEUE_SIZE = 50
 """Maximum number of messages waiting for their transforms."""
 TOLERANCE = 0.05
 """A message also waits until its transform is known this long after its stamp [s]."""
@@ -38,8 +38,8 @@ class ObservationSource:
         self.global_frame = global_frame
         settings = self.settings = SourceParameters.read(node, namespace)
         self.topic = settings.topic or name
-        self.obstacle_range = found_above(node, namespace, "obstacle_range", float, 2.5)
-        self.raytrace_range = found_above(node, namespace, "raytrace_range", float, 3.0)
+        self.obstacle_range = parameter_above(node, namespace, "obstacle_range", float, 2.5)
+        self.raytrace_range = parameter_above(node, namespace, "raytrace_range", float, 3.0)
         self.observations = ObservationBuffer(
             persistence_ns=round(settings.observation_persistence * 1e9),
             expected_ns=round(settings.expected_update_rate * 1e9),
@@ -68,16 +68,16 @@ class ObservationSource:
         self._filter = MessageFilter(
             self.buffer,
             (self.global_frame, sensor) if sensor else (self.global_frame,),
-            self._take,
-            queue_size=QUEUE,
+            self._on_message,
+            queue_size=QUEUE_SIZE,
             tolerance=TOLERANCE,
-            failed=self._dropped,
+            failed=self._on_drop,
         )
         self._subscriber = self.node.subscriber(
             self.topic,
             message_class(f"sensor_msgs/{self.settings.data_type}"),
             self._filter.add,
-            queue_size=QUEUE,
+            queue_size=QUEUE_SIZE,
         )
 
     def deactivate(self) -> None:
@@ -99,14 +99,18 @@ class ObservationSource:
         )
         return False
 
-    def _take(self, message: Any) -> None:
+    def _on_message(self, message: Any) -> None:
         frame = message.header.frame_id.lstrip("/")
         stamp = message.header.stamp.to_nsec()
         try:
             points = self._project(message)
-            placed = self.buffer.tree.lookup(self.global_frame, frame, stamp).transform
+            cloud_transform = self.buffer.tree.lookup(self.global_frame, frame, stamp).transform
             sensor = self.settings.sensor_frame.lstrip("/")
-            origin = self.buffer.tree.lookup(self.global_frame, sensor, stamp).transform if sensor else placed
+            origin = (
+                self.buffer.tree.lookup(self.global_frame, sensor, stamp).transform
+                if sensor
+                else cloud_transform
+            )
         except TransformException as error:
             self.node.logerr(
                 f"TF Exception that should never happen for sensor frame: {self.settings.sensor_frame}, cloud frame: "
@@ -114,18 +118,20 @@ class ObservationSource:
             )
             return
         except (RosminiError, ValueError) as error:
-            self.node.logwarn(
-                f"a message on {self.topic} is malformed and is not taken: {error}", throttle=1.0
-            )
+            self.node.logwarn(f"a message on {self.topic} is malformed and is ignored: {error}", throttle=1.0)
             return
         self.observations.add(
             Observation(
-                origin[:3], transform_points(placed, points), stamp, self.obstacle_range, self.raytrace_range
+                origin[:3],
+                transform_points(cloud_transform, points),
+                stamp,
+                self.obstacle_range,
+                self.raytrace_range,
             ),
             self.node.clock.now_ns(),
         )
 
-    def _dropped(self, message: Any, reason: str) -> None:
+    def _on_drop(self, message: Any, reason: str) -> None:
         self.node.logwarn(
             f"MessageFilter [target={self.global_frame}]: a message of {self.topic} from "
             f"{message.header.stamp.to_sec():.3f} s in the frame '{message.header.frame_id}' was dropped: {reason}",

@@ -16,7 +16,7 @@ from .costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, Cos
 from .layer import Bounds, CostmapLayer, Window
 from .parameters import LayerConfig, StaticParameters
 
-PATIENCE = 5.0
+WARN_PERIOD = 5.0
 """Interval between warnings while the map is missing [s]."""
 
 
@@ -40,7 +40,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         self._subscribers: list[Any] = []
         self._received = False
         self._changed: Window | None = None
-        self._listen()
+        self._request_map()
         self._server = Server(self.node, LayerConfig, self._reconfigure, namespace=self.namespace)
 
     @property
@@ -48,7 +48,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         """The topic of the map and, if subscribed, that of its updates."""
         return tuple(each.topic for each in self._subscribers)
 
-    def _listen(self) -> None:
+    def _request_map(self) -> None:
         """Read the parameters, subscribe to the map unless already subscribed, and wait for it."""
         node = self.node
         self._settings = StaticParameters.read(node, self.namespace)
@@ -56,16 +56,16 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         self._map_frame = self.layered.global_frame
         topic = node.resolve(self._settings.map_topic)
         if self._subscribers and self._subscribers[0].topic == topic:
-            self._changed = self._whole()
+            self._changed = self._whole_window()
             return
         self.deactivate()
         node.loginfo("Requesting the map...")
         self._received = False
         self._waiter = node.waiter(f"the map on {topic}")
         self._subscribers = [
-            node.subscriber(topic, message_class("nav_msgs/OccupancyGrid"), self._take_map, queue_size=1)
+            node.subscriber(topic, message_class("nav_msgs/OccupancyGrid"), self._on_map, queue_size=1)
         ]
-        while not self._received and not node.wait(self._waiter, PATIENCE):
+        while not self._received and not node.wait(self._waiter, WARN_PERIOD):
             node.logwarn(
                 f"The layer {self.name} is still waiting for the map on {topic}: {node.master.who_publishes(topic)}"
             )
@@ -76,30 +76,30 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             node.loginfo("Subscribing to updates")
             kind = message_class("map_msgs/OccupancyGridUpdate")
             self._subscribers.append(
-                node.subscriber(topic + "_updates", kind, self._take_update, queue_size=10)
+                node.subscriber(topic + "_updates", kind, self._on_update, queue_size=10)
             )
 
     def _reconfigure(self, config: Any, _: int) -> Any:
         if config["enabled"] != self.is_enabled:
             self.is_enabled = config["enabled"]
-            self._changed = self._whole()
+            self._changed = self._whole_window()
         return config
 
-    def _whole(self) -> Window:
+    def _whole_window(self) -> Window:
         return Window(0, 0, self.grid.width, self.grid.height)
 
-    def _take_map(self, message: Any) -> None:
-        about = message.info
-        size = about.width, about.height
-        if len(message.data) != size[0] * size[1] or not about.resolution > 0:
+    def _on_map(self, message: Any) -> None:
+        info = message.info
+        size = info.width, info.height
+        if len(message.data) != size[0] * size[1] or not info.resolution > 0:
             self.node.logerr(
                 f"The map on {self._settings.map_topic} has {len(message.data)} cells, and its info says {size[0]} x "
-                f"{size[1]} of {about.resolution:g} m: it is not taken"
+                f"{size[1]} of {info.resolution:g} m: the map is ignored"
             )
             return
-        origin = about.origin.position.x, about.origin.position.y
-        geometry = (*size, float(about.resolution), origin)
-        text = f"{size[0]} X {size[1]} at {about.resolution:f} m/pix"
+        origin = info.origin.position.x, info.origin.position.y
+        geometry = (*size, float(info.resolution), origin)
+        text = f"{size[0]} X {size[1]} at {info.resolution:f} m/pix"
         if not self.layered.is_rolling and geometry != _geometry(self.layered.grid):
             self.node.loginfo(f"Resizing costmap to {text}")
             self.layered.resize(*geometry, lock=True)
@@ -109,23 +109,23 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             self.grid.resize(*geometry)
         self.costs[...] = self._costs_of(message.data).reshape(size[1], size[0])
         self._map_frame = message.header.frame_id.lstrip("/")
-        self._changed = self._whole()
+        self._changed = self._whole_window()
         self._received = True
         self._waiter.wake()
         if self._settings.first_map_only:
             self.node.loginfo("Shutting down the map subscriber. first_map_only flag is on")
             self.deactivate()
 
-    def _take_update(self, update: Any) -> None:
+    def _on_update(self, update: Any) -> None:
         window = Window(update.x, update.y, update.x + update.width, update.y + update.height)
         if not window.fits(self.grid) or len(update.data) != update.width * update.height:
             self.node.logerr(
                 f"An update of {update.width} x {update.height} cells at ({update.x}, {update.y}) with "
-                f"{len(update.data)} values does not fit the map of {self.grid.width} x {self.grid.height}: it is not "
-                "taken"
+                f"{len(update.data)} values does not fit the map of {self.grid.width} x {self.grid.height}: it is "
+                "ignored"
             )
             return
-        window.of(self.costs)[...] = self._costs_of(update.data).reshape(update.height, update.width)
+        window.view(self.costs)[...] = self._costs_of(update.data).reshape(update.height, update.width)
         before = self._changed or window
         self._changed = Window(
             min(before.x0, window.x0),
@@ -145,7 +145,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
 
     def activate(self) -> None:
         """Subscribe to the map again."""
-        self._listen()
+        self._request_map()
 
     def deactivate(self) -> None:
         """Unsubscribe from the map's topics."""
@@ -156,9 +156,9 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
     def reset(self) -> None:
         """Reread the map."""
         if self._settings.first_map_only:
-            self._changed = self._whole()
+            self._changed = self._whole_window()
         else:
-            self._listen()
+            self._request_map()
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
         """Include the whole map if it is new, and always in a rolling window."""
@@ -168,7 +168,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             if self.layered.is_rolling:
                 bounds.touch_all()
             else:
-                bounds.touch_cells(self.grid, self._changed or self._whole())
+                bounds.touch_cells(self.grid, self._changed or self._whole_window())
             self._changed = None
 
     def update_costs(self, grid: Costmap2D, window: Window) -> None:
@@ -176,13 +176,13 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         if not self._received:
             return
         if self.layered.is_rolling:
-            self._write_moved(grid, window)
+            self._write_rolling(grid, window)
         elif self._settings.use_maximum:
             self.update_with_max(grid, window)
         else:
             self.update_with_true_overwrite(grid, window)
 
-    def _write_moved(self, grid: Costmap2D, window: Window) -> None:
+    def _write_rolling(self, grid: Costmap2D, window: Window) -> None:
         """Write the map's costs into a rolling window, whose frame may differ from the map's."""
         try:
             found = self.buffer.tree.lookup(self._map_frame, self.layered.global_frame)
@@ -192,7 +192,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         mx, my = self._map_cells(grid, window, matrix(found.transform))
         inside = (mx >= 0) & (my >= 0) & (mx < self.grid.width) & (my < self.grid.height)
         costs = self.costs[np.where(inside, my, 0), np.where(inside, mx, 0)]
-        target = window.of(grid.costs)
+        target = window.view(grid.costs)
         if self._settings.use_maximum:
             costs = np.maximum(costs, target)
         np.copyto(target, costs, where=inside)

@@ -16,7 +16,7 @@ from .layer import Bounds, Window
 from .observations import Observation
 from .obstacle_layer import ObstacleLayer
 from .parameters import VoxelConfig, VoxelParameters
-from .voxels import BITS, UNKNOWN, Columns, heights_of, mark_voxels, marked_count
+from .voxels import BITS, UNKNOWN, Columns, mark_voxels, marked_count, marked_heights
 
 CLEAR = "rosmini.navigation.costmap_2d.voxels:compiled_clear_voxels"
 
@@ -124,7 +124,7 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
         """Return the layer's cost at a cell, and the heights of its marked voxels."""
         cost, words = super().explain(mx, my)
         cell = self.grid.world_to_map(*self.layered.grid.map_to_world(mx, my))
-        heights = [] if cell is None else heights_of(int(self.columns[cell[1], cell[0]]), self.size_z)
+        heights = [] if cell is None else marked_heights(int(self.columns[cell[1], cell[0]]), self.size_z)
         if not heights:
             return cost, words
         low, high = (self.origin_z + z * self.z_resolution for z in (heights[0], heights[-1] + 1))

@@ -41,12 +41,12 @@ def mark_voxels(columns: Columns, mx: Any, my: Any, mz: Any) -> None:
     np.bitwise_or.at(columns, (my, mx), (1 << mz) | (1 << (mz + BITS)))
 
 
-def heights_of(column: int, size_z: int) -> list[int]:
+def marked_heights(column: int, size_z: int) -> list[int]:
     """Return the indices of the marked voxels in a column, lowest first."""
     return [z for z in range(size_z) if column >> (BITS + z) & 1]
 
 
-def bits_of(number: int) -> int:
+def bit_count(number: int) -> int:
     """Return the number of set bits."""
     count = 0
     while number:
@@ -55,7 +55,7 @@ def bits_of(number: int) -> int:
     return count
 
 
-def share_of_ray(value: float, start: float, low: float, high: float, share: float) -> float:
+def ray_fraction(value: float, start: float, low: float, high: float, share: float) -> float:
     """Return the fraction of a ray from `start` to `value` on one axis between `low` and `high`, up to `share`."""
     if value < low:
         return min(share, (low - start) / (value - start))
@@ -114,8 +114,8 @@ def clear_voxels(
             share = max(0.0, min(share, (top - 0.01 - oz) / c))
         elif oz + c < z0:
             share = min(share, (z0 - oz) / c)
-        share = share_of_ray(ox + a, ox, x0, x0 + width * side, share)
-        share = share_of_ray(oy + b, oy, y0, y0 + height * side, share)
+        share = ray_fraction(ox + a, ox, x0, x0 + width * side, share)
+        share = ray_fraction(oy + b, oy, y0, y0 + height * side, share)
         x1 = math.floor((ox + a * share - x0) / side)
         y1 = math.floor((oy + b * share - y0) / side)
         z1 = math.floor((oz + c * share - z0) / tall)
@@ -144,8 +144,8 @@ def clear_voxels(
             column = columns[y, x] & ~((1 << z) | (1 << (z + 16)))
             columns[y, x] = column
             marked = column >> 16
-            if bits_of(marked) <= mark_threshold:
-                costs[y, x] = 0 if bits_of(marked ^ (column & 65535)) <= unknown_threshold else 255
+            if bit_count(marked) <= mark_threshold:
+                costs[y, x] = 0 if bit_count(marked ^ (column & 65535)) <= unknown_threshold else 255
         low_x, high_x = min(low_x, x), max(high_x, x)
         low_y, high_y = min(low_y, y), max(high_y, y)
     return low_x, low_y, high_x, high_y
@@ -171,4 +171,4 @@ def compiled_clear_voxels() -> Callable[..., tuple[int, int, int, int]]:
         number,
         number,
     )
-    return machine_code(clear_voxels, signature, (bits_of, share_of_ray))
+    return machine_code(clear_voxels, signature, (bit_count, ray_fraction))

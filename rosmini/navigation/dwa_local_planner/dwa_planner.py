@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.parameters import parameter
-from rosmini.navigation.base_local_planner.critics import Oscillation, together, twirling
+from rosmini.navigation.base_local_planner.critics import Oscillation, combined_scores, twirling
 from rosmini.navigation.base_local_planner.limits import LocalPlannerLimits
-from rosmini.navigation.base_local_planner.map_grid import MapGrid, plan_cells, spread
+from rosmini.navigation.base_local_planner.map_grid import MapGrid, grid_from, plan_cells
 from rosmini.navigation.base_local_planner.scored_sampling import Sampling, footprint_scales, roll_out
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
@@ -29,10 +29,12 @@ class DWAPlannerParameters(LocalPlannerLimits):
 
     dynamic = True
 
-    sim_time: float = parameter(1.7, "how far trajectories are driven ahead", unit="s", minimum=0.0)
-    sim_granularity: float = parameter(0.025, "between two points of a trajectory", unit="m", minimum=0.0)
+    sim_time: float = parameter(1.7, "the duration of simulated trajectories", unit="s", minimum=0.0)
+    sim_granularity: float = parameter(
+        0.025, "distance between two points of a trajectory", unit="m", minimum=0.0
+    )
     angular_sim_granularity: float = parameter(
-        0.1, "between the headings of two points of a trajectory", unit="rad", minimum=0.0
+        0.1, "angle between the headings of two points of a trajectory", unit="rad", minimum=0.0
     )
     path_distance_bias: float = parameter(32.0, "weight of the distance to the plan", minimum=0.0)
     goal_distance_bias: float = parameter(24.0, "weight of the distance to the local goal", minimum=0.0)
@@ -40,21 +42,21 @@ class DWAPlannerParameters(LocalPlannerLimits):
     twirling_scale: float = parameter(0.0, "weight of turning", minimum=0.0)
     stop_time_buffer: float = parameter(0.2, "not used, as in ROS", unit="s", minimum=0.0)
     oscillation_reset_dist: float = parameter(
-        0.05, "after this distance it may go back again", unit="m", minimum=0.0
+        0.05, "after this distance it may reverse direction again", unit="m", minimum=0.0
     )
     oscillation_reset_angle: float = parameter(
         0.2, "after this turn it may turn back again", unit="rad", minimum=0.0
     )
     forward_point_distance: float = parameter(
-        0.325, "so far ahead of the centre is the nose, which is to be on the plan", unit="m"
+        0.325, "distance from the centre to the nose, which should be on the plan", unit="m"
     )
-    scaling_speed: float = parameter(0.25, "from this speed on the footprint grows", unit="m/s", minimum=0.0)
-    max_scaling_factor: float = parameter(0.2, "by so much of itself at most", minimum=0.0)
+    scaling_speed: float = parameter(0.25, "the footprint grows above this speed", unit="m/s", minimum=0.0)
+    max_scaling_factor: float = parameter(0.2, "maximum growth, as a fraction of the footprint", minimum=0.0)
     vx_samples: int = parameter(3, "how many velocities ahead are tried", minimum=1)
     vy_samples: int = parameter(10, "how many velocities to the side are tried", minimum=1)
     vth_samples: int = parameter(20, "how many turns are tried", minimum=1)
-    use_dwa: bool = parameter(True, "try only what is reached in one cycle, not in sim_time")
-    restore_defaults: bool = parameter(False, "set all parameters to what they were at the start")
+    use_dwa: bool = parameter(True, "try only velocities within reach of one cycle, not of sim_time")
+    restore_defaults: bool = parameter(False, "reset all parameters to their initial values")
 
     def sampling(self, sim_period: float) -> Sampling:
         """Return the sampling parameters; `sim_period` [s] is the time between two commands."""
@@ -106,10 +108,10 @@ class DWAPlanner:
         self._nose = x * x + y * y > shift * shift * self.cheat_factor
         cells = plan_cells(grid, plan)
         end, front = cells[-1:], plan_cells(grid, ahead)[-1:]
-        goal = spread(grid, end)
+        goal = grid_from(grid, end)
         # If the plan leaves the costmap before its end, both are the same.
         same = np.array_equal(end, front)
-        self.grids = (spread(grid, cells), goal, goal if same else spread(grid, front))
+        self.grids = (grid_from(grid, cells), goal, goal if same else grid_from(grid, front))
         return len(cells) > 0
 
     def scales(self, resolution: float) -> Floats:
@@ -153,7 +155,7 @@ class DWAPlanner:
         refused: int,
     ) -> Samples:
         if self.grids is None:
-            raise RuntimeError("a plan comes before its trajectories: call update_plan")
+            raise RuntimeError("there is no plan: call update_plan first")
         p = self.parameters
         commands = self.sampling.starts(velocities, velocity, steps, p)
         sizes = footprint_scales(commands, p.max_vel_trans, p.max_scaling_factor, p.scaling_speed)
@@ -172,7 +174,7 @@ class DWAPlanner:
         raw = np.column_stack([self.oscillation.score(commands), found.raw, twirling(commands)])
         nowhere = np.full((count, 1), -1)
         scales = self.scales(grid.resolution)
-        totals, rejected_by = together(raw, scales)
+        totals, rejected_by = combined_scores(raw, scales)
         best = None
         if (rejected_by < 0).any():
             best = int(np.argmin(np.where(rejected_by < 0, totals, np.inf)))

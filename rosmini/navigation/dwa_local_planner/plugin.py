@@ -42,7 +42,7 @@ RENAMED = {
 }
 """Names from releases before Melodic; as in ROS they only cause a warning."""
 
-FORMER = ("penalize_negative_x", "acc_limit_x", "acc_limit_y", "acc_limit_th", "acc_lim_th", "sim_period")
+OBSOLETE = ("penalize_negative_x", "acc_limit_x", "acc_limit_y", "acc_limit_th", "acc_lim_th", "sim_period")
 """Obsolete names that files for real robots still contain."""
 
 
@@ -51,12 +51,12 @@ class DWAPlannerSettings(DWAPlannerParameters):
     """All parameters of `dwa_local_planner/DWAPlannerROS`, including those that are read only once."""
 
     controller_frequency: float | None = parameter(
-        None, "how often it is asked for a command; by default move_base's", unit="Hz"
+        None, "how often commands are computed; by default the value of move_base", unit="Hz"
     )
-    latch_xy_goal_tolerance: bool = parameter(False, "having been at the goal's position once is enough")
+    latch_xy_goal_tolerance: bool = parameter(False, "having reached the goal's position once is sufficient")
     odom_topic: str = parameter("odom", "the topic of the odometry")
     publish_traj_pc: bool = parameter(False, "publish the trajectories")
-    publish_cost_grid_pc: bool = parameter(False, "publish what each cell costs")
+    publish_cost_grid_pc: bool = parameter(False, "publish the cost of each cell")
     cheat_factor: float = parameter(
         1.0,
         "how near the goal the nose leaves the plan: this times forward_point_distance squared",
@@ -65,7 +65,7 @@ class DWAPlannerSettings(DWAPlannerParameters):
 
     allowed = (
         *RENAMED,
-        *FORMER,
+        *OBSOLETE,
         *(each.name for each in fields(TrajectoryPlannerParameters)),
         "meter_scoring",
     )
@@ -96,7 +96,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         )
         self.latch = LatchedStopRotate(latch)
         self.odometry = OdometryHelper(self.node, settings.odom_topic)
-        self._at_start: dict[str, Any] | None = None
+        self._initial_config: dict[str, Any] | None = None
         self._server = Server(self.node, DWAPlannerParameters, self._reconfigure, namespace=label)
 
     def _warn_of_names(self, label: str) -> None:
@@ -107,15 +107,15 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
                 )
         known = {each.name for each in fields(DWAPlannerSettings)}
         others = [each.name for each in fields(TrajectoryPlannerParameters) if each.name not in known]
-        ignore(self.node, label, [*others, "meter_scoring"], "it is one of TrajectoryPlannerROS")
-        ignore(self.node, label, FORMER, "it was one of an earlier release")
+        ignore(self.node, label, [*others, "meter_scoring"], "it belongs to TrajectoryPlannerROS")
+        ignore(self.node, label, OBSOLETE, "it belonged to an earlier release")
 
     def _reconfigure(self, config: Any, _: int) -> Any:
         names = [each.name for each in fields(DWAPlannerParameters)]
-        if self._at_start is None:
-            self._at_start = {name: config[name] for name in names}
+        if self._initial_config is None:
+            self._initial_config = {name: config[name] for name in names}
         elif config["restore_defaults"]:
-            config.update({**self._at_start, "restore_defaults": False})
+            config.update({**self._initial_config, "restore_defaults": False})
         self.planner.reconfigure(DWAPlannerParameters(**{name: config[name] for name in names}))
         return config
 

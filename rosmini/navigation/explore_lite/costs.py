@@ -24,8 +24,8 @@ class Weights:
 
     def cost(self, frontier: Frontier, resolution: float) -> float:
         """Return the cost of a frontier on a map with this cell size [m]; lower is better."""
-        way = self.potential * frontier.min_distance * resolution
-        return way - self.gain * frontier.size * resolution
+        distance_cost = self.potential * frontier.min_distance * resolution
+        return distance_cost - self.gain * frontier.size * resolution
 
 
 def ranked(

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from .parameters import ExploreParameters
 
-PATIENCE = 5.0
+WARN_PERIOD = 5.0
 """Interval between warnings while the map or the robot's transform is missing [s]."""
 
 
@@ -55,12 +55,12 @@ class MapClient:
         self.buffer = TransformListener(node).buffer
         topic = parameters.costmap_topic
         self._waiter = node.waiter(f"the map on {node.resolve(topic)}")
-        node.subscriber(topic, message_class("nav_msgs/OccupancyGrid"), self._take, queue_size=1000)
+        node.subscriber(topic, message_class("nav_msgs/OccupancyGrid"), self._on_map, queue_size=1000)
         self._wait_for_map(topic)
         node.subscriber(
             parameters.costmap_updates_topic,
             message_class("map_msgs/OccupancyGridUpdate"),
-            self._update,
+            self._on_update,
             queue_size=1000,
         )
         self._wait_for_robot()
@@ -68,7 +68,7 @@ class MapClient:
     def _wait_for_map(self, topic: str) -> None:
         node = self.node
         node.loginfo(f"Waiting for costmap to become available, topic: {topic}")
-        while not self.global_frame and not node.wait(self._waiter, PATIENCE):
+        while not self.global_frame and not node.wait(self._waiter, WARN_PERIOD):
             node.logwarn(
                 f"Still waiting for the map on {node.resolve(topic)}: "
                 f"{node.master.who_publishes(node.resolve(topic))}"
@@ -76,19 +76,19 @@ class MapClient:
             self._waiter = node.waiter(f"the map on {node.resolve(topic)}")
 
     def _wait_for_robot(self) -> None:
-        while not self.buffer.wait_for_transform(self.global_frame, self.base_frame, timeout=PATIENCE):
+        while not self.buffer.wait_for_transform(self.global_frame, self.base_frame, timeout=WARN_PERIOD):
             why = self.buffer.tree.why_not(self.global_frame, self.base_frame)
             self.node.logwarn(
                 f"Timed out waiting for transform from {self.base_frame} to {self.global_frame} to become available "
                 f"before subscribing to costmap, tf error: {why}"
             )
 
-    def _take(self, message: Any) -> None:
+    def _on_map(self, message: Any) -> None:
         info = message.info
         if len(message.data) != info.width * info.height or not info.resolution > 0:
             self.node.logerr(
                 f"A map has {len(message.data)} cells, and its info says {info.width} x {info.height} of "
-                f"{info.resolution:g} m: it is not taken"
+                f"{info.resolution:g} m: the map is ignored"
             )
             return
         origin = info.origin.position
@@ -97,17 +97,17 @@ class MapClient:
         self.global_frame = message.header.frame_id.lstrip("/")
         self._waiter.wake()
 
-    def _update(self, update: Any) -> None:
+    def _on_update(self, update: Any) -> None:
         window = Window(update.x, update.y, update.x + update.width, update.y + update.height)
         if not window.fits(self.grid) or len(update.data) != update.width * update.height:
             self.node.logerr(
                 f"An update of {update.width} x {update.height} cells at ({update.x}, {update.y}) does not fit the "
-                f"map of {self.grid.width} x {self.grid.height}: it is not taken",
-                throttle=PATIENCE,
+                f"map of {self.grid.width} x {self.grid.height}: it is ignored",
+                throttle=WARN_PERIOD,
             )
             return
         if not window.is_empty:
-            window.of(self.grid.costs)[...] = _costs(update.data, update.width)
+            window.view(self.grid.costs)[...] = _costs(update.data, update.width)
 
     def robot(self) -> tuple[float, float]:
         """Return the robot's position on the map [m]. Raises `TransformMissing` if it is unknown or too old."""

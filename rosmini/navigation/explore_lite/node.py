@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.actionlib import SimpleActionClient, Status
 from rosmini.msgs import message_class
-from rosmini.navigation.frontier_exploration import Blacklist, Frontier, find_frontiers, places
+from rosmini.navigation.frontier_exploration import Blacklist, Frontier, find_frontiers, formatted_points
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 
 from .costs import Weights, ranked
-from .map_client import PATIENCE, MapClient
+from .map_client import WARN_PERIOD, MapClient
 from .parameters import ExploreParameters
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 Ranked = Sequence[tuple[float, Frontier]]
 
-SOON = 1e-3
+NEXT_GOAL_DELAY = 1e-3
 """Delay between the end of a goal and the choice of the next one [s]."""
 BLUE, RED, GREEN = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
@@ -56,7 +56,7 @@ class Explore:
         self._start: tuple[float, float] | None = None
         self.move_base = SimpleActionClient(node, "move_base", message_class("move_base_msgs/MoveBaseAction"))
         node.loginfo("Waiting to connect to move_base server")
-        while not self.move_base.wait_for_server(PATIENCE):
+        while not self.move_base.wait_for_server(WARN_PERIOD):
             if node.is_shutdown():
                 return
             node.logwarn("Still waiting for the action server move_base: start move_base")
@@ -73,7 +73,7 @@ class Explore:
 
     def make_plan(self) -> None:
         """Choose the frontier to drive to, and send it as the goal unless the robot is already driving there."""
-        if not self.is_exploring or not self._look():
+        if not self.is_exploring or not self._update_frontiers():
             return
         while (frontier := self._cheapest()) is not None:
             is_new = self.goal != frontier.centroid
@@ -85,36 +85,35 @@ class Explore:
                 if is_new:
                     self._send(frontier.centroid)
                 return
-            self._give_up(frontier.centroid, f"no progress for {self.parameters.progress_timeout:g} s")
+            self._blacklist_goal(frontier.centroid, f"no progress for {self.parameters.progress_timeout:g} s")
         what = "All frontiers traversed/tried out" if self.frontiers else "No frontiers found"
         self.node.loginfo(f"{what}, stopping.")
         if self.frontiers:
-            self.node.logwarn(
-                f"{len(self.frontiers)} frontiers were given up, at {places(one.centroid for _, one in self.frontiers)}"
-            )
+            given_up = formatted_points(one.centroid for _, one in self.frontiers)
+            self.node.logwarn(f"{len(self.frontiers)} frontiers were given up, at {given_up}")
         self._stop(is_finished=True)
 
-    def _look(self) -> bool:
+    def _update_frontiers(self) -> bool:
         """Find the frontiers; return False if that was not possible."""
         try:
             x, y = self.map.robot()
             found = find_frontiers(self.map.grid, x, y)
         except (TransformMissing, IndexError) as error:
-            self.node.logwarn(f"Exploration waits for the robot's pose: {error}", throttle=PATIENCE)
+            self.node.logwarn(f"Exploration waits for the robot's pose: {error}", throttle=WARN_PERIOD)
             return False
         self._start = self._start or (x, y)
         self.frontiers = ranked(found, self.weights, self.map.grid.resolution)
         if self._markers is not None and self._markers.num_connections():
-            self._markers.publish(self._array(markers=list(self._drawn())))
+            self._markers.publish(self._array(markers=list(self._markers_of_frontiers())))
         return True
 
     def _cheapest(self) -> Frontier | None:
         """Return the cheapest of the frontiers with the fewest failures, or None if all were given up permanently."""
         resolution = self.map.grid.resolution
-        left = [one for _, one in self.frontiers if not self.blacklist.has(one.centroid, resolution)]
+        left = [one for _, one in self.frontiers if not self.blacklist.is_given_up(one.centroid, resolution)]
         return min(left, key=lambda one: self.blacklist.count(one.centroid, resolution), default=None)
 
-    def _give_up(self, point: tuple[float, float], why: str) -> None:
+    def _blacklist_goal(self, point: tuple[float, float], why: str) -> None:
         self.node.logdebug(f"Adding ({point[0]:.2f}, {point[1]:.2f}) to black list: {why}")
         self.blacklist.points.append(point)
         self.goal, self._distance = None, math.inf
@@ -123,15 +122,15 @@ class Explore:
         self.sent += 1
         goal = message_class("move_base_msgs/MoveBaseGoal")()
         goal.target_pose = pose_stamped(self.map.global_frame, self.node.now(), (*point, 0.0))
-        self.move_base.send_goal(goal, done_cb=lambda state, _: self._ended(state, point))
+        self.move_base.send_goal(goal, done_cb=lambda state, _: self._on_done(state, point))
 
-    def _ended(self, state: int, point: tuple[float, float]) -> None:
+    def _on_done(self, state: int, point: tuple[float, float]) -> None:
         """Choose the next goal when one has ended."""
         if state == Status.ABORTED:
-            self._give_up(point, self.move_base.get_goal_status_text())
+            self._blacklist_goal(point, self.move_base.get_goal_status_text())
         if self.is_exploring:
             # Not in the client's callback, where the next goal would be taken for the old one's end.
-            self.node.timer(SOON, lambda _: self.make_plan(), oneshot=True)
+            self.node.timer(NEXT_GOAL_DELAY, lambda _: self.make_plan(), oneshot=True)
 
     # -- stopping and resuming -----------------------------------------------------------------------------------
 
@@ -153,28 +152,28 @@ class Explore:
 
     # -- pictures ------------------------------------------------------------------------------------------------
 
-    def _drawn(self) -> Iterator[Any]:
+    def _markers_of_frontiers(self) -> Iterator[Any]:
         """Yield two markers for each frontier, its cells and a ball, and deletions of old markers."""
         resolution = self.map.grid.resolution
         least = self.frontiers[0][0] if self.frontiers else 0.0
         point = message_class("geometry_msgs/Point")
         number = 0
         for cost, frontier in self.frontiers:
-            is_given_up = self.blacklist.has(frontier.centroid, resolution)
-            cells = self._new(number, self._marker.POINTS, 0.1, RED if is_given_up else BLUE)
+            is_given_up = self.blacklist.is_given_up(frontier.centroid, resolution)
+            cells = self._new_marker(number, self._marker.POINTS, 0.1, RED if is_given_up else BLUE)
             cells.points = [point(x=x, y=y) for x, y in frontier.points.tolist()]
             size = min(abs(least * 0.4 / cost), 0.5) if cost else 0.5
-            ball = self._new(number + 1, self._marker.SPHERE, size, GREEN)
+            ball = self._new_marker(number + 1, self._marker.SPHERE, size, GREEN)
             ball.pose.position.x, ball.pose.position.y = frontier.initial
             yield from (cells, ball)
             number += 2
         for old in range(number, self._shown):
-            gone = self._new(old, self._marker.SPHERE, 0.1, BLUE)
+            gone = self._new_marker(old, self._marker.SPHERE, 0.1, BLUE)
             gone.action = gone.DELETE
             yield gone
         self._shown = number
 
-    def _new(self, number: int, kind: int, size: float, colour: tuple[float, float, float]) -> Any:
+    def _new_marker(self, number: int, kind: int, size: float, colour: tuple[float, float, float]) -> Any:
         marker = self._marker()
         marker.header.frame_id, marker.header.stamp = self.map.global_frame, self.node.now()
         marker.ns, marker.id, marker.type, marker.frame_locked = "frontiers", number, kind, True

@@ -24,7 +24,7 @@ from .localization import moved_offset, odom_in_map, offset
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
-WAITING = 100
+MAX_WAITING = 100
 """Maximum number of true poses that wait for the odometry's transform."""
 
 
@@ -41,7 +41,7 @@ class FakeLocalizationParameters(Parameters):
         0.0, "heading of the map's origin in the frame of the true poses", unit="rad"
     )
     transform_tolerance: float = parameter(
-        0.1, "by so much the transform from map to odom is dated in the future", unit="s"
+        0.1, "how far the transform from map to odom is dated in the future", unit="s"
     )
 
 
@@ -57,7 +57,7 @@ class FakeLocalization:
         )
         self._tolerance = Duration.from_sec(own.transform_tolerance)
         self._offset = offset(own.delta_x, own.delta_y, own.delta_yaw)
-        self._waiting: deque[Any] = deque(maxlen=WAITING)
+        self._waiting: deque[Any] = deque(maxlen=MAX_WAITING)
         self.buffer = TransformListener(node).buffer
         self._broadcaster = TransformBroadcaster(node)
         posed = message_class("geometry_msgs/PoseWithCovarianceStamped")
@@ -67,10 +67,10 @@ class FakeLocalization:
         self._pose_type = posed
         odometry = message_class("nav_msgs/Odometry")
         self.buffer.watch(self._catch_up)
-        node.subscriber("base_pose_ground_truth", odometry, self._truth, queue_size=WAITING)
-        node.subscriber("initialpose", posed, self._move_map, queue_size=1)
+        node.subscriber("base_pose_ground_truth", odometry, self._on_truth, queue_size=MAX_WAITING)
+        node.subscriber("initialpose", posed, self._on_initial_pose, queue_size=1)
 
-    def _truth(self, message: Any) -> None:
+    def _on_truth(self, message: Any) -> None:
         """Queue a true pose, which may have to wait for the odometry's transform at its time."""
         self._waiting.append(message)
         self._catch_up()
@@ -111,7 +111,7 @@ class FakeLocalization:
         self._pose.publish_late(posed)
         self._cloud.publish_late(cloud)
 
-    def _move_map(self, message: Any) -> None:
+    def _on_initial_pose(self, message: Any) -> None:
         frame = message.header.frame_id.lstrip("/")
         if frame != self.map_frame:
             self.node.logwarn(

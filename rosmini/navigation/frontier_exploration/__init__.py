@@ -7,6 +7,6 @@ connect them to the graph.
 
 from __future__ import annotations
 
-from .search import Blacklist, Frontier, find_frontiers, frontier_cells, places
+from .search import Blacklist, Frontier, find_frontiers, formatted_points, frontier_cells
 
-__all__ = ["Blacklist", "Frontier", "find_frontiers", "frontier_cells", "places"]
+__all__ = ["Blacklist", "Frontier", "find_frontiers", "formatted_points", "frontier_cells"]

@@ -16,9 +16,9 @@ from .polygon import Selection, Step
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
-PERIOD = 0.1
+MARKER_PERIOD = 0.1
 """Interval between publications of the polygon [s]."""
-PATIENCE = 5.0
+WARN_PERIOD = 5.0
 """Interval between warnings while the server is missing [s]."""
 
 
@@ -35,15 +35,15 @@ class ExploreClient:
         self._markers = node.publisher("exploration_polygon_marker", self._marker, queue_size=10)
         self._markers.expect_nobody()
         node.subscriber(
-            "/clicked_point", message_class("geometry_msgs/PointStamped"), self._clicked, queue_size=10
+            "/clicked_point", message_class("geometry_msgs/PointStamped"), self._on_click, queue_size=10
         )
-        node.timer(PERIOD, self._show)
+        node.timer(MARKER_PERIOD, self._show)
         node.loginfo("Please use the 'Point' tool in Rviz to select an exploration boundary.")
 
     def __repr__(self) -> str:
         return f"<ExploreClient {self.node.name}: {len(self.selection.vertices)} vertices>"
 
-    def _clicked(self, point: Any) -> None:
+    def _on_click(self, point: Any) -> None:
         """Add a clicked point."""
         selection = self.selection
         step, text = selection.click(point.header.frame_id.lstrip("/"), point.point.x, point.point.y)
@@ -69,11 +69,11 @@ class ExploreClient:
         if self.client is None:
             action = message_class("frontier_exploration/ExploreTaskAction")
             self.client = SimpleActionClient(self.node, "explore_server", action)
-        while not self.client.wait_for_server(PATIENCE):
+        while not self.client.wait_for_server(WARN_PERIOD):
             if self.node.is_shutdown():
                 return
             self.node.logwarn(
-                "The area waits for the action server explore_server: start frontier_exploration's explore_server"
+                "Waiting for the action server explore_server: start frontier_exploration/explore_server"
             )
         self.node.loginfo(text)
         self.client.send_goal(goal)

@@ -29,7 +29,7 @@ from rosmini.navigation.nav_core import TransformMissing, planar_pose, pose_stam
 
 from .parameters import ExploreServerParameters
 from .plugin import BoundedExploreLayer, moved
-from .polygon import has_inside
+from .polygon import contains
 from .search import Blacklist
 
 if TYPE_CHECKING:
@@ -37,17 +37,17 @@ if TYPE_CHECKING:
 
 ATTEMPTS = 5
 """Number of repeated requests for a frontier before the exploration ends."""
-PAUSE = 0.2
+RETRY_PERIOD = 0.2
 """Interval between two requests [s]."""
-PATIENCE = 5.0
+WARN_PERIOD = 5.0
 """Interval between warnings while move_base is missing [s]."""
-STUCK = 3
+STUCK_GOALS = 3
 """Number of consecutive aborted goals after which the robot counts as stuck,"""
-NEAR = 0.3
+STUCK_DISTANCE = 0.3
 """if it has stayed within this distance [m]."""
-LEAVINGS = 3
+MAX_REPLACEMENTS = 3
 """A goal replaced this many times is kept until the robot arrives or move_base aborts it."""
-LOST = 30.0
+POSE_TIMEOUT = 30.0
 """Time [s] after which an unknown pose ends the task."""
 
 
@@ -62,11 +62,11 @@ class ExploreServer:
         self.costmap = Costmap2DROS("explore_costmap", self.buffer, node)
         self.sent = 0
         """Number of goals sent."""
-        self._moving = self._found = False
+        self._moving = self._found_frontier = False
         self._last = (math.inf, math.inf)
-        self._left = Blacklist()
+        self._replaced = Blacklist()
         """Goals that were replaced by others."""
-        self._ends: list[tuple[float, float]] = []
+        self._abort_positions: list[tuple[float, float]] = []
         """The robot's positions when goals were aborted since the last one reached [m]."""
         self._feedback = message_class("frontier_exploration/ExploreTaskFeedback")()
         services = "~explore_costmap/explore_boundary/"
@@ -95,9 +95,9 @@ class ExploreServer:
 
     def _execute(self, task: Any) -> None:
         """Explore an area until no frontier is left."""
-        self._found = self._moving = False
-        self._left.points.clear()
-        self._ends.clear()
+        self._found_frontier = self._moving = False
+        self._replaced.points.clear()
+        self._abort_positions.clear()
         self.costmap.reset_layers()
         try:
             self._wait_for_others()
@@ -116,28 +116,28 @@ class ExploreServer:
                     self._finish(str(error))
                     return
                 left -= 1
-                self.node.sleep(PAUSE)
+                self.node.sleep(RETRY_PERIOD)
                 continue
             except (TransformMissing, TransformException) as error:
-                if (self.node.clock.now_ns() - known_ns) * 1e-9 > LOST:
+                if (self.node.clock.now_ns() - known_ns) * 1e-9 > POSE_TIMEOUT:
                     self._fail(
-                        f"Failed exploration: for {LOST:g} s the robot's pose has been unknown: {error}"
+                        f"Failed exploration: the robot's pose has been unknown for {POSE_TIMEOUT:g} s: {error}"
                     )
                     return
-                self.node.logwarn(f"Exploration waits for the robot's pose: {error}", throttle=PATIENCE)
-                self.node.sleep(PAUSE)
+                self.node.logwarn(f"Exploration waits for the robot's pose: {error}", throttle=WARN_PERIOD)
+                self.node.sleep(RETRY_PERIOD)
                 continue
-            self._drive(goal)
+            self._send_goal(goal)
             self._wait()
 
     def _wait_for_others(self) -> None:
-        while self.action.is_active() and not self.move_base.wait_for_server(PATIENCE):
+        while self.action.is_active() and not self.move_base.wait_for_server(WARN_PERIOD):
             if self.node.is_shutdown():
                 return
             self.node.logwarn("Exploration waits for the action server move_base: start move_base")
         for client in (self._set_boundary, self._next_frontier):
             try:
-                self.node.wait_for_service(client.name, PATIENCE)
+                self.node.wait_for_service(client.name, WARN_PERIOD)
             except ROSException as error:
                 raise ROSException(
                     f"{error}: the costmap ~explore_costmap needs a layer named explore_boundary of the type "
@@ -157,17 +157,17 @@ class ExploreServer:
             vertices = moved(
                 self.buffer, self.costmap.global_frame, boundary.header.frame_id, points_of(boundary.polygon)
             )
-            if not has_inside(vertices, (x, y)):
-                return self._way_back(task.explore_center, x, y)
+            if not contains(vertices, (x, y)):
+                return self._return_goal(task.explore_center, x, y)
         goal = self._next_frontier(robot).next_frontier
-        self._found = True
+        self._found_frontier = True
         self._feedback.next_frontier = goal
         return goal
 
-    def _way_back(self, center: Any, x: float, y: float) -> Any:
+    def _return_goal(self, center: Any, x: float, y: float) -> Any:
         """Return the given point inside the area, facing away from the robot's current position."""
-        if self._found:
-            self.node.logwarn("Robot left exploration boundary, returning to center", throttle=PATIENCE)
+        if self._found_frontier:
+            self.node.logwarn("Robot left exploration boundary, returning to center", throttle=WARN_PERIOD)
         else:
             self.node.logdebug("Robot not initially in exploration boundary, traveling to center")
         point = np.array([[center.point.x, center.point.y]])
@@ -177,7 +177,7 @@ class ExploreServer:
 
     # -- driving -------------------------------------------------------------------------------------------------
 
-    def _drive(self, pose: Any) -> None:
+    def _send_goal(self, pose: Any) -> None:
         """Send a goal, unless it is close to the last one, or the last one was replaced too often."""
         x, y, _ = planar_pose(pose)
         if not self.action.is_active():
@@ -185,13 +185,13 @@ class ExploreServer:
         if self._moving:
             resolution = self.costmap.layered.grid.resolution
             is_same = math.dist((x, y), self._last) < self.parameters.goal_aliasing / 2
-            if is_same or self._left.count(self._last, resolution) >= LEAVINGS:
+            if is_same or self._replaced.count(self._last, resolution) >= MAX_REPLACEMENTS:
                 return
-            self._left.points.append(self._last)
+            self._replaced.points.append(self._last)
         self._last, self._moving = (x, y), True
         self.sent += 1
         goal = message_class("move_base_msgs/MoveBaseGoal")(target_pose=pose)
-        self.move_base.send_goal(goal, done_cb=self._done, feedback_cb=self._feed)
+        self.move_base.send_goal(goal, done_cb=self._on_done, feedback_cb=self._on_feedback)
 
     def _wait(self) -> None:
         """Wait until the next search is due: for a period, or until the robot has arrived."""
@@ -200,21 +200,21 @@ class ExploreServer:
             self.node.sleep(1 / frequency)
             return
         while not self.node.is_shutdown() and self.action.is_active() and self._moving:
-            self.node.sleep(PAUSE)
+            self.node.sleep(RETRY_PERIOD)
 
-    def _feed(self, feedback: Any) -> None:
+    def _on_feedback(self, feedback: Any) -> None:
         self._feedback.base_position = feedback.base_position
         if self.action.is_active():
             self.action.publish_feedback(self._feedback)
 
-    def _done(self, state: int, _: Any) -> None:
+    def _on_done(self, state: int, _: Any) -> None:
         if state == Status.SUCCEEDED:
             self._moving = False
-            self._ends.clear()
+            self._abort_positions.clear()
         elif state == Status.ABORTED and self.action.is_active():
             self._moving = False
             with suppress(TransformMissing, TransformException):
-                self._ends.append(planar_pose(self.costmap.robot_pose())[:2])
+                self._abort_positions.append(planar_pose(self.costmap.robot_pose())[:2])
             x, y = self._last
             self.node.logwarn(
                 f"Failed to move to ({x:.2f}, {y:.2f}): {self.move_base.get_goal_status_text()}"
@@ -224,17 +224,21 @@ class ExploreServer:
 
     # -- the end -------------------------------------------------------------------------------------------------
 
-    def _finish(self, why: str) -> None:
+    def _finish(self, reason: str) -> None:
         """Finish the task when all frontiers were given up; it fails if there never was one or the robot is stuck."""
-        if not self._found:
-            self._fail(f"Failed exploration: {why}")
+        if not self._found_frontier:
+            self._fail(f"Failed exploration: {reason}")
             return
-        given_up = "".join(layer.said_of_given_up for layer in self._boundaries())
-        last = self._ends[-STUCK:]
-        if given_up and len(last) == STUCK and all(math.dist(one, last[-1]) < NEAR for one in last):
+        given_up = "".join(layer.given_up_text for layer in self._boundaries())
+        last = self._abort_positions[-STUCK_GOALS:]
+        if (
+            given_up
+            and len(last) == STUCK_GOALS
+            and all(math.dist(one, last[-1]) < STUCK_DISTANCE for one in last)
+        ):
             (x, y), text = last[-1], self.move_base.get_goal_status_text()
             self._fail(
-                f"Failed exploration: the robot does not get away from ({x:.2f}, {y:.2f}){given_up}. Last: {text}"
+                f"Failed exploration: the robot is stuck at ({x:.2f}, {y:.2f}){given_up}. Last: {text}"
             )
             return
         text = f"Finished exploring room{given_up}"

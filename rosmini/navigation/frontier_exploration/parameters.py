@@ -16,12 +16,13 @@ class BoundedExploreParameters(LayerConfig):
     """Parameters of `frontier_exploration::BoundedExploreLayer`."""
 
     explore_clear_space: bool = parameter(
-        True, "whether all inside of the boundary is unknown at first, so that known space is explored again"
+        True,
+        "whether everything inside the boundary is unknown initially, so that known space is explored again",
     )
     resize_to_boundary: bool = parameter(True, "whether the costmap gets the size of the boundary")
     frontier_travel_point: str = parameter(
         CLOSEST,
-        "which point of a frontier to drive to",
+        "the point of a frontier to drive to",
     )
 
 
@@ -35,5 +36,5 @@ class ExploreServerParameters(Parameters):
         0.0, "how often to look for the next frontier; 0: when the last is reached", unit="Hz"
     )
     goal_aliasing: float = parameter(
-        0.1, "a goal nearer than half of it to the last one is not sent", unit="m"
+        0.1, "a goal within half of this distance of the last one is not sent", unit="m"
     )

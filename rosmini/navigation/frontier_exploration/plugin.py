@@ -28,24 +28,24 @@ from rosmini.navigation.nav_core.clouds import point_cloud
 from rosmini.navigation.nav_core.poses import planar_transform, pose_stamped
 
 from .parameters import CENTROID, CLOSEST, MIDDLE, BoundedExploreParameters
-from .polygon import fault
-from .search import TRIES, Blacklist, Frontier, find_frontiers, places
+from .polygon import polygon_error
+from .search import MAX_FAILURES, Blacklist, Frontier, find_frontiers, formatted_points
 
-PATIENCE = 10.0
+TIMEOUT = 10.0
 """Maximum time to wait for a transform, and for the boundary to be drawn [s]."""
 ROUNDING = 1e-3
 """Points are 32-bit floats: a boundary must reach into a cell by at least this fraction of a cell [cells]."""
-LOOK = 0.1
+POLL_PERIOD = 0.1
 """Interval between checks whether the boundary is drawn [s]."""
-OTHERS, CHOSEN = 50.0, 100.0
+OTHER_INTENSITY, CHOSEN_INTENSITY = 50.0, 100.0
 """Intensities of the frontiers in the cloud."""
 
 
 def moved(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:
-    """Transform points (n, 2) from the frame `source` to `frame`. Raises `TransformException` after `PATIENCE`."""
+    """Transform points (n, 2) from the frame `source` to `frame`. Raises `TransformException` after `TIMEOUT`."""
     if source.lstrip("/") == frame:
         return points
-    found = buffer.lookup_transform(frame, source.lstrip("/"), Time(0), PATIENCE)
+    found = buffer.lookup_transform(frame, source.lstrip("/"), Time(0), TIMEOUT)
     return transform_points(planar_transform(found), points)
 
 
@@ -91,13 +91,13 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         """Set the boundary; without vertices it is the costmap's edge."""
         stamped = request.explore_boundary
         vertices = points_of(stamped.polygon)
-        wrong = fault(vertices) if len(vertices) else None
-        if wrong is not None:
-            raise self._refused(wrong)
+        problem = polygon_error(vertices) if len(vertices) else None
+        if problem is not None:
+            raise self._refusal(problem)
         try:
             vertices = moved(self.buffer, self.layered.global_frame, stamped.header.frame_id, vertices)
         except TransformException as error:
-            raise self._refused(
+            raise self._refusal(
                 f"Couldn't transform from {self.layered.global_frame} to {stamped.header.frame_id}: {error}"
             ) from error
         master = self.layered.grid
@@ -108,14 +108,14 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
             width, height = (int(side) for side in np.ceil((high - low) / master.resolution - ROUNDING))
             self.layered.resize(width + 1, height + 1, master.resolution, (float(low[0]), float(low[1])))
         elif not _overlaps(vertices, _edge(master)):
-            raise self._refused(
-                f"the boundary, {_span(vertices)}, has nothing in common with the costmap, {_span(_edge(master))}"
+            raise self._refusal(
+                f"the boundary, {_span(vertices)}, does not overlap the costmap, {_span(_edge(master))}"
             )
         self.boundary = vertices
         self._is_drawn, self._has_changed = False, True
         return []
 
-    def _refused(self, text: str) -> ServiceRefused:
+    def _refusal(self, text: str) -> ServiceRefused:
         self.node.logerr(text)
         return ServiceRefused(text)
 
@@ -146,7 +146,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         if not self._is_drawn:
             self._draw(self.boundary)
         self._is_drawn = True
-        mine, master = window.of(self.costs), window.of(grid.costs)
+        mine, master = window.view(self.costs), window.view(grid.costs)
         np.copyto(
             master, mine, where=(master != LETHAL_OBSTACLE) & ((mine == LETHAL_OBSTACLE) | (mine > master))
         )
@@ -171,14 +171,14 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
                 self.buffer, self.layered.global_frame, start.header.frame_id, np.array([[p.x, p.y]])
             )
         except TransformException as error:
-            raise self._refused(
+            raise self._refusal(
                 f"Couldn't transform from {self.layered.global_frame} to {start.header.frame_id}: {error}"
             ) from error
         x, y = here[0].tolist()
         try:
             self.frontiers = find_frontiers(self.layered.grid, x, y)
         except IndexError as error:
-            raise self._refused(
+            raise self._refusal(
                 f"Robot out of costmap bounds, cannot search for frontiers: {error}"
             ) from error
         # A single cell is noise in the map.
@@ -188,28 +188,28 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
             (self.given_up.count(self._travel_point(one), resolution), one.min_distance, one)
             for one in self.frontiers
         ]
-        tries, _, chosen = min(left, key=lambda each: each[:2], default=(TRIES, 0.0, None))
-        if chosen is None or tries >= TRIES:
-            raise ServiceRefused("No valid frontiers found, exploration complete" + self.said_of_given_up)
+        tries, _, chosen = min(left, key=lambda each: each[:2], default=(MAX_FAILURES, 0.0, None))
+        if chosen is None or tries >= MAX_FAILURES:
+            raise ServiceRefused("No valid frontiers found, exploration complete" + self.given_up_text)
         self._publish(chosen)
         px, py = self._travel_point(chosen)
         yaw = math.atan2(py - y, px - x)
         return {"next_frontier": pose_stamped(self.layered.global_frame, self.node.now(), (px, py, yaw))}
 
     @property
-    def said_of_given_up(self) -> str:
+    def given_up_text(self) -> str:
         """A clause with the positions of the latest frontiers if all were given up, to append to a sentence."""
         if not self.frontiers:
             return ""
-        return f"; {len(self.frontiers)} were given up, at {places(map(self._travel_point, self.frontiers))}"
+        return f"; {len(self.frontiers)} were given up, at {formatted_points(map(self._travel_point, self.frontiers))}"
 
     def _wait_until_drawn(self) -> None:
-        for _ in range(round(PATIENCE / LOOK)):
+        for _ in range(round(TIMEOUT / POLL_PERIOD)):
             if self._is_drawn:
                 return
-            self.node.sleep(LOOK)
-        raise self._refused(
-            f"no boundary has been drawn within {PATIENCE:g} s: call update_boundary_polygon first"
+            self.node.sleep(POLL_PERIOD)
+        raise self._refusal(
+            f"no boundary has been drawn within {TIMEOUT:g} s: call update_boundary_polygon first"
         )
 
     def _travel_point(self, frontier: Frontier) -> tuple[float, float]:
@@ -225,7 +225,10 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         return frontier.initial
 
     def _publish(self, chosen: Frontier) -> None:
-        rows = [(*one.initial, 0.0, CHOSEN if one is chosen else OTHERS) for one in self.frontiers]
+        rows = [
+            (*one.initial, 0.0, CHOSEN_INTENSITY if one is chosen else OTHER_INTENSITY)
+            for one in self.frontiers
+        ]
         names = ("x", "y", "z", "intensity")
         self._cloud.publish(point_cloud(self.layered.global_frame, self.node.now(), names, rows))
 

@@ -24,17 +24,17 @@ class Step(Enum):
     REFUSED = "refused"
 
 
-def has_inside(vertices: Floats, point: Point) -> bool:
+def contains(vertices: Floats, point: Point) -> bool:
     """True if a point is inside the polygon (n, 2)."""
     return bool(inside(np.array([point]), sides_of(vertices))[0])
 
 
-def fault(vertices: Floats) -> str | None:
+def polygon_error(vertices: Floats) -> str | None:
     """Return why these vertices (n, 2) enclose no valid area; None if they do."""
     if len(vertices) < 3:
-        return f"a polygon of {len(vertices)} vertices bounds no area: at least 3 are needed"
+        return f"a polygon of {len(vertices)} vertices has no area: at least 3 are needed"
     if not np.isfinite(vertices).all():
-        return "a vertex of the polygon is no finite number"
+        return "a vertex of the polygon is not finite"
     crossing = crossing_sides(vertices)
     if crossing is not None:
         a, b = crossing
@@ -74,7 +74,7 @@ class Selection:
             said = f"Frame mismatch, restarting polygon selection: '{frame}' after '{self.frame}'"
             return self._restart(said)
         if self.is_closed:
-            if has_inside(self.polygon, (x, y)):
+            if contains(self.polygon, (x, y)):
                 return Step.COMPLETE, "Sending goal"
             return self._restart("Center not inside polygon, restarting")
         if self._closes(x, y):
@@ -90,7 +90,7 @@ class Selection:
         return math.dist(self.vertices[0], (x, y)) < NEAR * mean
 
     def _close(self) -> tuple[Step, str]:
-        wrong = fault(self.polygon)
+        wrong = polygon_error(self.polygon)
         if wrong is not None:
             return self._restart(f"Not a valid polygon, restarting: {wrong}")
         self.is_closed = True

@@ -32,11 +32,11 @@ Bools = NDArray[np.bool_]
 Ints = NDArray[np.int64]
 Point = tuple[float, float]
 
-TOLERANCE = 5
+SAME_GOAL_CELLS = 5
 """Goals within this many cells of one that was given up, along both axes, also count, as in explore_lite."""
-TRIES = 2
+MAX_FAILURES = 2
 """Number of failures after which a goal is given up permanently; after the first, the obstacle may have moved."""
-SOME = 5
+MAX_LISTED = 5
 """Maximum number of positions in a message."""
 
 
@@ -79,7 +79,7 @@ def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
     """
     cell = grid.world_to_map(x, y)
     if cell is None:
-        raise IndexError(f"the robot, at ({x:.2f}, {y:.2f}), is outside of {grid!r}")
+        raise IndexError(f"the robot, at ({x:.2f}, {y:.2f}), is outside {grid!r}")
     open_cells = np.argwhere(grid.costs < INSCRIBED_INFLATED_OBSTACLE)
     if not len(open_cells):
         return []
@@ -89,15 +89,15 @@ def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
     return [_measured(grid, cells, here) for cells in _groups(grid.costs, open_cells[nearest])]
 
 
-def places(points: Iterable[Point]) -> str:
-    """Format points [m], at most `SOME` of them.
+def formatted_points(points: Iterable[Point]) -> str:
+    """Format points [m], at most `MAX_LISTED` of them.
 
     >>> places([(1.0, 2.0), (0.5, 0.25)])
     '(1.00, 2.00), (0.50, 0.25)'
     """
     texts = [f"({x:.2f}, {y:.2f})" for x, y in points]
-    more = [f"and {len(texts) - SOME} more"] if len(texts) > SOME else []
-    return ", ".join(texts[:SOME] + more)
+    more = [f"and {len(texts) - MAX_LISTED} more"] if len(texts) > MAX_LISTED else []
+    return ", ".join(texts[:MAX_LISTED] + more)
 
 
 def _measured(grid: Costmap2D, cells: Ints, here: Point) -> Frontier:
@@ -117,7 +117,7 @@ def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:
     width = padded.shape[1]
     waiting = bytearray(frontier_cells(padded).tobytes())
     around = [sign * step for step in (1, width, width - 1, width + 1) for sign in (-1, 1)]
-    for first in _met(padded, int((start[0] + 1) * width + start[1] + 1)):
+    for first in _reached_unknown(padded, int((start[0] + 1) * width + start[1] + 1)):
         if not waiting[first]:
             continue
         waiting[first] = 0
@@ -131,7 +131,7 @@ def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:
         yield np.stack([numbers % width - 1, numbers // width - 1], axis=1)
 
 
-def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
+def _reached_unknown(padded: NDArray[np.uint8], start: int) -> list[int]:
     """Return the unknown cells next to those that a breadth-first search reaches, in order and with duplicates."""
     costs = padded.ravel()
     unknown, is_open = costs == NO_INFORMATION, costs < INSCRIBED_INFLATED_OBSTACLE
@@ -159,9 +159,9 @@ class Blacklist:
 
     def count(self, point: Point, resolution: float) -> int:
         """Return how often goals near this point were given up."""
-        reach = TOLERANCE * resolution
+        reach = SAME_GOAL_CELLS * resolution
         return sum(abs(point[0] - x) < reach and abs(point[1] - y) < reach for x, y in self.points)
 
-    def has(self, point: Point, resolution: float) -> bool:
+    def is_given_up(self, point: Point, resolution: float) -> bool:
         """True if a point was given up permanently."""
-        return self.count(point, resolution) >= TRIES
+        return self.count(point, resolution) >= MAX_FAILURES

@@ -11,7 +11,7 @@ from rosmini.core.geometry.angles import normalize_angle
 
 NONE, FORWARD, INTERPOLATE, FORWARD_THEN_INTERPOLATE, BACKWARD, LEFTWARD, RIGHTWARD = range(7)
 
-TURNED = {FORWARD: 0.0, BACKWARD: math.pi, LEFTWARD: -math.pi / 2, RIGHTWARD: math.pi / 2}
+ROTATIONS = {FORWARD: 0.0, BACKWARD: math.pi, LEFTWARD: -math.pi / 2, RIGHTWARD: math.pi / 2}
 """Rotation of the heading relative to the path's direction."""
 
 Poses = NDArray[np.float64]
@@ -28,12 +28,12 @@ def orient(poses: Poses, mode: int, start_yaw: float, window: int = 1) -> Poses:
     last = len(made) - 1
     if last < 1 or mode == NONE:
         return made
-    if mode in TURNED:
-        made[:-1, 2] = normalize_angle(_along(made, window)[:-1] + TURNED[mode])
+    if mode in ROTATIONS:
+        made[:-1, 2] = normalize_angle(_path_directions(made, window)[:-1] + ROTATIONS[mode])
         return made
     begin = 0
     if mode == FORWARD_THEN_INTERPOLATE:
-        made[:-1, 2] = _along(made, window)[:-1]
+        made[:-1, 2] = _path_directions(made, window)[:-1]
         begin = _straight_from(made)
     made[0, 2] = start_yaw
     total = normalize_angle(made[last, 2] - made[begin, 2])
@@ -42,7 +42,7 @@ def orient(poses: Poses, mode: int, start_yaw: float, window: int = 1) -> Poses:
     return made
 
 
-def _along(poses: Poses, window: int) -> NDArray[np.float64]:
+def _path_directions(poses: Poses, window: int) -> NDArray[np.float64]:
     """Return the path's direction at each point, between the points `window` before and `window` after it."""
     index = np.arange(len(poses))
     before = np.maximum(0, index - window)

@@ -33,10 +33,10 @@ class GlobalPlannerConfig(Parameters):
 
     dynamic = True
 
-    lethal_cost: int = parameter(LETHAL_COST, "the first cost that no plan passes", minimum=1, maximum=255)
-    neutral_cost: int = parameter(NEUTRAL_COST, "what each step costs", minimum=1, maximum=255)
+    lethal_cost: int = parameter(LETHAL_COST, "the lowest cost that no plan enters", minimum=1, maximum=255)
+    neutral_cost: int = parameter(NEUTRAL_COST, "the cost of each step", minimum=1, maximum=255)
     cost_factor: float = parameter(
-        COST_FACTOR, "by this factor costs of the costmap count (Dijkstra)", minimum=0.01, maximum=5.0
+        COST_FACTOR, "the factor of the costmap's costs (Dijkstra)", minimum=0.01, maximum=5.0
     )
     publish_potential: bool = parameter(True, "whether to publish the potential")
     orientation_mode: int = parameter(
@@ -47,7 +47,7 @@ class GlobalPlannerConfig(Parameters):
         maximum=6,
     )
     orientation_window_size: int = parameter(
-        1, "so many points before and behind give the path's direction", minimum=1, maximum=255
+        1, "number of points before and after that give the path's direction", minimum=1, maximum=255
     )
 
 
@@ -56,7 +56,7 @@ class GlobalPlannerParameters(GlobalPlannerConfig):
     """All parameters of `global_planner/GlobalPlanner`, in `~GlobalPlanner/`."""
 
     old_navfn_behavior: bool = parameter(
-        False, "plan between middles of cells and put points half a cell to the lower left, as navfn does"
+        False, "plan between cell centres and shift points by half a cell to the lower left, as navfn does"
     )
     use_quadratic: bool = parameter(True, "interpolate the potential between two neighbours")
     use_dijkstra: bool = parameter(True, "Dijkstra, or else A*")
@@ -65,8 +65,8 @@ class GlobalPlannerParameters(GlobalPlannerConfig):
     planner_window_x: float = parameter(0.0, "has no effect, as in ROS", unit="m")
     planner_window_y: float = parameter(0.0, "has no effect, as in ROS", unit="m")
     default_tolerance: float = parameter(0.0, "has no effect, as in ROS: a plan ends at the goal", unit="m")
-    publish_scale: int = parameter(100, "what the highest potential is published as")
-    outline_map: bool = parameter(True, "take the outermost cells as lethal")
+    publish_scale: int = parameter(100, "the published value of the highest potential")
+    outline_map: bool = parameter(True, "treat the outermost cells as lethal")
 
 
 class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
@@ -109,7 +109,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
             raise
         plan = self.poses(path, self._offset)
         plan.append(self.pose_like(goal, goal.pose.position.x, goal.pose.position.y))
-        self._turn(plan, start)
+        self._set_headings(plan, start)
         return plan
 
     def _search(self, begin: tuple[float, float], end: tuple[float, float]) -> Search:
@@ -127,7 +127,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
             return GlobalDijkstra(self.grid.costs, begin, end, cost_factor=config["cost_factor"], **options)
         return GlobalAStar(self.grid.costs, begin, end, **options)
 
-    def _turn(self, plan: Poses, start: Any) -> None:
+    def _set_headings(self, plan: Poses, start: Any) -> None:
         """Set the headings of the poses."""
         poses = np.zeros((len(plan), 3))
         poses[:, :2] = [(each.pose.position.x, each.pose.position.y) for each in plan]

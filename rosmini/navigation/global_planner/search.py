@@ -22,7 +22,7 @@ LETHAL_COST = 253
 NEUTRAL_COST = 50
 COST_FACTOR = 3.0
 
-NEAR_GOAL = 2
+FILL_DISTANCE = 2
 """Distance [cells] around a reached goal within which cells get a potential, for the gradient."""
 
 
@@ -54,12 +54,12 @@ def _passable(allow_unknown: bool, lethal_cost: int) -> NDArray[np.bool_]:
     return passable
 
 
-def _fill_around(search: Search, goal: tuple[int, int]) -> None:
+def _fill_around_goal(search: Search, goal: tuple[int, int]) -> None:
     """Give the passable cells around a reached goal a potential."""
     flat, table, row = search.potential_with_rim, search.table, search.row
     costs = search.costs.ravel()
-    for y in range(max(0, goal[1] - NEAR_GOAL), min(search.height, goal[1] + NEAR_GOAL + 1)):
-        for x in range(max(0, goal[0] - NEAR_GOAL), min(search.width, goal[0] + NEAR_GOAL + 1)):
+    for y in range(max(0, goal[1] - FILL_DISTANCE), min(search.height, goal[1] + FILL_DISTANCE + 1)):
+        for x in range(max(0, goal[0] - FILL_DISTANCE), min(search.width, goal[0] + FILL_DISTANCE + 1)):
             n = (y + 1) * row + x + 1
             a, b = min(flat[n - 1], flat[n + 1]), min(flat[n - row], flat[n + row])
             cost = float(table[costs[n]])
@@ -121,7 +121,7 @@ class GlobalDijkstra(WaveSearch):
     def _expand(self, count: int) -> int:
         result = super()._expand(count)
         if result == 1 and self.precise:
-            _fill_around(self, cell_of(self.goal))
+            _fill_around_goal(self, cell_of(self.goal))
         return result
 
 
@@ -177,7 +177,7 @@ class GlobalAStar(Search):
             )
         )
         if result == 1 and self.precise:
-            _fill_around(self, cell_of(self.goal))
+            _fill_around_goal(self, cell_of(self.goal))
         return result
 
     def _waiting(self) -> NDArray[np.int32]:

@@ -18,7 +18,7 @@ from rosmini.core.errors import ParameterError
 from .maps import SIDE
 from .slam import GridSlam
 
-ENLARGE = 10.0
+GROWTH_MARGIN = 10.0
 """Additional margin of a map that has to grow [m]."""
 
 
@@ -35,8 +35,8 @@ def first_extent(xmin: float, ymin: float, xmax: float, ymax: float, delta: floa
     """Return the initial extent of a map, given in metres. Raises `ParameterError` for a map without cells."""
     if not (xmin < xmax and ymin < ymax):
         raise ParameterError(
-            f"a map from xmin {xmin} to xmax {xmax} m and from ymin {ymin} to ymax {ymax} m has no cells: xmin and "
-            "ymin have to be the smaller ones"
+            f"a map from xmin {xmin} to xmax {xmax} m and from ymin {ymin} to ymax {ymax} m has no cells: "
+            "xmin and ymin must be smaller than xmax and ymax"
         )
     columns, rows = (
         max(math.ceil(length / delta - 1e-6) // SIDE, 1) for length in (xmax - xmin, ymax - ymin)
@@ -56,7 +56,7 @@ def grown(extent: Extent, seen: Extent, delta: float) -> Extent:
 
 
 def _grown(low: int, size: int, from_: int, count: int, delta: float) -> tuple[int, int]:
-    more = ENLARGE / delta
+    more = GROWTH_MARGIN / delta
     before = math.ceil((low - from_ + more) / SIDE) if from_ < low else 0
     after = math.ceil((from_ + count - low - size + more) / SIDE) if from_ + count > low + size else 0
     return low - before * SIDE, size + (before + after) * SIDE

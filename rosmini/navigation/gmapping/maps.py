@@ -23,11 +23,11 @@ Ints = NDArray[np.int32]
 
 SIDE = 32
 """Number of cells along the side of a patch."""
-FULL = 0.1
+FULL_FRACTION = 0.1
 """A cell is full if more than this fraction of its visits were beam ends."""
-LARGEST = 1 << 20
+MAX_PATCHES = 1 << 20
 """Maximum number of patches in a map: 1.6 km x 1.6 km with cells of 5 cm."""
-NONE = 0
+EMPTY_PATCH = 0
 """Index in a table of the empty patch, for areas without any beam."""
 
 PATCH_BYTES = SIDE * (SIDE * (4 + 4 + 16) + 8)
@@ -70,7 +70,7 @@ class SharedMaps:
     def __init__(self, count: int, resolution: float) -> None:
         self.resolution = resolution
         self.low = (0, 0)
-        self.tables: Ints = np.full((count, 0, 0), NONE, dtype=np.int32)
+        self.tables: Ints = np.full((count, 0, 0), EMPTY_PATCH, dtype=np.int32)
         """Indices of patches in the pool (particles, rows, columns)."""
         self.hits: Ints = np.zeros((1, SIDE, SIDE), dtype=np.int32)
         """Number of beams that ended in each cell (patches, rows, columns)."""
@@ -79,7 +79,7 @@ class SharedMaps:
         self.means: Floats = np.zeros((1, SIDE, SIDE, 2))
         """Mean of the beam ends in each cell [m]."""
         self.full: NDArray[np.int64] = np.zeros((1, SIDE), dtype=np.int64)
-        """Bits of full cells (patches, rows), one per column: 1 if ends are more than the fraction `FULL` of visits.
+        """Bits of full cells (patches, rows), one per column: 1 if the share of ends exceeds `FULL_FRACTION`.
 
         A matcher reads these bits, and those of a patch are adjacent in memory."""
         self.owners: NDArray[np.int64] = np.zeros(1, dtype=np.int64)
@@ -95,7 +95,7 @@ class SharedMaps:
         block = SIDE * self.resolution
         if not np.isfinite((left, bottom, right, top)).all():
             raise RosminiError(
-                f"a scan seen from ({left}, {bottom}) to ({right}, {top}) m is nowhere on a map"
+                f"a scan seen from ({left}, {bottom}) to ({right}, {top}) m has no position on a map"
             )
         x0, y0 = int(np.floor(left / block)) - 1, int(np.floor(bottom / block)) - 1
         x1, y1 = int(np.floor(right / block)) + 2, int(np.floor(top / block)) + 2
@@ -105,17 +105,19 @@ class SharedMaps:
             here_x, here_y = x0, y0
         west, south = max(0, here_x - x0), max(0, here_y - y0)
         east, north = max(0, x1 - here_x - columns), max(0, y1 - here_y - rows)
-        if (rows + south + north) * (columns + west + east) > LARGEST:
+        if (rows + south + north) * (columns + west + east) > MAX_PATCHES:
             raise RosminiError(
-                f"maps would have to reach from ({left:.4g}, {bottom:.4g}) to ({right:.4g}, {top:.4g}) m, too: with "
-                f"cells of {self.resolution} m more than {LARGEST * SIDE * SIDE:.1g} of them; look for an odometry "
-                "that jumps, or for a maxUrange that is too long"
+                f"the maps would have to extend from ({left:.4g}, {bottom:.4g}) to ({right:.4g}, {top:.4g}) m: with "
+                f"cells of {self.resolution} m more than {MAX_PATCHES * SIDE * SIDE:.1g} of them; check "
+                "for jumps of the odometry, or a maxUrange that is too long"
             )
         if west or south or east or north or not rows:
-            self.tables = np.pad(self.tables, ((0, 0), (south, north), (west, east)), constant_values=NONE)
+            self.tables = np.pad(
+                self.tables, ((0, 0), (south, north), (west, east)), constant_values=EMPTY_PATCH
+            )
             self.low = ((here_x - west) * SIDE, (here_y - south) * SIDE)
 
-    def _enlarge(self, count: int) -> None:
+    def _add_patches(self, count: int) -> None:
         """Add at least `count` patches."""
         more = max(count, len(self.hits) // 2, 64)
         grow = ((0, more), (0, 0), (0, 0))
@@ -133,7 +135,9 @@ class SharedMaps:
     def choose(self, indices: NDArray[np.int64]) -> None:
         """Continue with the maps of these particles; duplicates are not copied until they change."""
         self.tables = np.ascontiguousarray(self.tables[indices])
-        self.owners = np.bincount(self.tables[self.tables != NONE], minlength=len(self.hits)).astype(np.int64)
+        self.owners = np.bincount(self.tables[self.tables != EMPTY_PATCH], minlength=len(self.hits)).astype(
+            np.int64
+        )
 
     def register(self, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float) -> None:
         """Write a scan into each map, from that particle's laser pose (n, 3).
@@ -152,7 +156,7 @@ class SharedMaps:
             free = np.flatnonzero(self.owners[1:] == 0) + 1
             done = kernel(REGISTER)(self.pool, scan, laser_poses, free, done)
             if done < len(laser_poses):
-                self._enlarge(int(scan.touched.sum()))
+                self._add_patches(int(scan.touched.sum()))
 
     @property
     def pool(self) -> Pool:
@@ -167,7 +171,7 @@ class SharedMaps:
         table = self.tables[particle]
         rows, columns = table.shape
         found = np.full((rows * SIDE, columns * SIDE), -1.0)
-        for row, column in np.argwhere(table != NONE).tolist():
+        for row, column in np.argwhere(table != EMPTY_PATCH).tolist():
             patch = table[row, column]
             visits = self.visits[patch]
             cells = np.where(visits > 0, self.hits[patch] / np.maximum(visits, 1), -1.0)
@@ -213,12 +217,12 @@ def count(patch: int, i: int, j: int, is_end: bool, x: float, y: float, pool: An
         pool.means[patch, i, j, 1] += share * (y - pool.means[patch, i, j, 1])
     ends = pool.hits[patch, i, j]
     if ends:
-        is_full = ends > FULL * pool.visits[patch, i, j]
+        is_full = ends > FULL_FRACTION * pool.visits[patch, i, j]
         if ((pool.full[patch, i] >> j) & 1 == 1) != is_full:
             pool.full[patch, i] ^= 1 << j
 
 
-def own(n: int, row: int, column: int, patch: int, pool: Any) -> None:
+def copy_patch(n: int, row: int, column: int, patch: int, pool: Any) -> None:
     """Give a map its own copy of a shared patch."""
     old = pool.tables[n, row, column]
     for i in range(32):
@@ -248,7 +252,7 @@ def register(pool: Any, scan: Any, poses: Any, free: Any, first: int) -> int:
                 if scan.touched[row, column] and pool.owners[pool.tables[n, row, column]] != 1:
                     if taken == len(free):
                         return n
-                    own(n, row, column, free[taken], pool)
+                    copy_patch(n, row, column, free[taken], pool)
                     taken += 1
         trace(n, pose, pool, scan, True)
     return len(poses)
@@ -267,4 +271,4 @@ def compiled_register() -> Callable[..., int]:
     pool = record((*grids, int64, int64, float64), Pool)
     scan = record((beams, beams, float64, uint8[:, ::1]), Scan)
     signature = int64(pool, scan, float64[:, ::1], int64[::1], int64)
-    return machine_code(register, signature, (count, trace, own))
+    return machine_code(register, signature, (count, trace, copy_patch))

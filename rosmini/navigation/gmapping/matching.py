@@ -146,9 +146,9 @@ def grids_of(maps: SharedMaps) -> Grids:
     return Grids(maps.tables, maps.means, maps.full, *maps.low, maps.resolution)
 
 
-NOWHERE = 1e300
+NO_END = 1e300
 """Squared distance of a beam end without another end nearby."""
-FREE_RATIO = math.sqrt(2)
+FREE_CELL_DISTANCE = math.sqrt(2)
 """Distance [cells] before the end of a beam at which the cell must be free."""
 
 
@@ -159,8 +159,8 @@ def aim(heading: float, beams: Any) -> None:
         cos = ahead_x * beams.cosines[b] - ahead_y * beams.sines[b]
         sin = ahead_y * beams.cosines[b] + ahead_x * beams.sines[b]
         beams.ends[b, 0], beams.ends[b, 1] = beams.ranges[b] * cos, beams.ranges[b] * sin
-        beams.before[b, 0] = math.floor(0.5 - FREE_RATIO * cos)
-        beams.before[b, 1] = math.floor(0.5 - FREE_RATIO * sin)
+        beams.before[b, 0] = math.floor(0.5 - FREE_CELL_DISTANCE * cos)
+        beams.before[b, 1] = math.floor(0.5 - FREE_CELL_DISTANCE * sin)
 
 
 def window(n: int, row: int, west: int, east: int, tables: Any, full: Any) -> int:
@@ -184,7 +184,7 @@ def fit(n: int, x: float, y: float, grids: Any, beams: Any, rule: Any, least: fl
             break
         end_x, end_y = x + ends[b, 0], y + ends[b, 1]
         column, row = math.floor(end_x * per_metre) - grids.low_x, math.floor(end_y * per_metre) - grids.low_y
-        best, first, last = NOWHERE, row - size, row + size + 1
+        best, first, last = NO_END, row - size, row + size + 1
         if row < edge or row >= rows or column < edge or column >= columns:
             first = last  # beyond the known area
         west, east = column - size, column + size
@@ -205,7 +205,7 @@ def fit(n: int, x: float, y: float, grids: Any, beams: Any, rule: Any, least: fl
                     off_y = end_y - means[patch, i & 31, j & 31, 1]
                     best = min(best, off_x * off_x + off_y * off_y)
                 bits >>= 1
-        if best < NOWHERE:
+        if best < NO_END:
             score += math.exp(-best / rule.sigma)
             likelihood -= best / rule.lsigma
         else:

@@ -21,12 +21,12 @@ from rosmini.navigation.nav_core.poses import planar_transform
 
 from .extent import first_extent, published
 from .parameters import GmappingParameters
-from .slam import JUMP, GridSlam
+from .slam import MAX_STEP, GridSlam
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
-PATIENCE = 0.5
+TRANSFORM_TIMEOUT = 0.5
 """Maximum time that a scan waits for its transforms [s]."""
 
 
@@ -45,7 +45,7 @@ class SlamGmapping:
         self._last_map: int | None = None
         self._last_stamp_ns = 0
         self._map: Any = None
-        self._sent = Time(0)
+        self._last_transform_stamp = Time(0)
         """Stamp of the last transform."""
         self.buffer = Buffer(node)
         self.listener = TransformListener(node, self.buffer)
@@ -55,7 +55,7 @@ class SlamGmapping:
             "~entropy", message_class("std_msgs/Float64"), queue_size=1, latch=True
         )
         self._maps = node.publisher("map", grid, queue_size=1, latch=True)
-        self._numbers = node.publisher("map_metadata", numbers, queue_size=1, latch=True)
+        self._metadata = node.publisher("map_metadata", numbers, queue_size=1, latch=True)
         node.service("dynamic_map", service_class("nav_msgs/GetMap"), self._dynamic_map)
         node.subscriber("scan", message_class("sensor_msgs/LaserScan"), self._scan, queue_size=5)
         if p.transform_publish_period > 0:
@@ -71,39 +71,39 @@ class SlamGmapping:
         try:
             check(message, p.maxRange)
             if self.slam is None:
-                self.slam = self._begin(message)
+                self.slam = self._create_filter(message)
             odometry = planar_transform(
-                self.buffer.lookup_transform(p.odom_frame, p.base_frame, stamp, PATIENCE)
+                self.buffer.lookup_transform(p.odom_frame, p.base_frame, stamp, TRANSFORM_TIMEOUT)
             )
         except TransformException as error:
-            self.node.logwarn(f"a scan of {message.header.frame_id} is left out: {error}", throttle=5.0)
+            self.node.logwarn(f"a scan of {message.header.frame_id} is ignored: {error}", throttle=5.0)
             return
         except RosminiError as error:
             self.node.logerr(error, throttle=5.0)
             return
         if len(message.ranges) != self._beams:
             self.node.logerr(
-                f"a scan of {message.header.frame_id} has {len(message.ranges)} ranges, the first one had "
-                f"{self._beams}: it is left out",
+                f"a scan of {message.header.frame_id} has {len(message.ranges)} ranges, but the first one had "
+                f"{self._beams}: it is ignored",
                 throttle=5.0,
             )
             return
-        self._take(self.slam, message, odometry)
+        self._process(self.slam, message, odometry)
 
-    def _begin(self, message: Any) -> GridSlam:
+    def _create_filter(self, message: Any) -> GridSlam:
         """Create the filter from the first scan, which gives the laser's pose and range."""
         p, frame = self.parameters, message.header.frame_id.lstrip("/")
-        found = self.buffer.lookup_transform(p.base_frame, frame, Time(0), PATIENCE)
+        found = self.buffer.lookup_transform(p.base_frame, frame, Time(0), TRANSFORM_TIMEOUT)
         q = found.transform.rotation
         up = 1 - 2 * (q.x * q.x + q.y * q.y)
         if abs(1 - abs(up)) > 1e-3:
             raise RosminiError(
                 f"Laser has to be mounted planar! Z-coordinate has to be 1 or -1, but gave: {up:.5f} (the z axis of "
-                f"{frame} in {p.base_frame}): no map can be made of it"
+                f"{frame} in {p.base_frame}): it cannot be used for mapping"
             )
         self._upside_down = up < 0
         odometry = planar_transform(
-            self.buffer.lookup_transform(p.odom_frame, p.base_frame, message.header.stamp, PATIENCE)
+            self.buffer.lookup_transform(p.odom_frame, p.base_frame, message.header.stamp, TRANSFORM_TIMEOUT)
         )
         self.node.loginfo(f"Laser is mounted {'upside down' if self._upside_down else 'upwards'}.")
         self._beams = len(message.ranges)
@@ -114,7 +114,7 @@ class SlamGmapping:
             random=self.node.graph.rng(f"{self.node.name}/particles"),
         )
 
-    def _take(self, slam: GridSlam, message: Any, odometry: Pose) -> None:
+    def _process(self, slam: GridSlam, message: Any, odometry: Pose) -> None:
         ranges = np.asarray(message.ranges, dtype=np.float64)
         # A range below the laser's minimum would count as a hit; the mapper treats it as no hit.
         ranges = np.where(ranges < message.range_min, message.range_max, ranges)
@@ -124,12 +124,12 @@ class SlamGmapping:
         if self._last_stamp_ns < before:
             self.node.logwarn(
                 f"scans jump back in time, from {before * 1e-9:.3f} s to {message.header.stamp.to_sec():.3f} s: the "
-                "map goes on from where the odometry is now; restart the node for a new one"
+                "map continues from the current odometry; restart the node for a new one"
             )
         if slam.jumps_to(odometry):
             self.node.logwarn(
-                f"the odometry jumps to x {odometry[0]:.2f} m, y {odometry[1]:.2f} m, over {JUMP:.0f} m from where it "
-                "was: the map goes on from there, and is likely to be bent"
+                f"the odometry jumps by more than {MAX_STEP:.0f} m to x {odometry[0]:.2f} m, y {odometry[1]:.2f} m: "
+                "the map continues from there, and is likely to be distorted"
             )
         try:
             report = slam.process(ranges, bearings, odometry, message.header.stamp.to_sec())
@@ -164,20 +164,20 @@ class SlamGmapping:
         grid.data = cells.ravel()
         self._map = grid
         self._maps.publish(grid)
-        self._numbers.publish(info)
+        self._metadata.publish(info)
 
     def _dynamic_map(self, _: Any) -> Any:
         if self._map is None:
-            raise RosminiError("there is no map yet: no scan has been taken in")
+            raise RosminiError("there is no map yet: no scan has been processed")
         return {"map": self._map}
 
     def _broadcast(self, _: Any) -> None:
         p = self.parameters
         delay = p.transform_publish_period if p.tf_delay is None else p.tf_delay
         when = self.node.now() + Duration.from_sec(delay)
-        if when == self._sent:  # a slow /clock may not advance between two calls of the timer
+        if when == self._last_transform_stamp:  # a slow /clock may not advance between two calls of the timer
             return
-        self._sent = when
+        self._last_transform_stamp = when
         self.broadcaster.send_rigid(p.map_frame, p.odom_frame, from_yaw(*self._correction), when)
 
 
@@ -194,5 +194,5 @@ def check(message: Any, longest: float | None) -> None:
         raise RosminiError(
             f"a scan of {message.header.frame_id} has {len(message.ranges)} ranges, the angle_min {message.angle_min}, "
             f"the angle_increment {message.angle_increment} and ranges from {message.range_min} to "
-            f"{message.range_max}: no map can be made of it"
+            f"{message.range_max}: it cannot be used for mapping"
         )

@@ -23,46 +23,50 @@ class GmappingParameters(Parameters):
     base_frame: Text = parameter("base_link", "the robot's frame")
     map_frame: Text = parameter("map", "the map's frame")
     odom_frame: Text = parameter("odom", "the odometry's frame")
-    throttle_scans: int = parameter(1, "one of so many scans is looked at", minimum=1)
-    map_update_interval: float = parameter(5.0, "between two maps", unit="s")
+    throttle_scans: int = parameter(1, "use one in this many scans", minimum=1)
+    map_update_interval: float = parameter(5.0, "interval between two maps", unit="s")
     transform_publish_period: float = parameter(
-        0.05, "between two transforms from the map to the odometry's frame; 0: none", unit="s", minimum=0.0
+        0.05, "interval between two transforms from map to odom; 0: none", unit="s", minimum=0.0
     )
     tf_delay: float | None = parameter(
-        None, "by so much they are dated into the future; without it transform_publish_period", unit="s"
+        None, "how far they are dated in the future; by default transform_publish_period", unit="s"
     )
     maxRange: float | None = parameter(
-        None, "ranges from here on hit nothing; without it 1 cm less than the scan's range_max", unit="m"
+        None, "longer ranges count as no hit; by default 1 cm less than the scan's range_max", unit="m"
     )
-    maxUrange: float | None = parameter(None, "ranges are used up to here; without it maxRange", unit="m")
-    minimumScore: float = parameter(0.0, "a match that scores less is not taken")
+    maxUrange: float | None = parameter(None, "maximum range that is used; by default maxRange", unit="m")
+    minimumScore: float = parameter(0.0, "a match with a lower score is rejected")
     sigma: float = parameter(0.05, "the matcher's tolerance of ends", minimum=1e-6)
-    kernelSize: int = parameter(1, "so many cells around an end are looked at", minimum=0, maximum=10)
+    kernelSize: int = parameter(1, "number of cells to search around an end", minimum=0, maximum=10)
     lstep: float = parameter(0.05, "the matcher's first step", unit="m", minimum=0.0)
     astep: float = parameter(0.05, "the matcher's first turn", unit="rad", minimum=0.0)
-    iterations: int = parameter(5, "so often steps are halved", minimum=0, maximum=50)
+    iterations: int = parameter(5, "how often steps are halved", minimum=0, maximum=50)
     lsigma: float = parameter(0.075, "the likelihood's tolerance of ends", minimum=1e-6)
     ogain: float = parameter(3.0, "how much likelihoods are smoothed", minimum=1e-6)
-    lskip: int = parameter(0, "so many beams are left out after each")
-    srr: float = parameter(0.1, "translation's error by translation", minimum=0.0)
-    srt: float = parameter(0.2, "rotation's error by translation", minimum=0.0)
-    str: float = parameter(0.1, "translation's error by rotation", minimum=0.0)
-    stt: float = parameter(0.2, "rotation's error by rotation", minimum=0.0)
-    linearUpdate: float = parameter(1.0, "a scan is taken in after so much driving", unit="m")
-    angularUpdate: float = parameter(0.5, "or so much turning", unit="rad")
-    temporalUpdate: float = parameter(-1.0, "or after so much time; below 0: never", unit="s")
-    resampleThreshold: float = parameter(0.5, "resample when fewer than this share of the particles count")
+    lskip: int = parameter(0, "number of beams to skip after each one")
+    srr: float = parameter(0.1, "error of translation from translation", minimum=0.0)
+    srt: float = parameter(0.2, "error of rotation from translation", minimum=0.0)
+    str: float = parameter(0.1, "error of translation from rotation", minimum=0.0)
+    stt: float = parameter(0.2, "error of rotation from rotation", minimum=0.0)
+    linearUpdate: float = parameter(1.0, "a scan is processed after this much driving", unit="m")
+    angularUpdate: float = parameter(0.5, "or after this much turning", unit="rad")
+    temporalUpdate: float = parameter(-1.0, "or after this much time; negative: never", unit="s")
+    resampleThreshold: float = parameter(
+        0.5, "resample when the effective fraction of particles is below this"
+    )
     particles: int = parameter(30, "the number of paths, each with a map", minimum=1, maximum=10_000)
-    xmin: float = parameter(-100.0, "the map reaches from here", unit="m")
-    ymin: float = parameter(-100.0, "the map reaches from here", unit="m")
-    xmax: float = parameter(100.0, "to here at first", unit="m")
-    ymax: float = parameter(100.0, "to here at first", unit="m")
+    xmin: float = parameter(-100.0, "lower bound of the initial map", unit="m")
+    ymin: float = parameter(-100.0, "lower bound of the initial map", unit="m")
+    xmax: float = parameter(100.0, "upper bound of the initial map", unit="m")
+    ymax: float = parameter(100.0, "upper bound of the initial map", unit="m")
     delta: float = parameter(0.05, "the side of a cell", unit="m", minimum=1e-3)
-    llsamplerange: float = parameter(0.01, "as in the original it is read, and changes nothing", unit="m")
-    llsamplestep: float = parameter(0.01, "as in the original it is read, and changes nothing", unit="m")
-    lasamplerange: float = parameter(0.005, "as in the original it is read, and changes nothing", unit="rad")
-    lasamplestep: float = parameter(0.005, "as in the original it is read, and changes nothing", unit="rad")
-    occ_thresh: float = parameter(0.25, "a cell is occupied if more than this share of its visits were ends")
+    llsamplerange: float = parameter(0.01, "has no effect, as in ROS", unit="m")
+    llsamplestep: float = parameter(0.01, "has no effect, as in ROS", unit="m")
+    lasamplerange: float = parameter(0.005, "has no effect, as in ROS", unit="rad")
+    lasamplestep: float = parameter(0.005, "has no effect, as in ROS", unit="rad")
+    occ_thresh: float = parameter(
+        0.25, "a cell is occupied if more than this fraction of its visits were ends"
+    )
 
     def settings(self, range_max: float) -> Settings:
         """Return the filter's settings for a laser with this maximum range [m]."""

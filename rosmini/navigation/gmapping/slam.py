@@ -23,12 +23,12 @@ from .matching import Matcher
 
 Floats = NDArray[np.float64]
 
-GRAIN = 1 << 48
+WEIGHT_UNITS = 1 << 48
 """Weights are rounded to multiples of 1 / GRAIN, so that last-bit differences have no effect."""
-DIGITS = 6
+LIKELIHOOD_DECIMALS = 6
 """Number of decimals of log-likelihoods, for the same reason."""
 
-JUMP = 20.0
+MAX_STEP = 20.0
 """As in the original, a change of the odometry by more than this distance [m] is a jump."""
 
 
@@ -97,7 +97,7 @@ class GridSlam:
     ) -> None:
         if settings.particles < 1 or not settings.delta > 0:
             raise RosminiError(
-                f"a map by {settings.particles} particles with cells of {settings.delta} m: both have to be above 0"
+                f"particles ({settings.particles}) and delta ({settings.delta} m) must be greater than 0"
             )
         self.settings, self.laser, self.random = settings, laser, random
         self.maps = SharedMaps(settings.particles, settings.delta)
@@ -109,7 +109,7 @@ class GridSlam:
         self.paths: list[Node | None] = [None] * settings.particles
         self.processed = 0
         self._odometry: Pose | None = None
-        self._gone = self._turned = 0.0
+        self._driven = self._turned = 0.0
         self._last_time = -math.inf
 
     # -- motion --------------------------------------------------------------------------------------------------
@@ -121,7 +121,7 @@ class GridSlam:
             return
         x, y, turn = compose(inverse(before), odometry)
         turn = normalize_angle(turn)
-        self._gone += math.hypot(x, y)
+        self._driven += math.hypot(x, y)
         self._turned += abs(turn)
         s = self.settings
         across = 0.3 * s.srr
@@ -139,14 +139,14 @@ class GridSlam:
     def jumps_to(self, odometry: Pose) -> bool:
         """True if the odometry is too far from the last one for a robot to have driven there."""
         before = self._odometry
-        return before is not None and math.dist(before[:2], odometry[:2]) > JUMP
+        return before is not None and math.dist(before[:2], odometry[:2]) > MAX_STEP
 
-    def wants(self, time: float) -> bool:
+    def is_due(self, time: float) -> bool:
         """True if the robot has moved far enough, or enough time has passed, to process the next scan."""
         s = self.settings
         return (
             self.processed == 0
-            or self._gone >= s.linear_update
+            or self._driven >= s.linear_update
             or self._turned >= s.angular_update
             or (s.temporal_update >= 0 and not 0 <= time - self._last_time <= s.temporal_update)
         )
@@ -156,7 +156,7 @@ class GridSlam:
     def process(self, ranges: Floats, bearings: Floats, odometry: Pose, time: float) -> Report | None:
         """Process a scan (b,) [m, rad] at an odometry pose and a time [s]; None if the robot has hardly moved."""
         self.move(odometry)
-        if not self.wants(time):
+        if not self.is_due(time):
             return None
         s = self.settings
         usable = min(s.max_urange, s.max_range)
@@ -175,7 +175,7 @@ class GridSlam:
             lasers, np.ascontiguousarray(clean[seen]), np.ascontiguousarray(bearings[seen]), usable
         )
         self.processed += 1
-        self._gone = self._turned = 0.0
+        self._driven = self._turned = 0.0
         self._last_time = time
         return Report(effective, resampled, scores, unmatched)
 
@@ -186,7 +186,7 @@ class GridSlam:
         back = inverse(self.laser)
         self.poses = np.where(good[:, None], compose(found.poses, back), self.poses)
         self.poses[:, 2] = normalize_angle(self.poses[:, 2])
-        likelihoods = np.round(found.log_likelihoods, DIGITS)
+        likelihoods = np.round(found.log_likelihoods, LIKELIHOOD_DECIMALS)
         self.log_weights += likelihoods
         self.sums += likelihoods
         return found.scores, int((~good).sum())
@@ -206,7 +206,7 @@ class GridSlam:
         count = len(weights)
         if effective >= self.settings.resample_threshold * count:
             return effective, False
-        ends = np.cumsum(np.rint(weights * GRAIN).astype(np.int64))
+        ends = np.cumsum(np.rint(weights * WEIGHT_UNITS).astype(np.int64))
         step = int(ends[-1]) // count
         marks = int(self.random.integers(step)) + step * np.arange(count)
         chosen = np.searchsorted(ends, marks, side="right")
@@ -254,7 +254,7 @@ class GridSlam:
                 lines.append(np.array(line[::-1]))
         return tuple(lines)
 
-    def forefathers(self) -> NDArray[np.int64]:
+    def surviving_counts(self) -> NDArray[np.int64]:
         """Return for each scan (scans,) the number of its particles that still have descendants."""
         layer, counts = list(self.paths), []
         while layer and layer[0] is not None:

@@ -23,10 +23,10 @@ class AttitudeParameters(Parameters):
     """The private parameters."""
 
     base_stabilized_frame: str = parameter("base_stabilized_frame", "the frame that stays level")
-    base_frame: str = parameter("base_frame", "the robot's frame, which leans")
+    base_frame: str = parameter("base_frame", "the robot's frame, which tilts")
 
 
-def leaning(x: float, y: float, z: float, w: float) -> Rigid:
+def tilt_of(x: float, y: float, z: float, w: float) -> Rigid:
     """Return an orientation's transform without yaw. Raises `InvalidArgumentException` for an invalid quaternion."""
     roll, pitch, _ = rpy(rigid((0.0, 0.0, 0.0), (x, y, z, w)))
     return from_rpy((0.0, 0.0, 0.0), roll, pitch, 0.0)
@@ -39,13 +39,13 @@ class ImuAttitudeToTf:
         self.node = node
         self.parameters = AttitudeParameters.read(node)
         self.broadcaster = TransformBroadcaster(node)
-        node.subscriber("imu_topic", message_class("sensor_msgs/Imu"), self._hear, queue_size=10)
+        node.subscriber("imu_topic", message_class("sensor_msgs/Imu"), self._on_imu, queue_size=10)
 
-    def _hear(self, message: Any) -> None:
+    def _on_imu(self, message: Any) -> None:
         p, q = self.parameters, message.orientation
         try:
-            found = leaning(q.x, q.y, q.z, q.w)
+            found = tilt_of(q.x, q.y, q.z, q.w)
         except TransformException as error:
-            self.node.logwarn(f"an attitude of {message.header.frame_id} is left out: {error}", throttle=5.0)
+            self.node.logwarn(f"an attitude of {message.header.frame_id} is ignored: {error}", throttle=5.0)
             return
         self.broadcaster.send_rigid(p.base_stabilized_frame, p.base_frame, found, message.header.stamp)

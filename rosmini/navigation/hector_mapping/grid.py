@@ -14,14 +14,14 @@ Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Integers = NDArray[np.int64]
 
-MOST = 50.0
+MAX_LOG_ODDS = 50.0
 """Log-odds of this value or more are not raised, as in the original; there is no lower bound."""
 
 
 def log_odds(probability: float) -> float:
     """Return the logarithm of the odds. Raises `RosminiError` unless the probability is between 0 and 1."""
     if not 0 < probability < 1:
-        raise RosminiError(f"the update factor {probability} has to be a probability between 0 and 1")
+        raise RosminiError(f"the update factor {probability} must be a probability between 0 and 1")
     return math.log(probability / (1 - probability))
 
 
@@ -80,7 +80,7 @@ class OccupancyGrid:
         kinds[last[:, 1] - low, last[:, 0] - left] = 2
         odds = self.odds[low:high, left:right]
         odds[kinds == 1] += self._free
-        odds[(kinds == 2) & (odds < MOST)] += self._occupied
+        odds[(kinds == 2) & (odds < MAX_LOG_ODDS)] += self._occupied
         changed = kinds > 0
         # The bounds avoid overflow: the lower one here does not change the probability, and MOST is the upper one.
         some = np.exp(np.maximum(odds[changed].astype(np.float64), -80.0))

@@ -23,9 +23,9 @@ from .grid import OccupancyGrid
 
 Floats = NDArray[np.float64]
 
-LARGEST_TURN = 0.2
+MAX_TURN = 0.2
 """Maximum rotation of a step [rad]."""
-NOTHING_KNOWN = 1e6
+UNKNOWN_VARIANCE = 1e6
 """Variance of a quantity that a match does not determine [m2, rad2]."""
 
 
@@ -46,7 +46,7 @@ class Matched(NamedTuple):
         The original publishes the Hessian itself, in cells.
         """
         known = self.hessian / max(self.spread, 1e-6)
-        return inverse_matrix(known + np.eye(3) / NOTHING_KNOWN)
+        return inverse_matrix(known + np.eye(3) / UNKNOWN_VARIANCE)
 
 
 def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> Matched:
@@ -87,30 +87,30 @@ def surface(probabilities: Any, x: float, y: float) -> tuple[float, float, float
     return bottom + (top - bottom) * fy, (b - a) * (1.0 - fy) + (d - c) * fy, top - bottom
 
 
-def climb(probabilities: Any, ends: Any, pose: Any, most: int, result: Any) -> None:
-    """Make up to `most` steps of Gauss-Newton.
+def climb(probabilities: Any, ends: Any, pose: Any, max_steps: int, result: Any) -> None:
+    """Make up to `max_steps` steps of Gauss-Newton.
 
     Args:
         probabilities: the map (h, w).
         ends: the beam ends (n, 2), in the robot's frame [cells].
         pose: x, y [cells] and heading [rad]; modified in place.
-        most: maximum number of steps.
+        max_steps: maximum number of steps.
         result: (8), modified in place: the Hessian's xx, xy, xt, yy, yt, tt at the last step [cells, rad], the mean
             square of the residuals there, and the number of steps.
 
     """
     height, width = probabilities.shape
-    for _ in range(most):
+    for _ in range(max_steps):
         cos, sin = math.cos(pose[2]), math.sin(pose[2])
         xx = xy = xt = yy = yt = tt = bx = by = bt = spread = 0.0
         for n in range(ends.shape[0]):
             u, v = cos * ends[n, 0] - sin * ends[n, 1], sin * ends[n, 0] + cos * ends[n, 1]
             value, gx, gy = surface(probabilities, pose[0] + u, pose[1] + v)
-            gt, lacking = u * gy - v * gx, 1.0 - value
+            gt, residual = u * gy - v * gx, 1.0 - value
             xx, xy, xt = xx + gx * gx, xy + gx * gy, xt + gx * gt
             yy, yt, tt = yy + gy * gy, yt + gy * gt, tt + gt * gt
-            bx, by, bt = bx + gx * lacking, by + gy * lacking, bt + gt * lacking
-            spread += lacking * lacking
+            bx, by, bt = bx + gx * residual, by + gy * residual, bt + gt * residual
+            spread += residual * residual
         result[0], result[1], result[2], result[3], result[4], result[5] = xx, xy, xt, yy, yt, tt
         result[6] = spread / max(1, ends.shape[0])
         # Solve with cofactors: the Hessian is symmetric.
@@ -126,7 +126,7 @@ def climb(probabilities: Any, ends: Any, pose: Any, most: int, result: Any) -> N
         if not (0.0 <= x < width and 0.0 <= y < height and abs(turn) < math.inf):
             return
         pose[0], pose[1] = x, y
-        pose[2] += max(-LARGEST_TURN, min(LARGEST_TURN, turn))
+        pose[2] += max(-MAX_TURN, min(MAX_TURN, turn))
         result[7] += 1.0
 
 

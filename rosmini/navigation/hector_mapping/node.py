@@ -24,19 +24,19 @@ from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.nav_core.poses import planar_pose, pose_stamped
 
-from .matching import NOTHING_KNOWN
+from .matching import UNKNOWN_VARIANCE
 from .parameters import HectorMappingParameters
-from .scans import plain_ends, scan_ends
+from .scans import ends_in_laser_frame, scan_ends
 from .slam import HectorSlam
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
-PATIENCE = 0.5
+TRANSFORM_TIMEOUT = 0.5
 """Maximum time that a scan waits for a transform [s]."""
-BACK_NS = 1_000_000_000
+MAX_DISORDER_NS = 1_000_000_000
 """A scan that is older than its predecessor by more than this is from another run: a bag in a loop, a clock reset."""
-PLACES = (0, 1, 5)
+COVARIANCE_INDICES = (0, 1, 5)
 """Indices of x, y and heading in a six by six covariance."""
 
 
@@ -59,7 +59,7 @@ class HectorMapping:
         """The pose of the odometry frame in the map."""
         self._last_stamp_ns = 0
         self._map: Any = None
-        self._mapped: int | None = None
+        self._mapped_updates: int | None = None
         """The number of map updates when the message was created."""
         self.buffer = Buffer(node)
         self.listener = TransformListener(node, self.buffer)
@@ -82,7 +82,7 @@ class HectorMapping:
         grid, numbers = message_class("nav_msgs/OccupancyGrid"), message_class("nav_msgs/MapMetaData")
         posed = message_class("geometry_msgs/PoseWithCovarianceStamped")
         self._maps = node.publisher("map", grid, queue_size=1, latch=True)
-        self._numbers = node.publisher("map_metadata", numbers, queue_size=1, latch=True)
+        self._metadata = node.publisher("map_metadata", numbers, queue_size=1, latch=True)
         self._pose_update = node.publisher(p.pose_update_topic, posed, queue_size=1)
         self._pose = node.publisher("slam_out_pose", message_class("geometry_msgs/PoseStamped"), queue_size=1)
         self._cloud = node.publisher("slam_cloud", message_class("sensor_msgs/PointCloud"), queue_size=1)
@@ -107,11 +107,11 @@ class HectorMapping:
         if self.paused:
             return
         began = time.perf_counter()
-        self._notice_jump(message.header.stamp)
+        self._reset_after_time_jump(message.header.stamp)
         try:
             ends, laser = self._ends(message)
         except TransformException as error:
-            self.node.logwarn(f"a scan of {message.header.frame_id} is left out: {error}", throttle=5.0)
+            self.node.logwarn(f"a scan of {message.header.frame_id} is ignored: {error}", throttle=5.0)
             return
         except RosminiError as error:
             self.node.logerr(error, throttle=5.0)
@@ -126,12 +126,12 @@ class HectorMapping:
         if not known:
             self._publish_pose(message.header.stamp)
 
-    def _notice_jump(self, stamp: Time) -> None:
+    def _reset_after_time_jump(self, stamp: Time) -> None:
         before, self._last_stamp_ns = self._last_stamp_ns, stamp.to_nsec()
-        if self._last_stamp_ns < before - BACK_NS:
+        if self._last_stamp_ns < before - MAX_DISORDER_NS:
             self.node.logwarn(
-                f"scans jump back in time, from {before * 1e-9:.3f} s to {stamp.to_sec():.3f} s: the robot may be "
-                "anywhere on this map, so that it is forgotten, and a new one begun"
+                f"scans jump back in time, from {before * 1e-9:.3f} s to {stamp.to_sec():.3f} s: the robot may "
+                "be anywhere on this map, so mapping restarts with an empty one"
             )
             self._reset()
 
@@ -147,7 +147,7 @@ class HectorMapping:
         ):
             raise RosminiError(
                 f"a scan of {frame} has {len(ranges)} ranges, the angle_increment {message.angle_increment} and "
-                f"ranges from {message.range_min} to {message.range_max}: no map can be made of it"
+                f"ranges from {message.range_min} to {message.range_max}: it cannot be used for mapping"
             )
         bearings = message.angle_min + message.angle_increment * np.arange(len(ranges))
         span = float(message.range_min), float(message.range_max)
@@ -156,19 +156,19 @@ class HectorMapping:
             mount = self._lookup(p.base_frame, frame, message.header.stamp)
             ends = scan_ends(ranges, bearings, span, mount, p.limits())
             if self._cloud.num_connections():
-                self._publish_cloud(message.header, plain_ends(ranges, bearings, span))
+                self._publish_cloud(message.header, ends_in_laser_frame(ranges, bearings, span))
         else:
-            ends = plain_ends(ranges, bearings, span)
+            ends = ends_in_laser_frame(ranges, bearings, span)
         if not len(ends):
             self.node.logwarn(
-                f"no beam of {frame} ended where it is looked at (from {max(span[0], p.laser_min_dist):.2f} to "
-                f"{min(span[1], p.laser_max_dist):.2f} m): the robot's pose stays as it was",
+                f"no beam of {frame} ended within the limits (from {max(span[0], p.laser_min_dist):.2f} to "
+                f"{min(span[1], p.laser_max_dist):.2f} m): the robot's pose is unchanged",
                 throttle=5.0,
             )
         return ends, mount[:2]
 
     def _lookup(self, target: str, source: str, stamp: Time) -> Rigid:
-        return transform_of(self.buffer.lookup_transform(target, source, stamp, PATIENCE))
+        return transform_of(self.buffer.lookup_transform(target, source, stamp, TRANSFORM_TIMEOUT))
 
     def _guess(self, stamp: Time) -> Pose | None:
         """Return the start of the search, or None to start at the last pose.
@@ -199,12 +199,12 @@ class HectorMapping:
         x, y, _ = self.slam.pose
         if (x, y) not in self.slam.maps[0]:
             self.node.logwarn(
-                f"the robot is at ({x:.1f}, {y:.1f}), outside the map, {self._reach()}: nothing is mapped there; raise "
-                "~map_size, or move ~map_start_x and ~map_start_y",
+                f"the robot is at ({x:.1f}, {y:.1f}), outside the map, {self._map_bounds_text()}: "
+                "nothing is mapped there; increase ~map_size, or move ~map_start_x and ~map_start_y",
                 throttle=5.0,
             )
 
-    def _reach(self) -> str:
+    def _map_bounds_text(self) -> str:
         grid = self.slam.maps[0]
         (left, low), side = grid.origin, grid.resolution * grid.odds.shape[0]
         return f"which reaches from ({left:.1f}, {low:.1f}) to ({left + side:.1f}, {low + side:.1f})"
@@ -247,17 +247,17 @@ class HectorMapping:
         """Return the covariance (6, 6); zeros before the first match, and if a user gave the pose."""
         found = np.zeros((6, 6))
         if self.slam.matched is not None:
-            found[np.ix_(PLACES, PLACES)] = np.clip(
-                self.slam.matched.covariance, -NOTHING_KNOWN, NOTHING_KNOWN
+            found[np.ix_(COVARIANCE_INDICES, COVARIANCE_INDICES)] = np.clip(
+                self.slam.matched.covariance, -UNKNOWN_VARIANCE, UNKNOWN_VARIANCE
             )
         return found
 
     def _publish_map(self) -> None:
-        if self._mapped != self.slam.updates:
-            self._mapped = self.slam.updates
+        if self._mapped_updates != self.slam.updates:
+            self._mapped_updates = self.slam.updates
             self._map = self.slam.maps[0].as_map().to_message(self.parameters.map_frame)
             self._map.info.map_load_time = self.node.now()
-            self._numbers.publish(self._map.info)
+            self._metadata.publish(self._map.info)
         self._map.header.stamp = self.node.now()
         self._maps.publish(self._map)
 
@@ -287,7 +287,7 @@ class HectorMapping:
 
     def _reset(self) -> None:
         self.slam.reset()
-        self._mapped, self._start, self._correction = None, None, None
+        self._mapped_updates, self._start, self._correction = None, None, None
 
     def _pause(self, request: Any) -> Any:
         self._set_paused(request.data)
@@ -302,7 +302,7 @@ class HectorMapping:
         pose = self._checked(request.initial_pose)
         self.node.loginfo("HectorSM Reset map")
         self._reset()
-        self._begin(pose)
+        self._set_start(pose)
         self._set_paused(False)
         return {}
 
@@ -310,20 +310,22 @@ class HectorMapping:
         frame, own = message.header.frame_id.lstrip("/"), self.parameters.map_frame.lstrip("/")
         try:
             if frame and frame != own:
-                raise RosminiError(f'it is in the frame "{frame}", and has to be in "{own}"')
-            self._begin(self._checked(message.pose.pose))
+                raise RosminiError(f'its frame is "{frame}", but must be "{own}"')
+            self._set_start(self._checked(message.pose.pose))
         except RosminiError as error:
-            self.node.logwarn(f"an initial pose is left out: {error}")
+            self.node.logwarn(f"an initial pose is ignored: {error}")
 
     def _checked(self, message: Any) -> Pose:
         pose = planar_pose(message)
         if not all(map(math.isfinite, pose)):
             raise RosminiError(f"the pose {pose} has numbers that are not finite")
         if pose[:2] not in self.slam.maps[0]:
-            raise RosminiError(f"({pose[0]:.2f}, {pose[1]:.2f}) is outside the map, {self._reach()}")
+            raise RosminiError(
+                f"({pose[0]:.2f}, {pose[1]:.2f}) is outside the map, {self._map_bounds_text()}"
+            )
         return pose
 
-    def _begin(self, pose: Pose) -> None:
+    def _set_start(self, pose: Pose) -> None:
         self._start = pose
         self.node.loginfo(
             f"[HectorSM]: Setting initial pose with world coords x: {pose[0]:f} y: {pose[1]:f} yaw: {pose[2]:f}"

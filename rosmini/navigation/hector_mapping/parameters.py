@@ -21,42 +21,52 @@ class HectorMappingParameters(Parameters):
     map_frame: str = parameter("map", "the map's frame")
     odom_frame: str = parameter("odom", "the odometry's frame; without odometry, the same as base_frame")
     map_resolution: float = parameter(0.025, "the side of a cell of the finest map", unit="m", minimum=1e-3)
-    map_size: int = parameter(1024, "cells along a side of it", minimum=2, maximum=16384)
-    map_start_x: float = parameter(0.5, "where the robot begins: 0 left, 1 right", minimum=0.0, maximum=1.0)
-    map_start_y: float = parameter(0.5, "where the robot begins: 0 bottom, 1 top", minimum=0.0, maximum=1.0)
+    map_size: int = parameter(1024, "number of cells along each side of that map", minimum=2, maximum=16384)
+    map_start_x: float = parameter(0.5, "the start in the map: 0 left, 1 right", minimum=0.0, maximum=1.0)
+    map_start_y: float = parameter(0.5, "the start in the map: 0 bottom, 1 top", minimum=0.0, maximum=1.0)
     map_multi_res_levels: int = parameter(
-        3, "maps, each half as fine as the one before", minimum=1, maximum=12
+        3, "number of maps, each half as fine as the previous one", minimum=1, maximum=12
     )
-    map_update_distance_thresh: float = parameter(0.4, "the maps change after so much driving", unit="m")
-    map_update_angle_thresh: float = parameter(0.9, "or so much turning", unit="rad")
-    map_pub_period: float = parameter(2.0, "between two maps", unit="s", minimum=1e-3)
+    map_update_distance_thresh: float = parameter(
+        0.4, "the maps are updated after this much driving", unit="m"
+    )
+    map_update_angle_thresh: float = parameter(0.9, "or after this much turning", unit="rad")
+    map_pub_period: float = parameter(2.0, "interval between two maps", unit="s", minimum=1e-3)
     update_factor_free: float = parameter(
-        0.4, "how likely a cell is occupied that a beam passes; less than 0.5", minimum=1e-6, maximum=0.999999
+        0.4,
+        "occupancy probability of a cell that a beam passes; less than 0.5",
+        minimum=1e-6,
+        maximum=0.999999,
     )
     update_factor_occupied: float = parameter(
-        0.9, "and one in which a beam ends; more than 0.5", minimum=1e-6, maximum=0.999999
+        0.9,
+        "occupancy probability of a cell where a beam ends; more than 0.5",
+        minimum=1e-6,
+        maximum=0.999999,
     )
-    laser_min_dist: float = parameter(0.4, "nearer ends are left out", unit="m")
-    laser_max_dist: float = parameter(30.0, "and farther ones", unit="m")
-    laser_z_min_value: float = parameter(-1.0, "and lower ones, above the laser", unit="m")
-    laser_z_max_value: float = parameter(1.0, "and higher ones", unit="m")
-    pub_map_odom_transform: bool = parameter(True, "say on tf where odom_frame is in map_frame")
-    pub_map_scanmatch_transform: bool = parameter(True, "say on tf where the robot is in map_frame")
-    tf_map_scanmatch_transform_frame_name: str = parameter("scanmatcher_frame", "the robot's name in that")
-    pub_odometry: bool = parameter(False, "the pose on scanmatch_odom, too")
+    laser_min_dist: float = parameter(0.4, "nearer beam ends are ignored", unit="m")
+    laser_max_dist: float = parameter(30.0, "farther beam ends are ignored", unit="m")
+    laser_z_min_value: float = parameter(-1.0, "lower beam ends are ignored; relative to the laser", unit="m")
+    laser_z_max_value: float = parameter(1.0, "higher beam ends are ignored; relative to the laser", unit="m")
+    pub_map_odom_transform: bool = parameter(True, "publish the transform from map_frame to odom_frame")
+    pub_map_scanmatch_transform: bool = parameter(True, "publish the transform from map_frame to the robot")
+    tf_map_scanmatch_transform_frame_name: str = parameter(
+        "scanmatcher_frame", "the robot's frame in that transform"
+    )
+    pub_odometry: bool = parameter(False, "also publish the pose on scanmatch_odom")
     advertise_map_service: bool = parameter(True, "offer dynamic_map")
     use_tf_scan_transformation: bool = parameter(
-        True, "ask tf where the laser is; otherwise the robot is its laser"
+        True, "look up the laser's pose on tf; otherwise the robot's frame is the laser's"
     )
     use_tf_pose_start_estimate: bool = parameter(
-        False, "begin the search where tf has the robot, not where it was"
+        False, "start the search at the pose from tf, not at the last one"
     )
-    map_with_known_poses: bool = parameter(False, "take that pose as it is, and only make a map")
-    output_timing: bool = parameter(False, "log the time that a scan takes")
-    scan_subscriber_queue_size: int = parameter(5, "scans that wait", minimum=0)
-    scan_topic: str = parameter("scan", "where scans are heard")
-    sys_msg_topic: str = parameter("syscommand", "where `reset` is heard")
-    pose_update_topic: str = parameter("poseupdate", "where the pose goes, with its covariance")
+    map_with_known_poses: bool = parameter(False, "use that pose without matching, and only map")
+    output_timing: bool = parameter(False, "log the processing time of each scan")
+    scan_subscriber_queue_size: int = parameter(5, "queue size for scans", minimum=0)
+    scan_topic: str = parameter("scan", "the topic of scans")
+    sys_msg_topic: str = parameter("syscommand", "the topic for the command `reset`")
+    pose_update_topic: str = parameter("poseupdate", "the topic of the pose with covariance")
 
     def settings(self) -> Settings:
         """Return the mapper's settings."""

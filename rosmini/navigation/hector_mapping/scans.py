@@ -11,11 +11,11 @@ from rosmini.core.tf.rigid import Rigid, transform_points
 
 Floats = NDArray[np.float64]
 
-FARTHEST = 30.0
+MAX_RANGE = 30.0
 """Ranges of at least this length are ignored [m]."""
-BEHIND2 = 0.5
+SELF_DISTANCE2 = 0.5
 """Squared distance [m2] below which beam ends behind the laser are taken for the robot itself."""
-MARGIN = 0.1
+MAX_RANGE_MARGIN = 0.1
 """Without tf, ranges within this distance of the laser's maximum are ignored [m]."""
 
 
@@ -41,10 +41,10 @@ def scan_ends(
         limits: distances and heights of the ends that are used.
 
     """
-    kept = (ranges >= measurable[0]) & (ranges < min(measurable[1], FARTHEST))
+    kept = (ranges >= measurable[0]) & (ranges < min(measurable[1], MAX_RANGE))
     kept &= (ranges > limits.nearest) & (ranges < limits.farthest)
     ahead = np.cos(bearings)
-    kept &= (ahead >= 0) | (ranges * ranges >= BEHIND2)
+    kept &= (ahead >= 0) | (ranges * ranges >= SELF_DISTANCE2)
     lengths, turned = ranges[kept], bearings[kept]
     flat = np.column_stack([lengths * ahead[kept], lengths * np.sin(turned), np.zeros(len(lengths))])
     found = transform_points(mount, flat)
@@ -52,8 +52,8 @@ def scan_ends(
     return found[(heights > limits.lowest) & (heights < limits.highest), :2]
 
 
-def plain_ends(ranges: Floats, bearings: Floats, measurable: tuple[float, float]) -> Floats:
+def ends_in_laser_frame(ranges: Floats, bearings: Floats, measurable: tuple[float, float]) -> Floats:
     """Return the beam ends (n, 2) [m] in the laser's frame, for a robot whose frame is that of the laser."""
-    kept = (ranges > measurable[0]) & (ranges < measurable[1] - MARGIN)
+    kept = (ranges > measurable[0]) & (ranges < measurable[1] - MAX_RANGE_MARGIN)
     lengths, turned = ranges[kept], bearings[kept]
     return np.column_stack([lengths * np.cos(turned), lengths * np.sin(turned)])

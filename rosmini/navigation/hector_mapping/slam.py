@@ -46,8 +46,8 @@ class HectorSlam:
         s = self.settings = settings
         if not (s.map_resolution > 0 and s.map_size > 1 and s.map_multi_res_levels > 0):
             raise RosminiError(
-                f"a map of {s.map_size} cells of {s.map_resolution} m on {s.map_multi_res_levels} levels: all have to "
-                "be above 0"
+                f"a map of {s.map_size} cells of {s.map_resolution} m on {s.map_multi_res_levels} levels: all must "
+                "be greater than 0"
             )
         if s.map_size >> (s.map_multi_res_levels - 1) < 2:
             raise RosminiError(

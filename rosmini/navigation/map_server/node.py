@@ -68,10 +68,10 @@ class MapServer:
         self._map = node.publisher("map", message_class("nav_msgs/OccupancyGrid"), queue_size=1, latch=True)
         try:
             self.grid = self._load(
-                self._deprecated(*arguments) if len(arguments) == 2 else map_file(_path_of(arguments[0]))
+                self._image_file(*arguments) if len(arguments) == 2 else map_file(_path_of(arguments[0]))
             )
         except MapError as error:
-            node.logerr(_words_of(error, arguments[0]))
+            node.logerr(_error_text(error, arguments[0]))
             raise
         self._start()
 
@@ -82,13 +82,13 @@ class MapServer:
         self.node.loginfo(f'Loading map from image "{address_of(file.image)}"')
         return file.load(self.node.logwarn)
 
-    def _deprecated(self, image: str, resolution: str) -> MapFile:
+    def _image_file(self, image: str, resolution: str) -> MapFile:
         self.node.logwarn("Using deprecated map server interface. Please switch to new interface.")
         try:
             side = float(resolution)
         except ValueError as error:
             raise UsageError(
-                f"map_server: the resolution is {resolution!r}, which is no number.\n{USAGE}"
+                f"map_server: the resolution is {resolution!r}, which is not a number.\n{USAGE}"
             ) from error
         own = self.parameters
         thresholds = {"occupied_thresh": own.occupied_thresh, "free_thresh": own.free_thresh}
@@ -119,7 +119,7 @@ class MapServer:
         try:
             self.grid = self._load(map_file(_path_of(request.map_url)))
         except MapError as error:
-            self.node.logerr(_words_of(error, request.map_url))
+            self.node.logerr(_error_text(error, request.map_url))
             return {"result": error.result}
         self._publish()
         self.node.loginfo(f"Changed map to {request.map_url}")
@@ -138,7 +138,7 @@ def _path_of(address: str) -> str:
         raise MapMissing(str(error)) from error
 
 
-def _words_of(error: MapError, path: str) -> str:
+def _error_text(error: MapError, path: str) -> str:
     """Return map_server's message, so that a search for it succeeds, followed by our explanation."""
     said = str(error)
     if isinstance(error, MapMissing):

@@ -61,7 +61,7 @@ def _percent(name: str, value: str) -> int:
     try:
         return int(value)
     except ValueError as error:
-        raise UsageError(f"{name} is {value!r}, which is no whole number.\n{USAGE}") from error
+        raise UsageError(f"{name} is {value!r}, which is not an integer.\n{USAGE}") from error
 
 
 class MapSaver:
@@ -88,25 +88,25 @@ class MapSaver:
             return
         self.options = SaverOptions.of(arguments)
         node.loginfo("Waiting for the map")
-        node.subscriber("map", message_class("nav_msgs/OccupancyGrid"), self._take, queue_size=1)
+        node.subscriber("map", message_class("nav_msgs/OccupancyGrid"), self._on_map, queue_size=1)
 
-    def _take(self, message: Any) -> None:
+    def _on_map(self, message: Any) -> None:
         if self._ended:
             return
-        say, info, name = self.node.loginfo, message.info, self.options.name
-        say(f"Received a {info.width} X {info.height} map @ {info.resolution:.3f} m/pix")
+        log, info, name = self.node.loginfo, message.info, self.options.name
+        log(f"Received a {info.width} X {info.height} map @ {info.resolution:.3f} m/pix")
         try:
             grid = GridMap.from_message(message)
-            say(f"Writing map occupancy data to {name}.pgm")
+            log(f"Writing map occupancy data to {name}.pgm")
             self.paths = save_map(grid, name, occupied=self.options.occupied, free=self.options.free)
         except MapError as error:
             self.node.logerr(error)
             self.exit_status = 1
         else:
-            say(f"Writing map occupancy data to {name}.yaml")
-            say("Done\n")
+            log(f"Writing map occupancy data to {name}.yaml")
+            log("Done\n")
         self._end()
 
     def _end(self) -> None:
         self._ended = True
-        self.node.scheduler.call_soon(lambda: self.node.shutdown("it is done"))
+        self.node.scheduler.call_soon(lambda: self.node.shutdown("the map has been saved"))

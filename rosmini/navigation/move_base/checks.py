@@ -13,7 +13,7 @@ from rosmini.navigation.nav_core.plugin_files import short_name
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
-SLACK = 0.01
+ROUND_TOLERANCE = 0.01
 """A footprint counts as round if its two radii differ by at most this length [m]."""
 
 
@@ -35,7 +35,7 @@ def inflation_warnings(costmap: Any) -> list[str]:
     inscribed, circumscribed = costmap.inscribed_radius, costmap.circumscribed_radius
     if not layers:
         text = (
-            f"{costmap.name} has no inflation layer: plans lead along walls as if the robot were a point. Add "
+            f"{costmap.name} has no inflation layer: plans may touch walls as if the robot were a point. Add "
             '{name: inflation_layer, type: "costmap_2d::InflationLayer"} to its plugins'
         )
         return [text]
@@ -44,10 +44,10 @@ def inflation_warnings(costmap: Any) -> list[str]:
     if radius < inscribed:
         found.append(
             f"{costmap.name}: inflation_radius is {radius:g} m, and the inscribed radius of the footprint "
-            f"{inscribed:.3f} m: cells in which the robot certainly collides look free. Set it to more than "
+            f"{inscribed:.3f} m: cells in which the robot would certainly collide appear free. Set it to more than "
             f"{circumscribed:.2f} m"
         )
-    if costmap.name == "global_costmap" and circumscribed - inscribed > SLACK:
+    if costmap.name == "global_costmap" and circumscribed - inscribed > ROUND_TOLERANCE:
         found.append(
             f"the footprint's inscribed radius is {inscribed * 100:.1f} cm, its circumscribed radius "
             f"{circumscribed * 100:.1f} cm: the global planner may lead through gaps of {2 * inscribed * 100:.0f} cm, "
@@ -67,7 +67,7 @@ def unread_namespaces(node: Node, known: list[str]) -> list[str]:
         name for name, value in tree.items() if isinstance(value, dict) and name not in {*known, *plugins}
     ]
     return [
-        f"nobody reads the parameters in {node.name}/{name}; {hint}"
+        f"nothing reads the parameters in {node.name}/{name}; {hint}"
         for name in unread
         if (hint := nearest(name, known))
     ]

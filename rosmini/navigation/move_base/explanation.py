@@ -37,85 +37,89 @@ class Explanation:
 def explain(move_base: MoveBase) -> Explanation:
     """Report the robot's state, its last problem, and its distances to obstacles."""
     costmap = move_base.global_costmap
-    found = Explanation(grid=costmap.grid, options={"footprint": costmap.footprint, "name": "global_costmap"})
-    found.numbers["state"] = move_base.state.value
-    found.lines.append(f"move_base is {move_base.state.value}, {_about(move_base)}")
-    if move_base.why:
-        found.lines.append(f"the last trouble: {move_base.why}")
-    _critics(move_base.failure, found)
-    _room(move_base, found)
-    _goal(move_base, found)
-    _way(move_base, found)
-    for text in move_base.recovered:
-        found.lines.append(text)
-    return found
+    result = Explanation(
+        grid=costmap.grid, options={"footprint": costmap.footprint, "name": "global_costmap"}
+    )
+    result.numbers["state"] = move_base.state.value
+    result.lines.append(f"move_base is {move_base.state.value}, {_activity(move_base)}")
+    if move_base.problem:
+        result.lines.append(f"the last trouble: {move_base.problem}")
+    _add_critics(move_base.failure, result)
+    _add_clearance(move_base, result)
+    _add_goal_cost(move_base, result)
+    _add_narrowest_passage(move_base, result)
+    for text in move_base.recovery_log:
+        result.lines.append(text)
+    return result
 
 
-def _about(move_base: MoveBase) -> str:
+def _activity(move_base: MoveBase) -> str:
     if move_base.goal is None:
         return "without a goal"
     x, y, _ = planar_pose(move_base.goal)
-    return f"on its way to ({x:.2f}, {y:.2f}) in {move_base.goal.header.frame_id}"
+    return f"driving to ({x:.2f}, {y:.2f}) in {move_base.goal.header.frame_id}"
 
 
-def _critics(failure: NavigationFailure | None, found: Explanation) -> None:
+def _add_critics(failure: NavigationFailure | None, result: Explanation) -> None:
     rejected = {} if failure is None else failure.numbers.get("rejected", {})
     if rejected:
-        found.numbers["rejected"] = dict(rejected)
+        result.numbers["rejected"] = dict(rejected)
         most = max(rejected, key=lambda name: rejected[name])
-        found.lines.append(f"most velocities were rejected by the critic {most}: {rejected[most]}")
+        result.lines.append(f"most velocities were rejected by the critic {most}: {rejected[most]}")
 
 
-def _room(move_base: MoveBase, found: Explanation) -> None:
+def _add_clearance(move_base: MoveBase, result: Explanation) -> None:
     """Report the distance from the footprint to the nearest obstacle in the local costmap."""
     costmap = move_base.local_costmap
     try:
         pose = planar_pose(costmap.robot_pose())
     except TransformMissing as error:
-        found.lines.append(f"where the robot is, is unknown: {error}")
+        result.lines.append(f"the robot's pose is unknown: {error}")
         return
     with suppress(TransformMissing):
-        found.options["robot"] = planar_pose(move_base.global_costmap.robot_pose())
+        result.options["robot"] = planar_pose(move_base.global_costmap.robot_pose())
     room = clearance(costmap.grid, pose, costmap.footprint)
-    found.numbers["clearance"] = room
+    result.numbers["clearance"] = room
     if room is None:
-        found.lines.append("no obstacle is within 1 m of the robot")
+        result.lines.append("no obstacle is within 1 m of the robot")
     elif room == 0:
-        found.lines.append("an obstacle is inside the footprint: no command can be valid until it is cleared")
+        result.lines.append(
+            "an obstacle is inside the footprint: no command can be valid until it is cleared"
+        )
     else:
-        found.lines.append(f"the nearest obstacle is {room * 100:.0f} cm from the footprint")
+        result.lines.append(f"the nearest obstacle is {room * 100:.0f} cm from the footprint")
 
 
-def _goal(move_base: MoveBase, found: Explanation) -> None:
+def _add_goal_cost(move_base: MoveBase, result: Explanation) -> None:
     """Report the cost of the goal's cell and the reason for it."""
     if move_base.goal is None:
         return
     costmap = move_base.global_costmap
     x, y, _ = planar_pose(move_base.goal)
-    found.options["goal"] = (x, y)
+    result.options["goal"] = (x, y)
     cell = costmap.grid.world_to_map(x, y)
     if cell is None or move_base.goal.header.frame_id.lstrip("/") != costmap.global_frame:
-        found.lines.append("the goal is outside the global costmap")
+        result.lines.append("the goal is outside the global costmap")
         return
     costs = costmap.explain(*cell)
-    found.numbers["goal_cost"] = costs.cost
-    found.lines.append(f"the goal: {costs}")
+    result.numbers["goal_cost"] = costs.cost
+    result.lines.append(f"the goal: {costs}")
 
 
-def _way(move_base: MoveBase, found: Explanation) -> None:
+def _add_narrowest_passage(move_base: MoveBase, result: Explanation) -> None:
     """Report the narrowest passage along the plan, compared with the footprint."""
     if not move_base.plan:
-        found.lines.append("there is no plan")
+        result.lines.append("there is no plan")
         return
     costmap = move_base.global_costmap
     path = np.array([planar_pose(pose)[:2] for pose in move_base.plan])
-    found.options["plan"] = path
-    place = narrowest(costmap.grid, path)
-    if place is None:
-        found.lines.append("the plan keeps 1 m away from all obstacles")
+    result.options["plan"] = path
+    narrowest_place = narrowest(costmap.grid, path)
+    if narrowest_place is None:
+        result.lines.append("the plan stays at least 1 m away from all obstacles")
         return
-    x, y, away = place
-    found.numbers["narrowest"] = place
+    x, y, away = narrowest_place
+    result.numbers["narrowest"] = narrowest_place
     # The local costmap's footprint counts: the controller checks it, while plans may assume a disc.
     inscribed, circumscribed = (
         move_base.local_costmap.inscribed_radius,
@@ -128,7 +132,7 @@ def _way(move_base: MoveBase, found: Explanation) -> None:
         if away > inscribed
         else "not enough"
     )
-    found.lines.append(
+    result.lines.append(
         f"the narrowest place on the way is at ({x:.2f}, {y:.2f}), {away:.2f} m from an obstacle: {enough} (the "
         f"footprint's radii are {inscribed:.2f} m and {circumscribed:.2f} m)"
     )

@@ -57,7 +57,7 @@ def lethal_cells(layers: Sequence[object]) -> int:
     return sum(int((costs == LETHAL_OBSTACLE).sum()) for costs in grids if costs is not None)
 
 
-def fewer(count: int) -> str:
+def decrease_text(count: int) -> str:
     """Describe a decrease in the number of lethal cells; a negative `count` is an increase.
 
     >>> fewer(3), fewer(-2), fewer(0)

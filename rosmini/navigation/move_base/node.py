@@ -29,7 +29,7 @@ from rosmini.navigation.nav_core.poses import checked_goal
 
 from .checks import check_setup
 from .explanation import Explanation, explain
-from .measures import fewer, lethal_cells
+from .measures import decrease_text, lethal_cells
 from .parameters import MoveBaseConfig, MoveBaseParameters, limits
 from .planning import PlannerLane, offsets_within
 from .plugin_calls import call
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
 BAD_QUATERNION = "Aborting on goal because it was sent with an invalid quaternion"
-RECOVERY_BUDGET = 120.0
+RECOVERY_TIME_LIMIT = 120.0
 """Time limit for a recovery behaviour that is not part of rosmini [s]."""
 WARN_PERIOD = 1.0
 """Minimum interval between repetitions of the same warning [s]."""
@@ -81,11 +81,11 @@ class MoveBase:
         """The current goal in the global frame (`PoseStamped`), or None."""
         self.plan: Sequence[Any] = ()
         """The plan that the local planner is following."""
-        self.why = ""
+        self.problem = ""
         """The reason for the last failure to plan or to find a command."""
         self.failure: NavigationFailure | None = None
         """The same failure with its numbers."""
-        self.recovered: list[str] = []
+        self.recovery_log: list[str] = []
         """Descriptions of the changes made by recovery behaviours for the current goal."""
         self.lane = PlannerLane(node, self.machine, self._make_plan, self._stop_base)
         check_setup(self)
@@ -119,7 +119,7 @@ class MoveBase:
         for publisher in (self._commands, self._current_goal, self._recoveries):
             publisher.expect_nobody()
         node.subscriber("move_base_simple/goal", stamped, self._simple_goal, queue_size=1)
-        node.on_shutdown(self._killed)
+        node.on_shutdown(self._on_shutdown)
 
     def _offer_services(self) -> None:
         self.node.service("~make_plan", service_class("nav_msgs/GetPlan"), self._make_plan_service)
@@ -187,10 +187,10 @@ class MoveBase:
             self.node.logerr(str(error))
             self.action.set_aborted(None, BAD_QUATERNION)
             return False
-        self._begin(message.target_pose)
+        self._start_goal(message.target_pose)
         return True
 
-    def _begin(self, target: Any) -> None:
+    def _start_goal(self, target: Any) -> None:
         """Start driving to a pose in any frame."""
         try:
             self.goal = self.global_costmap.to_global(target)
@@ -200,10 +200,10 @@ class MoveBase:
                 f"{self.global_costmap.global_frame} frame: {error}"
             )
             self.goal = target
-        self.why, self.failure, self.recovered = "", None, []
+        self.problem, self.failure, self.recovery_log = "", None, []
         self.plan = ()
         self.lane.goal = self.goal
-        self.machine.begin(self._now())
+        self.machine.start_goal(self._now())
         self.lane.wake()
         self._current_goal.publish(self.goal)
 
@@ -222,7 +222,7 @@ class MoveBase:
                 frequency = self.config.controller_frequency
                 self.node.loginfo(f"Setting controller frequency to {frequency:.2f}")
                 rate = self.node.rate(frequency)
-            if self.action.is_preempt_requested() and not self._preempt():
+            if self.action.is_preempt_requested() and not self._handle_preemption():
                 return
             began = self.node.clock.now_ns()
             if self._cycle():
@@ -235,17 +235,17 @@ class MoveBase:
                     f"{took:.4f} seconds"
                 )
 
-    def _preempt(self) -> bool:
+    def _handle_preemption(self) -> bool:
         """Accept the waiting goal, or stop if there is none; return True if there is a goal to continue with."""
         if self.action.is_new_goal_available():
             return self._accept(self.action.accept_new_goal())
-        self._end()
+        self._clear_goal()
         self.action.set_preempted()
         return False
 
-    def _end(self) -> None:
+    def _clear_goal(self) -> None:
         """Clear the current goal and stop."""
-        self.machine.end(self._now())
+        self.machine.end_goal(self._now())
         self.goal = None
         self._stop_base()
         if self.config.shutdown_costmaps:
@@ -258,7 +258,7 @@ class MoveBase:
         self.global_costmap.stop()
         self.local_costmap.stop()
 
-    def _killed(self) -> None:
+    def _on_shutdown(self) -> None:
         self._stop_base()
         if self.action.is_active():
             self.action.set_aborted(None, "Aborting on the goal because the node has been killed")
@@ -268,7 +268,7 @@ class MoveBase:
     def _cycle(self) -> bool:
         """Run one control cycle; return True if the goal is finished."""
         with suppress(TransformMissing):
-            self._tell_position()
+            self._publish_position()
         if not self.local_costmap.is_current:
             self.node.logwarn(
                 f"[{self.node.name}]:Sensor data is out of date, we're not going to allow commanding of the base for "
@@ -278,7 +278,7 @@ class MoveBase:
             self._stop_base()
             return False
         plan = self.lane.take()
-        if plan is not None and not self._hand_over(plan):
+        if plan is not None and not self._pass_plan(plan):
             return True
         decision = self.machine.step()
         if isinstance(decision, Plan):
@@ -286,34 +286,34 @@ class MoveBase:
         elif isinstance(decision, Follow):
             return self._follow()
         elif isinstance(decision, Recover):
-            self._recover(decision.number)
+            self._run_recovery(decision.number)
         else:
-            self._give_up(decision)
+            self._abort(decision)
             return True
         return False
 
-    def _tell_position(self) -> None:
+    def _publish_position(self) -> None:
         pose = self.global_costmap.robot_pose()
         self._feedback.base_position = pose
         self.action.publish_feedback(self._feedback)
         x, y, _ = planar_pose(pose)
-        self.machine.at(self._now(), x, y)
+        self.machine.robot_at(self._now(), x, y)
 
-    def _hand_over(self, plan: Sequence[Any]) -> bool:
+    def _pass_plan(self, plan: Sequence[Any]) -> bool:
         """Give the local planner a new plan; if it refuses the plan, abort the goal and return False."""
         self.plan = plan
         try:
-            self._ask(LOCAL, "set_plan", plan)
+            self._call_planner(LOCAL, "set_plan", plan)
         except NavigationFailure as error:
             self.node.logerr(f"Failed to pass global plan to the controller, aborting. {error}")
-            self.why = str(error)
-            self._end()
+            self.problem = str(error)
+            self._clear_goal()
             self.action.set_aborted(None, "Failed to pass global plan to the controller.")
             return False
         self.machine.plan_taken()
         return True
 
-    def _ask(self, which: str, method: str, *arguments: Any) -> Any:
+    def _call_planner(self, which: str, method: str, *arguments: Any) -> Any:
         """Call a method of the global or the local planner."""
         planner = self.planners.of[which]
         patience = self.config.planner_patience if which == GLOBAL else self.config.controller_patience
@@ -324,20 +324,20 @@ class MoveBase:
         """Command the base along the plan; return True if the goal is reached."""
         now = self._now()
         if self._is_reached():
-            self._end()
+            self._clear_goal()
             self.action.set_succeeded(None, "Goal reached.")
             return True
-        if self.machine.oscillates(now):
-            self.why = (
-                f"for {self.config.oscillation_timeout:g} s the robot has been within "
-                f"{self.config.oscillation_distance:g} m"
+        if self.machine.check_oscillation(now):
+            self.problem = (
+                f"the robot has stayed within {self.config.oscillation_distance:g} m for "
+                f"{self.config.oscillation_timeout:g} s"
             )
             self._stop_base()
             return False
         try:
-            command = self._ask(LOCAL, "compute_velocity_commands")
+            command = self._call_planner(LOCAL, "compute_velocity_commands")
         except NavigationFailure as error:
-            self._no_command(error)
+            self._handle_no_command(error)
             return False
         self.machine.command_found(self._now())
         self._commands.publish(command)
@@ -345,20 +345,20 @@ class MoveBase:
 
     def _is_reached(self) -> bool:
         try:
-            return bool(self._ask(LOCAL, "is_goal_reached"))
+            return bool(self._call_planner(LOCAL, "is_goal_reached"))
         except NavigationFailure as error:
-            self.node.logwarn(f"Whether the goal is reached is unknown: {error}", throttle=WARN_PERIOD)
+            self.node.logwarn(f"Cannot determine whether the goal is reached: {error}", throttle=WARN_PERIOD)
             return False
 
-    def _no_command(self, error: NavigationFailure) -> None:
-        self.why, self.failure = str(error), error
+    def _handle_no_command(self, error: NavigationFailure) -> None:
+        self.problem, self.failure = str(error), error
         self.node.logwarn(f"No valid command: {error}", throttle=WARN_PERIOD)
         self.machine.command_failed(self._now())
         self._stop_base()
         if self.state is State.PLANNING:  # while CLEARING, a new plan would end the recovery before it begins
             self.lane.wake()
 
-    def _recover(self, number: int) -> None:
+    def _run_recovery(self, number: int) -> None:
         """Run a recovery behaviour; the control cycle waits until it returns."""
         name, behavior = self.recovery_behaviors[number]
         status = self._recovery(
@@ -376,21 +376,21 @@ class MoveBase:
                 self.node,
                 f"the recovery behavior {name}",
                 behavior.run_behavior,
-                budget=RECOVERY_BUDGET,
+                budget=RECOVERY_TIME_LIMIT,
             )
         except NavigationFailure as error:
             self.node.logerr(str(error))
         changes = (
-            f"{fewer(was - lethal_cells(costmap.layers))} in {costmap.name}"
+            f"{decrease_text(was - lethal_cells(costmap.layers))} in {costmap.name}"
             for was, costmap in zip(before, costmaps, strict=True)
         )
-        self.recovered.append(f"{name} ({self.machine.trigger.name.lower()}): {', '.join(changes)}")
+        self.recovery_log.append(f"{name} ({self.machine.trigger.name.lower()}): {', '.join(changes)}")
         self.machine.recovered(self._now())
 
-    def _give_up(self, decision: Abort) -> None:
-        self.node.logerr(f"{decision.log}. {self.why}" if self.why else decision.log)
+    def _abort(self, decision: Abort) -> None:
+        self.node.logerr(f"{decision.log}. {self.problem}" if self.problem else decision.log)
         self.action.set_aborted(None, decision.text)
-        self._end()
+        self._clear_goal()
 
     # -- plans ---------------------------------------------------------------------------------------------------
 
@@ -399,33 +399,33 @@ class MoveBase:
         try:
             start = self.global_costmap.robot_pose()
         except TransformMissing as error:
-            self.why = f"Unable to get starting pose of robot, unable to create global plan: {error}"
-            self.node.logwarn(self.why, throttle=WARN_PERIOD)
+            self.problem = f"Unable to get starting pose of robot, unable to create global plan: {error}"
+            self.node.logwarn(self.problem, throttle=WARN_PERIOD)
             return ()
         return self._planned(start, goal)
 
     def _planned(self, start: Any, goal: Any) -> Sequence[Any]:
         try:
-            plan: Sequence[Any] = self._ask(GLOBAL, "make_plan", start, goal)
+            plan: Sequence[Any] = self._call_planner(GLOBAL, "make_plan", start, goal)
         except NavigationFailure as error:
-            self.why, self.failure = str(error), error
+            self.problem, self.failure = str(error), error
             self.node.logwarn(f"Failed to find a plan: {error}", throttle=WARN_PERIOD)
             return ()
         if plan is None or not len(plan):
-            self.why = f"the global planner {self.planners.names[GLOBAL]} returned no poses"
+            self.problem = f"the global planner {self.planners.names[GLOBAL]} returned no poses"
             return ()
         return plan
 
     def _make_plan_service(self, request: Any) -> Any:
         """Return a plan to the goal or to a pose within the tolerance (`~make_plan`); empty if there is none."""
         if self.action.is_active():
-            raise self._refused("move_base must be in an inactive state to make a plan for an external user")
+            raise self._refusal("move_base must be in an inactive state to make a plan for an external user")
         start = request.start
         if not start.header.frame_id:
             try:
                 start = self.global_costmap.robot_pose()
             except TransformMissing as error:
-                raise self._refused(
+                raise self._refusal(
                     "move_base cannot make a plan for you because it could not get the start pose of the robot: "
                     f"{error}"
                 ) from error
@@ -437,7 +437,7 @@ class MoveBase:
             answer.header = answer.poses[0].header
         return {"plan": answer}
 
-    def _refused(self, text: str) -> RosminiError:
+    def _refusal(self, text: str) -> RosminiError:
         self.node.logerr(text)
         return RosminiError(text)
 
@@ -508,4 +508,4 @@ class MoveBase:
         self.lane.latest, self.plan = None, ()
         self._stop_base()
         if self.goal is not None:
-            self.machine.begin(self._now())
+            self.machine.start_goal(self._now())

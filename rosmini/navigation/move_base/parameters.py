@@ -40,33 +40,33 @@ class MoveBaseConfig(Parameters):
         15.0, "how long to go without a command before recovering", unit="s", minimum=0.0, maximum=100.0
     )
     max_planning_retries: int = parameter(
-        -1, "how often to try to plan again before recovering; -1: any number", minimum=-1, maximum=1000
+        -1, "how often to retry planning before recovering; -1: no limit", minimum=-1, maximum=1000
     )
     conservative_reset_dist: float = parameter(
         3.0,
-        "the default recoveries clear what is farther from the robot than half of this",
+        "the default recoveries clear cells farther from the robot than half of this",
         unit="m",
         minimum=0.0,
         maximum=50.0,
     )
     recovery_behavior_enabled: bool = parameter(True, "try to free a robot that is stuck")
-    clearing_rotation_allowed: bool = parameter(True, "the default recoveries turn the robot once around")
+    clearing_rotation_allowed: bool = parameter(True, "the default recoveries rotate the robot once")
     shutdown_costmaps: bool = parameter(False, "stop the costmaps while there is no goal")
     oscillation_timeout: float = parameter(
         0.0,
-        "how long the robot may stay within oscillation_distance; 0: for ever",
+        "how long the robot may stay within oscillation_distance; 0: no limit",
         unit="s",
         minimum=0.0,
         maximum=60.0,
     )
     oscillation_distance: float = parameter(
-        0.5, "after this distance the robot counts as getting on", unit="m", minimum=0.0, maximum=10.0
+        0.5, "a move over this distance counts as progress", unit="m", minimum=0.0, maximum=10.0
     )
     make_plan_clear_costmap: bool = parameter(True, "clear the costmaps around the robot before make_plan")
     make_plan_add_unreachable_goal: bool = parameter(
-        True, "end the plans of make_plan at the goal, where they only come near it"
+        True, "append the goal to plans of make_plan that only come near it"
     )
-    restore_defaults: bool = parameter(False, "go back to what held at the start")
+    restore_defaults: bool = parameter(False, "reset all parameters to their initial values")
 
 
 @dataclass(frozen=True)

@@ -30,8 +30,8 @@ class Part:
 
     name: str
     lines: tuple[str, ...]
-    hears: frozenset[str] = frozenset()
-    says: frozenset[str] = frozenset()
+    subscribes: frozenset[str] = frozenset()
+    publishes: frozenset[str] = frozenset()
 
 
 class Link(NamedTuple):
@@ -39,21 +39,21 @@ class Link(NamedTuple):
 
     source: str
     target: str
-    what: str
+    label: str
 
 
 @dataclass(frozen=True)
-class Inside:
+class Structure:
     """All parts of a `move_base` and the links between them."""
 
     parts: tuple[Part, ...]
     links: tuple[Link, ...]
 
 
-def inside(move_base: MoveBase) -> Inside:
+def structure_of(move_base: MoveBase) -> Structure:
     """Return the current parts of a `move_base`."""
     costmaps = (move_base.global_costmap, move_base.local_costmap)
-    parts = [_states(move_base), Part(TRANSFORMS, (TRANSFORMS,), hears=frozenset(("/tf", "/tf_static")))]
+    parts = [_states(move_base), Part(TRANSFORMS, (TRANSFORMS,), subscribes=frozenset(("/tf", "/tf_static")))]
     links = [Link(STATES, _planner(GLOBAL), "goal"), Link(_planner(GLOBAL), _planner(LOCAL), "plan")]
     for costmap in costmaps:
         parts.append(_costmap(costmap))
@@ -69,7 +69,7 @@ def inside(move_base: MoveBase) -> Inside:
         parts.append(_recoveries(move_base))
         links.append(Link(STATES, RECOVERIES, "stuck"))
         links += [Link(RECOVERIES, each.name, "clear") for each in costmaps if _is_cleared(move_base, each)]
-    return Inside(tuple(parts), tuple(links))
+    return Structure(tuple(parts), tuple(links))
 
 
 def _planner(which: str) -> str:
@@ -81,15 +81,18 @@ def _states(move_base: MoveBase) -> Part:
     resolve = move_base.node.resolve
     action, simple = resolve(ACTION + "goal"), resolve("move_base_simple/goal")
     lines = ("state machine", *(state.name for state in State))
-    return Part(STATES, lines, hears=frozenset((action, simple)))
+    return Part(STATES, lines, subscribes=frozenset((action, simple)))
 
 
 def _of_planner(move_base: MoveBase, which: str) -> Part:
     """Describe a planner; the local one publishes on `cmd_vel`."""
     planners = move_base.planners
-    says = frozenset((move_base.node.resolve("cmd_vel"),)) if which == LOCAL else frozenset()
+    publishes = frozenset((move_base.node.resolve("cmd_vel"),)) if which == LOCAL else frozenset()
     return Part(
-        _planner(which), (_planner(which), planners.names[which]), hears=planners.hears(which), says=says
+        _planner(which),
+        (_planner(which), planners.names[which]),
+        subscribes=planners.subscribed_topics(which),
+        publishes=publishes,
     )
 
 
@@ -98,20 +101,20 @@ def _costmap(costmap: Costmap2DROS) -> Part:
     grid = costmap.grid
     size = f"{grid.width} x {grid.height} cells, frame {costmap.global_frame}"
     rows = [layer.name for layer in costmap.layers]
-    hears = frozenset(topic for layer in costmap.layers for topic in layer.topics)
-    return Part(costmap.name, (costmap.name, size, *rows), hears=hears)
+    subscribes = frozenset(topic for layer in costmap.layers for topic in layer.topics)
+    return Part(costmap.name, (costmap.name, size, *rows), subscribes=subscribes)
 
 
 def _recoveries(move_base: MoveBase) -> Part:
     """Describe all recovery behaviours as one part, in order."""
     rows = [f"{number}. {each.name}" for number, each in enumerate(move_base.recovery_behaviors, 1)]
-    says = {
+    publishes = {
         value.topic
         for _, behavior in move_base.recovery_behaviors
         for value in vars(behavior).values()
         if isinstance(value, Publisher)
     }
-    return Part(RECOVERIES, (RECOVERIES, *rows), says=frozenset(says))
+    return Part(RECOVERIES, (RECOVERIES, *rows), publishes=frozenset(publishes))
 
 
 def _is_cleared(move_base: MoveBase, costmap: Costmap2DROS) -> bool:

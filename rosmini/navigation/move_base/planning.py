@@ -70,9 +70,9 @@ class PlannerLane:
             self._sleep(pause)
             pause = None
             if self.machine.wants_plan:
-                pause = self._once()
+                pause = self._plan_once()
 
-    def _once(self) -> int | None:
+    def _plan_once(self) -> int | None:
         """Plan once; return the time [ns] until planning again, or None to wait for `wake`."""
         clock = self.node.clock
         start, goal = clock.now_ns(), self.goal

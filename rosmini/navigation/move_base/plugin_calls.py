@@ -22,7 +22,7 @@ from rosmini.navigation.nav_core import NavigationFailure
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
-TURNS_PER_SECOND = 1_000_000
+ITERATIONS_PER_SECOND = 1_000_000
 """Number of loop iterations that count as one second."""
 
 _ROSMINI = str(Path(__file__).resolve().parents[2])
@@ -43,25 +43,25 @@ def call(node: Node, what: str, function: Callable[..., Any], *arguments: Any, b
     try:
         if is_ours:
             return function(*arguments)
-        return _in_lane(node, what, partial(function, *arguments), budget)
+        return _run_in_lane(node, what, partial(function, *arguments), budget)
     except (NavigationFailure, ROSInterruptException):
         raise
     except Exception as error:
-        raise PluginFault(f"{what} raised {type(error).__name__}: {error} ({_where(error)})") from error
+        raise PluginFault(f"{what} raised {type(error).__name__}: {error} ({_location(error)})") from error
 
 
-def _where(error: Exception) -> str:
+def _location(error: Exception) -> str:
     """Return file and line of the innermost frame outside rosmini, Python and installed packages."""
     frames = traceback.extract_tb(error.__traceback__)
     own = [frame for frame in frames if not frame.filename.startswith(_OURS)] or list(frames)
     return f"{Path(own[-1].filename).name}, line {own[-1].lineno}" if own else "nowhere"
 
 
-def _in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) -> Any:
+def _run_in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) -> Any:
     waiter = node.waiter(f"{what} to return")
 
     def run() -> None:
-        watch = LoopWatch(what, int(budget * TURNS_PER_SECOND))
+        watch = LoopWatch(what, int(budget * ITERATIONS_PER_SECOND))
         watch.start()
         outcome: tuple[Any, Exception | None]
         try:
@@ -77,7 +77,7 @@ def _in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) -> A
         why = lane.waiting_for
         lane.kill()
         raise PluginFault(
-            f"{what} has not returned for {budget:g} s{f': it was waiting for {why}' if why else ''}. It was ended"
+            f"{what} did not return within {budget:g} s{f', waiting for {why}' if why else ''}, and was stopped"
         )
     result, error = waiter.value
     if error is not None:
@@ -86,13 +86,13 @@ def _in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) -> A
 
 
 class LoopWatch:
-    """Counts loop iterations outside rosmini and installed packages, and raises `PluginFault` after `most` of them.
+    """Counts loop iterations outside rosmini and installed packages, and raises `PluginFault` after `limit` of them.
 
     It uses Python's trace function, so it does nothing while a debugger or a coverage tool is using that.
     """
 
-    def __init__(self, what: str, most: int) -> None:
-        self.what, self.most, self.turns = what, most, 0
+    def __init__(self, what: str, limit: int) -> None:
+        self.what, self.limit, self.iterations = what, limit, 0
         self._foreign: dict[str, bool] = {}
 
     def start(self) -> None:
@@ -113,25 +113,25 @@ class LoopWatch:
             foreign = self._foreign[file] = not file.startswith(_OURS)
         if not foreign or event != "call":
             return None
-        return self._lines_of(frame.f_lineno)
+        return self._trace_lines(frame.f_lineno)
 
-    def _lines_of(self, line: int) -> Callable[..., Any]:
+    def _trace_lines(self, line: int) -> Callable[..., Any]:
         last = line
 
         def trace(frame: FrameType, event: str, _: Any) -> Callable[..., Any]:
             nonlocal last
             if event == "line":
                 if frame.f_lineno <= last:
-                    self._turn(frame)
+                    self._count_iteration(frame)
                 last = frame.f_lineno
             return trace
 
         return trace
 
-    def _turn(self, frame: FrameType) -> None:
-        self.turns += 1
-        if self.turns > self.most:
+    def _count_iteration(self, frame: FrameType) -> None:
+        self.iterations += 1
+        if self.iterations > self.limit:
             raise PluginFault(
-                f"{self.what} has not returned after {self.most:,} turns of its loops: does the one in line "
-                f"{frame.f_lineno} of {Path(frame.f_code.co_filename).name} end?"
+                f"{self.what} has not returned after {self.limit:,} loop iterations: check that the loop in "
+                f"line {frame.f_lineno} of {Path(frame.f_code.co_filename).name} ends"
             )

@@ -27,23 +27,23 @@ class Planners:
         self.local_costmap: Any = None
         self.of: dict[str, Any] = {}
         self.names: dict[str, str] = {}
-        self._made: dict[str, list[Any]] = {}
+        self._handles: dict[str, list[Any]] = {}
 
     def load(self, which: str, name: str) -> None:
         """Create and start a planner. Raises `PluginError`, in which case the previous planner stays."""
-        made, before = self._created(which, name), self.names.get(which)
-        self._withdraw(which)
+        planner, before = self._create(which, name), self.names.get(which)
+        self._remove_handles(which)
         try:
-            self._bring(which, name, made)
+            self._start(which, name, planner)
         except PluginError:
             if before is not None:
-                self._withdraw(which)
-                self._bring(which, before, self._created(which, before))
+                self._remove_handles(which)
+                self._start(which, before, self._create(which, before))
             raise
         if which == LOCAL:
             self._node.loginfo(f"Created local_planner {name}")
 
-    def _created(self, which: str, name: str) -> Any:
+    def _create(self, which: str, name: str) -> Any:
         interface: Any = BaseGlobalPlanner if which == GLOBAL else BaseLocalPlanner
         try:
             return create(interface, name)
@@ -53,42 +53,42 @@ class Planners:
                 f"library is built? Exception: {error}"
             ) from error
 
-    def _bring(self, which: str, name: str, made: Any) -> None:
+    def _start(self, which: str, name: str, planner: Any) -> None:
         """Initialise a planner, and record the topics and services that it creates."""
-        before = set(_handles(self._node))
+        before = set(_all_handles(self._node))
         try:
-            self._initialize(which, made, name)
+            self._initialize(which, planner, name)
         finally:
-            self._made[which] = [each for each in _handles(self._node) if each not in before]
-        self.of[which], self.names[which] = made, name
+            self._handles[which] = [each for each in _all_handles(self._node) if each not in before]
+        self.of[which], self.names[which] = planner, name
 
-    def _initialize(self, which: str, made: Any, name: str) -> None:
+    def _initialize(self, which: str, planner: Any, name: str) -> None:
         try:
             if which == GLOBAL:
-                made.initialize(short_name(name), self._global_costmap)
+                planner.initialize(short_name(name), self._global_costmap)
             else:
-                made.initialize(short_name(name), self._buffer, self.local_costmap)
+                planner.initialize(short_name(name), self._buffer, self.local_costmap)
         except ROSInterruptException:
             raise
         except Exception as error:
-            if (type(made).__module__ or "").startswith("rosmini."):
+            if (type(planner).__module__ or "").startswith("rosmini."):
                 raise
             raise PluginError(
                 f"initialize() of the {which} planner {name} raised {type(error).__name__}: {error}"
             ) from error
 
-    def hears(self, which: str) -> frozenset[str]:
+    def subscribed_topics(self, which: str) -> frozenset[str]:
         """Return the topics that a planner has subscribed to."""
-        return frozenset(each.topic for each in self._made[which] if isinstance(each, Subscriber))
+        return frozenset(each.topic for each in self._handles[which] if isinstance(each, Subscriber))
 
-    def _withdraw(self, which: str) -> None:
+    def _remove_handles(self, which: str) -> None:
         """Remove the publishers, subscribers and services of a planner, so that the next can use the same names."""
-        for handle in self._made.pop(which, ()):
-            end = handle.unregister if hasattr(handle, "unregister") else handle.shutdown
-            end()
+        for handle in self._handles.pop(which, ()):
+            remove = handle.unregister if hasattr(handle, "unregister") else handle.shutdown
+            remove()
 
 
-def _handles(node: Node) -> Iterator[Any]:
+def _all_handles(node: Node) -> Iterator[Any]:
     """Yield every publisher, subscriber, service and timer of a node."""
     for topics in (node.publications, node.subscriptions):
         for topic in topics.values():

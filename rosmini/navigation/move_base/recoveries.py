@@ -15,39 +15,39 @@ if TYPE_CHECKING:
 CLEAR, ROTATE = "clear_costmap_recovery/ClearCostmapRecovery", "rotate_recovery/RotateRecovery"
 
 
-class Named(NamedTuple):
+class NamedBehavior(NamedTuple):
     """A behaviour and its name in the list."""
 
     name: str
     behavior: RecoveryBehavior
 
 
-class BadList(Exception):
+class InvalidList(Exception):
     """Raised if the list is invalid; the message goes to the log."""
 
 
-def checked(entries: Any) -> list[tuple[str, str]]:
-    """Return name and type of each entry of `recovery_behaviors`. Raises `BadList` with ROS's messages."""
+def parsed_entries(entries: Any) -> list[tuple[str, str]]:
+    """Return name and type of each entry of `recovery_behaviors`. Raises `InvalidList` with ROS's messages."""
     if not isinstance(entries, list):
-        raise BadList(
+        raise InvalidList(
             "The recovery behavior specification must be a list, but is of the type "
             f"{type(entries).__name__}. We'll use the default recovery behaviors instead."
         )
     found: dict[str, str] = {}
     for entry in entries:
         if not isinstance(entry, dict):
-            raise BadList(
+            raise InvalidList(
                 "Recovery behaviors must be specified as maps, but they are of the type "
                 f"{type(entry).__name__}. We'll use the default recovery behaviors instead."
             )
         if "name" not in entry or "type" not in entry:
-            raise BadList(
+            raise InvalidList(
                 "Recovery behaviors must have a name and a type and this does not. Using the default recovery "
                 f"behaviors instead. It has {', '.join(map(str, entry)) or 'nothing'}."
             )
         name = str(entry["name"])
         if name in found:
-            raise BadList(
+            raise InvalidList(
                 f"A recovery behavior with the name {name} already exists, this is not allowed. Using the default "
                 "recovery behaviors instead."
             )
@@ -60,15 +60,19 @@ class Recoveries:
 
     def __init__(self, node: Node, buffer: Buffer, global_costmap: Any, local_costmap: Any) -> None:
         self._node = node
-        self._world = (buffer, global_costmap, local_costmap)
+        self._context = (buffer, global_costmap, local_costmap)
 
-    def load(self, *, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[Named]:
+    def load(
+        self, *, rotate: bool, reset_distance: float, circumscribed_radius: float
+    ) -> list[NamedBehavior]:
         """Return the behaviours that the parameter lists, or the default ones if it is missing or invalid."""
         if self._node.has_param("~recovery_behaviors"):
             try:
-                listed = checked(self._node.get_param("~recovery_behaviors"))
-                return [Named(name, self._made(name, self._full_name(kind))) for name, kind in listed]
-            except BadList as error:
+                listed = parsed_entries(self._node.get_param("~recovery_behaviors"))
+                return [
+                    NamedBehavior(name, self._create(name, self._full_name(kind))) for name, kind in listed
+                ]
+            except InvalidList as error:
                 self._node.logerr(str(error))
             except PluginError as error:
                 self._node.logerr(
@@ -76,20 +80,22 @@ class Recoveries:
                 )
         return self._default(rotate, reset_distance, circumscribed_radius)
 
-    def _default(self, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[Named]:
+    def _default(
+        self, rotate: bool, reset_distance: float, circumscribed_radius: float
+    ) -> list[NamedBehavior]:
         """Return the default list: clear far away, rotate, clear closer, rotate again."""
         self._node.set_param("~conservative_reset/reset_distance", reset_distance)
         self._node.set_param("~aggressive_reset/reset_distance", circumscribed_radius * 4)
-        conservative = Named("conservative_reset", self._made("conservative_reset", CLEAR))
-        turn = [Named("rotate_recovery", self._made("rotate_recovery", ROTATE))] if rotate else []
-        aggressive = Named("aggressive_reset", self._made("aggressive_reset", CLEAR))
+        conservative = NamedBehavior("conservative_reset", self._create("conservative_reset", CLEAR))
+        turn = [NamedBehavior("rotate_recovery", self._create("rotate_recovery", ROTATE))] if rotate else []
+        aggressive = NamedBehavior("aggressive_reset", self._create("aggressive_reset", CLEAR))
         return [conservative, *turn, aggressive, *turn]
 
-    def _made(self, name: str, kind: str) -> RecoveryBehavior:
+    def _create(self, name: str, kind: str) -> RecoveryBehavior:
         interface: Any = RecoveryBehavior
-        made: RecoveryBehavior = create(interface, kind)
-        made.initialize(name, *self._world)
-        return made
+        behavior: RecoveryBehavior = create(interface, kind)
+        behavior.initialize(name, *self._context)
+        return behavior
 
     def _full_name(self, kind: str) -> str:
         """Return the full name of a class that is given without its package, as in files for old ROS releases."""

@@ -39,7 +39,7 @@ class Trigger(Enum):
     OSCILLATION = "Robot is oscillating. Even after executing recovery behaviors."
 
 
-GIVEN_UP = {
+ABORT_LOG = {
     Trigger.PLANNING: "Aborting because a valid plan could not be found. Even after executing all recovery behaviors",
     Trigger.CONTROLLING: "Aborting because a valid control could not be found. Even after executing all recovery "
     "behaviors",
@@ -149,22 +149,22 @@ class StateMachine:
             self.history.append(Transition(now, self.state, event, after))
         self.state = after
 
-    def _patience(self, now: float) -> None:
+    def _restart_patience(self, now: float) -> None:
         """Restart the planner's patience."""
         self.last_plan = now
         self.retries = 0
 
     # -- events --------------------------------------------------------------------------------------------------
 
-    def begin(self, now: float) -> None:
+    def start_goal(self, now: float) -> None:
         """Handle a new goal, which may preempt another: plan, with full patience and all recoveries available."""
         self._enter(now, Event.NEW_GOAL, State.PLANNING)
         self.recovery_index = 0
         self.wants_plan = True
         self.last_command = self.last_progress = now
-        self._patience(now)
+        self._restart_patience(now)
 
-    def end(self, now: float) -> None:
+    def end_goal(self, now: float) -> None:
         """Handle the end of a goal, for any reason (`resetState` in the original)."""
         self._enter(now, Event.OVER, State.PLANNING)
         self.wants_plan = False
@@ -173,7 +173,7 @@ class StateMachine:
 
     def plan_found(self, now: float) -> None:
         """Handle a new plan, which the next cycle passes to the local planner."""
-        self._patience(now)
+        self._restart_patience(now)
         if self.wants_plan:
             self._enter(now, Event.PLAN_FOUND, State.CONTROLLING)
         if self.limits.planner_frequency <= 0:
@@ -200,7 +200,7 @@ class StateMachine:
         if self.trigger is Trigger.PLANNING:
             self.recovery_index = 0
 
-    def at(self, now: float, x: float, y: float) -> None:
+    def robot_at(self, now: float, x: float, y: float) -> None:
         """Handle a new robot position: a move of `oscillation_distance` counts as progress."""
         if (
             self._progress_at is not None
@@ -221,9 +221,9 @@ class StateMachine:
         if self.limits.recovery_behavior_enabled and self.recovery_index < self.recoveries:
             return Recover(self.recovery_index)
         self.wants_plan = False
-        return Abort(self.trigger.value, GIVEN_UP[self.trigger])
+        return Abort(self.trigger.value, ABORT_LOG[self.trigger])
 
-    def oscillates(self, now: float) -> bool:
+    def check_oscillation(self, now: float) -> bool:
         """Return True, and enter CLEARING, if the robot has made no progress for too long. Call while CONTROLLING."""
         timeout = self.limits.oscillation_timeout
         if not (timeout > 0 and self.last_progress + timeout < now):
@@ -244,14 +244,14 @@ class StateMachine:
             self._enter(now, Event.NO_COMMAND_AT_ALL, State.CLEARING)
             self.trigger = Trigger.CONTROLLING
             return
-        self._patience(now)
+        self._restart_patience(now)
         self._enter(now, Event.NO_COMMAND, State.PLANNING)
         self.wants_plan = True
 
     def recovered(self, now: float) -> None:
         """Handle the end of a recovery behaviour: plan again; the next recovery will run the next behaviour."""
         self.last_progress = now
-        self._patience(now)
+        self._restart_patience(now)
         self.recovery_index += 1
         self._enter(now, Event.RECOVERED, State.PLANNING)
 
@@ -264,7 +264,7 @@ def recovery_steps(names: Sequence[str]) -> list[tuple[str, str, str]]:
     machine, limits = StateMachine(Limits(), len(names)), Limits()
     found: list[tuple[str, str, str]] = []
     before, now = "navigate", 0.0
-    machine.begin(now)
+    machine.start_goal(now)
     while True:
         now += 2 * limits.planner_patience
         machine.plan_failed(now)

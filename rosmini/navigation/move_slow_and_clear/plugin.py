@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 CHECK_PERIOD = 0.1
 """Interval between checks of the distance driven [s]."""
 
-CLEARED = ("obstacle", "voxel")
+CLEARED_PREFIXES = ("obstacle", "voxel")
 """Prefixes of the names of the layers that it clears."""
 
 
@@ -34,13 +34,15 @@ class MoveSlowAndClearParameters(Parameters):
 
     clearing_distance: float = parameter(0.5, "half the side of the square that is cleared", unit="m")
     limited_trans_speed: float = parameter(0.25, "the limited speed", unit="m/s")
-    limited_rot_speed: float = parameter(0.45, "the limited speed of turns", unit="rad/s")
-    limited_distance: float = parameter(
-        0.3, "after this distance, as the crow flies, the limit ends", unit="m"
-    )
+    limited_rot_speed: float = parameter(0.45, "the limited turning speed", unit="rad/s")
+    limited_distance: float = parameter(0.3, "straight-line distance after which the limit ends", unit="m")
     planner_namespace: str = parameter("DWAPlannerROS", "the local planner, below the node's name")
-    max_trans_param_name: str = parameter("max_vel_trans", "what the planner calls its highest speed")
-    max_rot_param_name: str = parameter("max_vel_theta", "what it calls its fastest turn")
+    max_trans_param_name: str = parameter(
+        "max_vel_trans", "the name of the planner's parameter for the maximum speed"
+    )
+    max_rot_param_name: str = parameter(
+        "max_vel_theta", "the name of its parameter for the maximum turning speed"
+    )
 
 
 class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAndClear"):
@@ -71,7 +73,7 @@ class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAnd
         try:
             for costmap in self.costmaps():
                 self._clear(costmap)
-            self._start = self._here()
+            self._start = self._position()
         except TransformMissing as error:
             self.node.logerr(f"Cannot clear map because pose cannot be retrieved: {error}")
             return
@@ -83,17 +85,17 @@ class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAnd
         if self._timer is None:
             self._timer = self.node.timer(CHECK_PERIOD, lambda _: self._check_distance())
 
-    def _here(self) -> tuple[float, float]:
+    def _position(self) -> tuple[float, float]:
         x, y, _ = planar_pose(self.global_costmap.robot_pose())
         return x, y
 
     def _clear(self, costmap: Any) -> None:
         x, y, _ = planar_pose(costmap.robot_pose())
-        far = self.parameters.clearing_distance
+        distance = self.parameters.clearing_distance
         for layer in costmap.layers:
-            if layer.name.rpartition("/")[2].startswith(CLEARED):
-                x0, y0 = layer.grid.world_to_map_no_bounds(x - far, y - far)
-                x1, y1 = layer.grid.world_to_map_no_bounds(x + far, y + far)
+            if layer.name.rpartition("/")[2].startswith(CLEARED_PREFIXES):
+                x0, y0 = layer.grid.world_to_map_no_bounds(x - distance, y - distance)
+                x1, y1 = layer.grid.world_to_map_no_bounds(x + distance, y + distance)
                 layer.clear_area(x0, y0, x1, y1, True)
 
     def _limits(self) -> tuple[float, float] | None:
@@ -103,8 +105,8 @@ class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAnd
         for name in names:
             if not self.node.has_param(name):
                 self.node.logerr(
-                    f"The planner {own.planner_namespace} does not have the parameter {name}: no speed is limited. "
-                    f"~{self.name}/planner_namespace, max_trans_param_name and max_rot_param_name name it"
+                    f"The planner {own.planner_namespace} does not have the parameter {name}: speeds are not limited. "
+                    f"Check ~{self.name}/planner_namespace, max_trans_param_name and max_rot_param_name"
                 )
                 return None
         fast, turning = (float(self.node.get_param(name)) for name in names)
@@ -127,7 +129,7 @@ class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAnd
 
     def _check_distance(self) -> None:
         try:
-            gone = math.dist(self._start, self._here())
+            gone = math.dist(self._start, self._position())
         except TransformMissing:
             return
         if gone < self.parameters.limited_distance or self._timer is None or self._old is None:

@@ -15,7 +15,7 @@ from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.core.maps import GridMap
 from rosmini.core.maps.grid_map import UNKNOWN, MapError
 
-MOST_CELLS = 100_000_000
+MAX_CELLS = 100_000_000
 """Maximum number of cells of a merged map; more indicate wrong poses."""
 
 
@@ -26,7 +26,7 @@ def merge(maps: Sequence[tuple[GridMap, Pose]]) -> GridMap:
         maps: maps with the poses (x [m], y [m], yaw [rad]) of their frames in the frame of the result.
 
     Raises:
-        MapError: there is no map, or the maps are so far apart that the result would exceed `MOST_CELLS` cells.
+        MapError: there is no map, or the maps are so far apart that the result would exceed `MAX_CELLS` cells.
 
     """
     if not maps:
@@ -36,13 +36,13 @@ def merge(maps: Sequence[tuple[GridMap, Pose]]) -> GridMap:
     left, low = (math.floor(float(edge) / side + 1e-6) for edge in corners.min(axis=0))
     right, top = (math.ceil(float(edge) / side - 1e-6) for edge in corners.max(axis=0))
     width, height = max(right - left, 1), max(top - low, 1)
-    if width * height > MOST_CELLS:
+    if width * height > MAX_CELLS:
         raise MapError(
-            f"the merged map would have {width} x {height} cells, more than {MOST_CELLS}: look at the robots' init_pose"
+            f"the merged map would have {width} x {height} cells, more than {MAX_CELLS}: check the robots' init_pose"
         )
     cells = np.full((height, width), UNKNOWN, dtype=np.int8)
     for grid, pose in maps:
-        _lay(cells, grid, compose(pose, grid.origin), side, left, low)
+        _add_map(cells, grid, compose(pose, grid.origin), side, left, low)
     return GridMap(cells, side, (left * side, low * side, 0.0))
 
 
@@ -53,7 +53,7 @@ def _corners(grid: GridMap, origin: Pose) -> np.ndarray[tuple[int, int], np.dtyp
     return np.array([compose(origin, (x * grid.resolution, y * grid.resolution, 0.0))[:2] for x, y in reach])
 
 
-def _lay(
+def _add_map(
     cells: np.ndarray[tuple[int, int], np.dtype[np.int8]],
     grid: GridMap,
     origin: Pose,
@@ -73,8 +73,8 @@ def _lay(
     my = np.floor((back_y + sin * x[None, :] + cos * y[:, None]) / grid.resolution + 1e-6).astype(int)
     height, width = grid.occupancy.shape
     inside = (mx >= 0) & (mx < width) & (my >= 0) & (my < height)
-    laid = np.where(inside, grid.occupancy[my.clip(0, height - 1), mx.clip(0, width - 1)], UNKNOWN)
-    np.maximum(cells[rows, columns], laid, out=cells[rows, columns])
+    values = np.where(inside, grid.occupancy[my.clip(0, height - 1), mx.clip(0, width - 1)], UNKNOWN)
+    np.maximum(cells[rows, columns], values, out=cells[rows, columns])
 
 
 def _span(edges: np.ndarray[tuple[int], np.dtype[np.float64]], first: int, count: int) -> tuple[int, int]:

@@ -31,18 +31,16 @@ GRID = "nav_msgs/OccupancyGrid"
 class MapMergeParameters(Parameters):
     """The private parameters of `multirobot_map_merge/map_merge`."""
 
-    robot_map_topic: str = parameter("map", "what the name of a robot's map ends with")
-    robot_map_updates_topic: str = parameter("map_updates", "of the updates of a robot's map, beside it")
-    robot_namespace: str = parameter("", "what the names of the robots' namespaces contain")
+    robot_map_topic: str = parameter("map", "the end of the names of the robots' map topics")
+    robot_map_updates_topic: str = parameter("map_updates", "the topic of map updates, in the same namespace")
+    robot_namespace: str = parameter("", "a part of the names of the robots' namespaces")
     known_init_poses: bool = parameter(True, "whether the robots' init_pose parameters are set")
-    merged_map_topic: str = parameter("map", "the merged map")
+    merged_map_topic: str = parameter("map", "the topic of the merged map")
     world_frame: str = parameter("world", "the frame of the merged map")
     merging_rate: float = parameter(4.0, "how often maps are merged", unit="Hz", minimum=1e-3)
     discovery_rate: float = parameter(0.05, "how often robots are looked for", unit="Hz", minimum=1e-3)
-    estimation_rate: float = parameter(
-        0.5, "how often poses are estimated; not here", unit="Hz", minimum=1e-3
-    )
-    estimation_confidence: float = parameter(1.0, "how sure an estimate has to be; not here", minimum=0.0)
+    estimation_rate: float = parameter(0.5, "not used: poses are not estimated", unit="Hz", minimum=1e-3)
+    estimation_confidence: float = parameter(1.0, "not used: poses are not estimated", minimum=0.0)
 
 
 @dataclass
@@ -68,7 +66,7 @@ class MapMerge:
         self.parameters = own = MapMergeParameters.read(node)
         if not own.known_init_poses:
             raise ParameterError(
-                "~known_init_poses is false: this map_merge does not estimate where the robots began. Set "
+                "~known_init_poses is false: this map_merge does not estimate start poses. Set "
                 "ROBOT/map_merge/init_pose_x, _y, _z and _yaw for each of them, and ~known_init_poses to true"
             )
         self.robots: dict[str, _Robot] = {}
@@ -99,17 +97,17 @@ class MapMerge:
                 self._unplaced.add(name)
                 self.node.logwarn(
                     f"Couldn't get initial position for robot [{name}]: set the parameters "
-                    f"{join(name, 'map_merge/init_pose_x')}, _y, _z and _yaw. Its map is left out until then"
+                    f"{join(name, 'map_merge/init_pose_x')}, _y, _z and _yaw. Its map is ignored until then"
                 )
             return
         robot = self.robots[name] = _Robot(pose)
         self.node.loginfo(f"adding robot [{name}] to system")
         self.node.subscriber(
-            topic, self._grid_class, lambda message: self._hear(robot, name, message), queue_size=1
+            topic, self._grid_class, lambda message: self._on_map(robot, name, message), queue_size=1
         )
         updates = join(name, self.parameters.robot_map_updates_topic)
         kind = message_class("map_msgs/OccupancyGridUpdate")
-        self.node.subscriber(updates, kind, lambda update: self._change(robot, update), queue_size=10)
+        self.node.subscriber(updates, kind, lambda update: self._on_update(robot, update), queue_size=10)
 
     def _pose(self, name: str) -> Pose | None:
         """Return a robot's start pose, which is that of its map's frame; None if one of the parameters is missing."""
@@ -124,20 +122,20 @@ class MapMerge:
 
     # -- maps ----------------------------------------------------------------------------------------------------
 
-    def _hear(self, robot: _Robot, name: str, message: Any) -> None:
+    def _on_map(self, robot: _Robot, name: str, message: Any) -> None:
         try:
             robot.grid = GridMap.from_message(message)
         except MapError as error:
-            self.node.logwarn(f"a map of {name} is left out: {error}", throttle=10.0)
+            self.node.logwarn(f"a map of {name} is ignored: {error}", throttle=10.0)
 
-    def _change(self, robot: _Robot, update: Any) -> None:
+    def _on_update(self, robot: _Robot, update: Any) -> None:
         """Update a rectangle of cells."""
         if robot.grid is None:
             return
         cells = robot.grid.occupancy.copy()
         rows, columns = slice(update.y, update.y + update.height), slice(update.x, update.x + update.width)
         if update.x < 0 or update.y < 0 or cells[rows, columns].size != len(update.data):
-            self.node.logwarn("an update does not fit its map, and is left out", throttle=10.0)
+            self.node.logwarn("an update does not fit its map, and is ignored", throttle=10.0)
             return
         cells[rows, columns] = np.array(update.data, dtype=np.int8).reshape(update.height, update.width)
         robot.grid = GridMap(cells, robot.grid.resolution, robot.grid.origin)

@@ -36,7 +36,7 @@ T = TypeVar("T", bound=Plugin)
 EXPORT = "nav_core"
 
 
-class Declared(NamedTuple):
+class DeclaredPlugin(NamedTuple):
     """A class declared in a plugin XML file."""
 
     name: str
@@ -58,17 +58,17 @@ def create(interface: type[T], name: str) -> T:
     may be in the workspace. Raises `PluginError`, with similar names and the unreadable packages, for an unknown
     plugin, and for one that cannot be loaded.
     """
-    found = _found(interface, name)
+    found = _plugin_class(interface, name)
     try:
         return found()
     except Exception as error:
         raise PluginError(
-            f"the plugin {name} cannot be made: {type(error).__name__}: {error}; a plugin is made without arguments, "
-            "and learns the rest in initialize()"
+            f"the plugin {name} cannot be created: {type(error).__name__}: {error}; a plugin is created without "
+            "arguments, and is set up in initialize()"
         ) from error
 
 
-def _found(interface: type[T], name: str) -> type[T]:
+def _plugin_class(interface: type[T], name: str) -> type[T]:
     wanted = name.replace("::", "/")
     unread: list[str] = []
     declared = next((each for each in declared_plugins(wanted, unread) if each.name == wanted), None)
@@ -93,7 +93,7 @@ def short_name(name: str) -> str:
     return name.replace(":", "/").rpartition("/")[2]
 
 
-def declared_plugins(name: str, unread: list[str]) -> Iterator[Declared]:
+def declared_plugins(name: str, unread: list[str]) -> Iterator[DeclaredPlugin]:
     """Yield the plugins that workspace packages declare: first the package that the name begins with, then all others.
 
     Raises the errors of the first package; those of the others are added to `unread`.
@@ -117,7 +117,7 @@ def _is_ours(folder: Path) -> bool:
     return folder.is_relative_to(assets_dir())
 
 
-def _declared(package: Package) -> Iterator[Declared]:
+def _declared(package: Package) -> Iterator[DeclaredPlugin]:
     for export in package.exports:
         path = export.get("plugin")
         if export.tag != EXPORT or not path or _is_ours(package.path):
@@ -125,8 +125,8 @@ def _declared(package: Package) -> Iterator[Declared]:
         file = Path(path.replace("${prefix}", str(package.path)))
         if not file.is_file():
             raise PluginError(
-                f"the manifest of {package.name} exports the plugin description {file}, and there is no such file: "
-                f"write it, or mend the line <{EXPORT} plugin=.../> of {package.manifest}"
+                f"the manifest of {package.name} exports the plugin description {file}, which does not exist: "
+                f"create it, or correct the line <{EXPORT} plugin=.../> of {package.manifest}"
             )
         root = parse_file(file)
         libraries = [root] if root.tag == "library" else root.all("library")
@@ -135,10 +135,10 @@ def _declared(package: Package) -> Iterator[Declared]:
                 yield _class(each, library, package, file)
 
 
-def _class(element: Element, library: Element, package: Package, file: Path) -> Declared:
+def _class(element: Element, library: Element, package: Package, file: Path) -> DeclaredPlugin:
     kind = element.attribute("type")
     name = element.attributes.get("name") or kind
-    return Declared(
+    return DeclaredPlugin(
         name.replace("::", "/"),
         library.attribute("path"),
         short_name(kind.replace(".", "/")),
@@ -147,13 +147,13 @@ def _class(element: Element, library: Element, package: Package, file: Path) -> 
     )
 
 
-def _load(interface: type[T], declared: Declared) -> type[T]:
+def _load(interface: type[T], declared: DeclaredPlugin) -> type[T]:
     module = _module(declared)
     found = getattr(module, declared.type, None)
     if found is None:
         raise PluginError(
-            f"{declared.file} says that {declared.name} is the class {declared.type} of {declared.module}, and that "
-            f"module has none of this name"
+            f"{declared.file} declares {declared.name} as the class {declared.type} of {declared.module}, but that "
+            f"module has no class of this name"
         )
     if not (isinstance(found, type) and issubclass(found, interface)):
         raise PluginError(
@@ -163,18 +163,18 @@ def _load(interface: type[T], declared: Declared) -> type[T]:
     return found
 
 
-def _module(declared: Declared) -> Any:
+def _module(declared: DeclaredPlugin) -> Any:
     folder, name = declared.folder, declared.module
     if declared.is_compiled:
         raise PluginError(
-            f"{declared.file} names the library {name!r}: a library in C++ cannot be loaded here. Write the plugin in "
+            f"{declared.file} names the library {name!r}: C++ libraries cannot be loaded here. Write the plugin in "
             'Python, and name its module: <library path="my_pkg.planner">'
         )
     roots = [each for each in (folder / "src", folder) if (each / name.partition(".")[0]).exists()]
     roots += [each for each in (folder / "src", folder) if (each / f"{name}.py").is_file()]
     if not roots:
         raise PluginError(
-            f"{declared.file} names the module {name}, and there is none in {folder / 'src'} or {folder}"
+            f"{declared.file} names the module {name}, which is not in {folder / 'src'} or {folder}"
         )
     with _importing_from(roots[0], name.partition(".")[0]):
         try:

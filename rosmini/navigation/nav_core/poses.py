@@ -12,10 +12,10 @@ from rosmini.msgs import message_class
 
 from .failures import BadGoal
 
-LENGTH_SLACK = 0.1
+LENGTH_TOLERANCE = 0.1
 """Maximum deviation of a quaternion's squared length from 1, as in `move_base`."""
 
-UPRIGHT = 1e-3
+TILT_TOLERANCE = 1e-3
 """Maximum deviation of the rotated z axis from 1: `move_base` requires goals in the plane."""
 
 
@@ -53,11 +53,11 @@ def checked_goal(goal: Any) -> Pose:
         raise BadGoal("Quaternion has nans or infs... discarding as a navigation goal", quaternion=_shown(q))
     if not all(map(math.isfinite, (p.x, p.y, p.z))):
         raise BadGoal(
-            f"the goal's position is ({p.x}, {p.y}, {p.z}): it has to be finite numbers, in metres",
+            f"the goal's position is ({p.x}, {p.y}, {p.z}): it must be finite numbers, in metres",
             position=(p.x, p.y),
         )
     length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
-    if abs(length2 - 1.0) > LENGTH_SLACK:
+    if abs(length2 - 1.0) > LENGTH_TOLERANCE:
         hint = (
             " (a message whose orientation was never set has w 0: set orientation.w = 1)"
             if length2 == 0
@@ -68,7 +68,7 @@ def checked_goal(goal: Any) -> Pose:
             quaternion=_shown(q),
         )
     up = 1 - 2 * (q.x * q.x + q.y * q.y) / length2
-    if abs(up - 1) > UPRIGHT:
+    if abs(up - 1) > TILT_TOLERANCE:
         raise BadGoal(
             "Quaternion is invalid... for navigation the z-axis of the quaternion must be close to vertical: "
             f"this one tilts the robot by {math.degrees(math.acos(max(-1.0, min(1.0, up)))):.1f} degrees",

@@ -54,8 +54,8 @@ class HandSearch(Search):
         for cell in (*cost, *taken):
             if cell not in price or cell not in cost or (cell != start and cell not in parent):
                 raise RosminiError(
-                    f"the cell {cell} of a search by hand has to be in `price`, have a cost, and a parent if it is "
-                    f"not the start {start}"
+                    f"the cell {cell} of a search by hand must be in `price` and have a cost and, unless it "
+                    f"is the start {start}, a parent"
                 )
         self._taken, self._cost, self._parent = list(taken), cost, parent
         self._done = 0
@@ -77,7 +77,7 @@ class HandSearch(Search):
         while points[-1] != self.start:
             points.append(self._parent[points[-1]])
             if len(points) > len(self._cost):
-                raise RosminiError(f"the parents of a search by hand lead round in a ring, at {points[-1]}")
+                raise RosminiError(f"the parents of a search by hand form a loop, at {points[-1]}")
         return np.array(points[::-1], dtype=np.float64)
 
     def _expand(self, count: int) -> int:

@@ -24,14 +24,14 @@ from rosmini.core.geometry.machine_code import machine_code
 
 from .wave import HIGH
 
-PATIENCE = 16
+MAX_LEVEL_POINTS = 16
 """Number of points without a lower potential after which the path moves from cell to cell."""
 
 FULL, STUCK = -1, -2
 """Results of `descend` if `path` has no more room, and if no neighbouring cell is lower."""
 
 
-PLAIN, LAST, NONE_LOWER = range(3)
+NORMAL, LAST, NONE_LOWER = range(3)
 """Kinds of steps."""
 
 
@@ -54,12 +54,12 @@ def lowest_around(potential: NDArray[np.float32], n: int, width: int) -> int:
     best = n
     for i in range(9):
         m = n + (i // 3 - 1) * width + i % 3 - 1
-        if potential[m] < potential[best] and walls_beside(potential, n, m, width) < 2:
+        if potential[m] < potential[best] and unreached_beside(potential, n, m, width) < 2:
             best = m
     return best
 
 
-def walls_beside(potential: NDArray[np.float32], n: int, m: int, width: int) -> int:
+def unreached_beside(potential: NDArray[np.float32], n: int, m: int, width: int) -> int:
     """Return how many of the two cells beside a diagonal step from `n` to `m` are unreached; 0 for other steps."""
     row = 0
     if m - n > 1:
@@ -99,10 +99,10 @@ def down(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: floa
     return gx / norm, gy / norm
 
 
-def slide(
+def step_down(
     potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float
 ) -> tuple[int, int, float, float]:
-    """Move half a cell down from the offset (dx, dy) in `n`: return `PLAIN`, or `NONE_LOWER`, and the new position."""
+    """Move half a cell down from the offset (dx, dy) in `n`: return `NORMAL`, or `NONE_LOWER`, and the new position."""
     gx, gy = down(potential, n, width, dx, dy)
     to_x, to_y = dx + 0.5 * gx, dy + 0.5 * gy
     near = n + math.floor(to_x + 0.5) + math.floor(to_y + 0.5) * width
@@ -116,17 +116,19 @@ def slide(
         n, to_y = n + width, to_y - 1
     if to_y < -1:
         n, to_y = n - width, to_y + 1
-    return PLAIN, n, to_x, to_y
+    return NORMAL, n, to_x, to_y
 
 
-def hop(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float) -> tuple[int, int]:
+def step_to_lowest(
+    potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float
+) -> tuple[int, int]:
     """Move to the centre of the lowest neighbour, or first of this cell if an unreached cell is beside the step."""
     centred = dx == 0 and dy == 0
     n += math.floor(dx + 0.5) + math.floor(dy + 0.5) * width
     m = lowest_around(potential, n, width)
     if m == n and centred:
         return NONE_LOWER, n
-    return PLAIN, m if centred or walls_beside(potential, n, m, width) == 0 else n
+    return NORMAL, m if centred or unreached_beside(potential, n, m, width) == 0 else n
 
 
 def descend(
@@ -160,28 +162,28 @@ def descend(
     end = math.floor(end_y + 0.5) * width + math.floor(end_x + 0.5)
     # If the end lies between cells, two of them may be as far away as this.
     reach = 0.5 if end % width == end_x and end // width == end_y else 0.5 + 1e-6
-    least, since = HIGH, 0
-    kind = PLAIN
+    least, level_points = HIGH, 0
+    kind = NORMAL
     for k in range(path.shape[0] // 2 - 1):
         x, y = n % width + dx, n // width + dy
         path[2 * k], path[2 * k + 1] = x, y
         near = math.floor(y + 0.5) * width + math.floor(x + 0.5)
         close = abs(x - end_x) < reach and abs(y - end_y) < reach
-        if kind == LAST or (close and walls_beside(potential, near, end, width) == 0):
+        if kind == LAST or (close and unreached_beside(potential, near, end, width) == 0):
             # The last point replaces this one, unless the line to it might cross a cell that was not reached.
             keep = (x != end_x or y != end_y) and (k == 0 or not surrounded(potential, near, width))
             last = k + 1 if keep else k
             path[2 * last], path[2 * last + 1] = end_x, end_y
             return last + 1
         if potential[n] < least:
-            least, since = potential[n], 0
-        since += 1
+            least, level_points = potential[n], 0
+        level_points += 1
         back = k > 1 and path[2 * k - 4] == x and path[2 * k - 3] == y
-        if gradient != 0 and not back and since < PATIENCE and surrounded(potential, n, width):
-            kind, n, dx, dy = slide(potential, n, width, dx, dy)
-            if kind == PLAIN:
+        if gradient != 0 and not back and level_points < MAX_LEVEL_POINTS and surrounded(potential, n, width):
+            kind, n, dx, dy = step_down(potential, n, width, dx, dy)
+            if kind == NORMAL:
                 continue
-        kind, n = hop(potential, n, width, dx, dy)
+        kind, n = step_to_lowest(potential, n, width, dx, dy)
         dx, dy = 0.0, 0.0
         if kind == NONE_LOWER:
             # The end may lie between this cell and its neighbour if both have the same potential.
@@ -202,5 +204,7 @@ def compiled_descend() -> Callable[..., int]:
     number, real = types.int64, types.float64
     signature = number(types.float32[::1], number, real, real, real, real, number, types.float64[::1])
     return machine_code(
-        descend, signature, (slope, down, walls_beside, lowest_around, surrounded, slide, hop)
+        descend,
+        signature,
+        (slope, down, unreached_beside, lowest_around, surrounded, step_down, step_to_lowest),
     )

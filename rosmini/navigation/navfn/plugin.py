@@ -34,7 +34,7 @@ class NavfnParameters(Parameters):
     planner_window_x: float = parameter(0.0, "has no effect, as in ROS", unit="m")
     planner_window_y: float = parameter(0.0, "has no effect, as in ROS", unit="m")
     default_tolerance: float = parameter(
-        0.0, "so far from the goal, along each axis, a plan may end", unit="m"
+        0.0, "maximum distance along each axis from a plan's end to the goal", unit="m"
     )
     visualize_potential: bool = parameter(False, "whether to publish the potential as a cloud of points")
 

@@ -28,7 +28,7 @@ Point = tuple[float, float]
 Points = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-ALL = 1 << 62
+UNLIMITED = 1 << 62
 """A number greater than that of all cells."""
 
 
@@ -118,7 +118,7 @@ class Search(ABC):
         cells[~((around.min(axis=0) < self.potential) & self.reached)] = -1
         return cells
 
-    def expand(self, count: int = ALL) -> bool:
+    def expand(self, count: int = UNLIMITED) -> bool:
         """Expand up to `count` cells; return True once the search is finished."""
         if not self.finished and count > 0:
             result = self._expand(count)
@@ -148,7 +148,7 @@ class Search(ABC):
             room *= 4
         if found < 0:
             raise PlanningFailure(
-                f"a potential was found at the goal {_shown(goal)}, and it leads to no path from the start "
+                f"a potential was found at the goal {_shown(goal)}, but no path from the start "
                 f"{_shown(self.start)}. This shouldn't happen.",
                 goal=goal,
                 start=self.start,

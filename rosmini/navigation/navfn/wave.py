@@ -43,7 +43,7 @@ def interpolated(a: float, b: float, cost: float) -> float:
     return low + cost * (-0.2301 * share * share + 0.5307 * share + 0.7040)
 
 
-def wait(cell: np.uint64, at: int, blocks: NDArray[np.int32], pending: NDArray[np.uint8]) -> int:
+def enqueue(cell: np.uint64, at: int, blocks: NDArray[np.int32], pending: NDArray[np.uint8]) -> int:
     """Append a cell to the waiting cells at this index of the blocks; return the next index."""
     pending[cell] = 1
     blocks[at] = cell
@@ -124,13 +124,13 @@ def wave(
             first = next_base + after if rank < threshold else over_base + over
             put = first
             if left > rank and pending[nl] == 0 and left > rank + margin * table[costs[nl]]:
-                put = wait(nl, put, blocks, pending)
+                put = enqueue(nl, put, blocks, pending)
             if right > rank and pending[nr] == 0 and right > rank + margin * table[costs[nr]]:
-                put = wait(nr, put, blocks, pending)
+                put = enqueue(nr, put, blocks, pending)
             if below > rank and pending[nd] == 0 and below > rank + margin * table[costs[nd]]:
-                put = wait(nd, put, blocks, pending)
+                put = enqueue(nd, put, blocks, pending)
             if above > rank and pending[nu] == 0 and above > rank + margin * table[costs[nu]]:
-                put = wait(nu, put, blocks, pending)
+                put = enqueue(nu, put, blocks, pending)
             if rank < threshold:
                 after += put - first
             else:
@@ -165,4 +165,4 @@ def compiled_wave() -> Callable[..., int]:
     bytes_, floats = types.uint8[::1], types.float32[::1]
     arrays = (bytes_, floats, floats, bytes_, types.int32[::1], types.int64[::1], types.float64[::1])
     signature = number(*arrays, number, number, number, real, number)
-    return machine_code(wave, signature, (interpolated, wait))
+    return machine_code(wave, signature, (interpolated, enqueue))

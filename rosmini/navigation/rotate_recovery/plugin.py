@@ -1,7 +1,7 @@
 """`rotate_recovery/RotateRecovery` (http://wiki.ros.org/rotate_recovery).
 
 As in ROS its limits are those of the Trajectory Rollout planner, in `~TrajectoryPlannerROS/`, whichever planner is
-used. The original never ends if the robot cannot turn; this one gives up after `PATIENCE` times the duration of the
+used. The original never ends if the robot cannot turn; this one gives up after `TIME_FACTOR` times the duration of the
 turn at the slowest speed. It also commands a stop at the end.
 """
 
@@ -19,7 +19,7 @@ from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, plan
 
 from .rotation import FullTurn, first_collision, turn_speed
 
-PATIENCE = 2.0
+TIME_FACTOR = 2.0
 PLANNER = "~TrajectoryPlannerROS/"
 LIMITS = (
     ("acc_lim_theta", "acc_lim_th", 3.2),
@@ -35,9 +35,9 @@ class RotateParameters(Parameters):
     """The parameters of a `rotate_recovery/RotateRecovery`, in `~NAME/`."""
 
     sim_granularity: float = parameter(
-        0.017, "how far apart the headings are that it checks", unit="rad", minimum=1e-4
+        0.017, "angle between the headings that are checked", unit="rad", minimum=1e-4
     )
-    frequency: float = parameter(20.0, "how often it commands", unit="Hz", minimum=0.1)
+    frequency: float = parameter(20.0, "how often commands are sent", unit="Hz", minimum=0.1)
 
 
 class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
@@ -66,13 +66,13 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
         rate = self.node.rate(self.parameters.frequency)
         heading = self._pose()[2]
         turn = FullTurn(heading, self.tolerance)
-        end = self.node.clock.now_ns() + int(PATIENCE * 1e9 * 2 * math.pi / self.slowest)
+        end = self.node.clock.now_ns() + int(TIME_FACTOR * 1e9 * 2 * math.pi / self.slowest)
         try:
-            while not turn.is_done and self._turn_on(turn):
+            while not turn.is_done and self._continue_turn(turn):
                 if self.node.clock.now_ns() > end:
                     self.node.logerr(
-                        "Rotate recovery gives up: the robot was told to turn, and has not turned once around in "
-                        f"{PATIENCE * 2 * math.pi / self.slowest:.0f} s"
+                        "Rotate recovery gives up: the robot has not completed the commanded turn in "
+                        f"{TIME_FACTOR * 2 * math.pi / self.slowest:.0f} s"
                     )
                     return
                 rate.sleep()
@@ -84,14 +84,14 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
     def _pose(self) -> tuple[float, float, float]:
         return planar_pose(self.local_costmap.robot_pose())
 
-    def _turn_on(self, turn: FullTurn) -> bool:
+    def _continue_turn(self, turn: FullTurn) -> bool:
         """Command the next part of the rotation; return False if it would cause a collision."""
         x, y, heading = self._pose()
-        left = turn.left(heading)
+        remaining = turn.remaining(heading)
         if turn.is_done:
             return True
         cost = partial(self._cost, x, y)
-        collision = first_collision(heading, left, self.parameters.sim_granularity, cost)
+        collision = first_collision(heading, remaining, self.parameters.sim_granularity, cost)
         if collision is not None:
             self.node.logerr(
                 "Rotate recovery can't rotate in place because there is a potential collision. Cost: "
@@ -99,7 +99,7 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
             )
             return False
         command = self._twist()
-        command.angular.z = turn_speed(left, self.acceleration, self.slowest, self.fastest)
+        command.angular.z = turn_speed(remaining, self.acceleration, self.slowest, self.fastest)
         self._commands.publish(command)
         return True
 

@@ -124,7 +124,7 @@ def follow(one: Drive, p: AmclParameters, seed: int, *, lost: bool = False) -> T
     random = np.random.default_rng([seed, 19])
     start = one.truth[0] + random.normal(0.0, 0.1, 3)
     if lost:
-        localizer.globally()
+        localizer.initialize_globally()
     else:
         localizer.initialize((float(start[0]), float(start[1]), float(start[2])), SPREAD)
     correction: Pose | None = None

@@ -294,7 +294,7 @@ def memory(particles: int, side: int) -> float:
     maps = SharedMaps(particles, 0.05)
     maps.cover(0.0, 0.0, side * 0.05, side * 0.05)
     blocks = maps.tables[0].size
-    maps._enlarge(blocks)
+    maps._add_patches(blocks)
     maps.tables[:] = np.arange(1, blocks + 1, dtype=np.int32).reshape(maps.tables.shape[1:])
     maps.choose(np.arange(particles))
     middle = side * 0.05 / 2

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError
-from rosmini.navigation.amcl.filter import ParticleFilter, cells, clustered, packed, summed
+from rosmini.navigation.amcl.filter import ParticleFilter, cell_numbers, cells, cluster_labels, cluster_of
 
 
 def a_filter(fewest=10, most=2000, **options):
@@ -149,7 +149,7 @@ def test_a_cluster_goes_on_where_the_heading_wraps_around():
 def test_clusters_are_cells_that_touch(seed, count, size):
     rng = np.random.default_rng(seed)
     keys = cells(rng.uniform(-size, size, (count, 3)) % (10.0, 10.0, math.tau))
-    labels = clustered(keys)
+    labels = cluster_labels(keys)
     away = abs(keys[:, None] - keys[None])
     away[..., 2] = np.minimum(away[..., 2], 36 - away[..., 2])
     reach = (away <= 1).all(axis=2)
@@ -157,11 +157,11 @@ def test_clusters_are_cells_that_touch(seed, count, size):
         reach = reach @ reach
     assert (reach == (labels[:, None] == labels[None])).all()
     assert set(labels.tolist()) == set(range(labels.max() + 1))
-    assert len(np.unique(packed(keys))) == len(np.unique(keys, axis=0))
+    assert len(np.unique(cell_numbers(keys))) == len(np.unique(keys, axis=0))
 
 
 def test_the_mean_of_headings_is_circular():
-    found = summed(np.array([(0.0, 0.0, 3.1), (2.0, 0.0, -3.1)]), np.array([0.5, 0.5]))
+    found = cluster_of(np.array([(0.0, 0.0, 3.1), (2.0, 0.0, -3.1)]), np.array([0.5, 0.5]))
     assert abs(found.mean[2]) == pytest.approx(math.pi)
     assert found.mean[0] == 1.0
     assert found.covariance[0, 0] == 1.0

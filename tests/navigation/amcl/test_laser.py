@@ -124,5 +124,5 @@ def test_about_as_many_beams_as_asked_for(count, beams, expected):
 
 
 def test_a_model_that_is_none(field):
-    with pytest.raises(RosminiError, match="no laser model 'likelihood'"):
+    with pytest.raises(RosminiError, match="unknown laser model 'likelihood'"):
         LaserModel("likelihood").log_likelihoods(field, np.zeros((1, 3)), scan_from(field, (1.0, 1.0, 0.0)))

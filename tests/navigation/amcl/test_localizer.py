@@ -92,7 +92,7 @@ def test_it_follows_a_robot(kind):
 def test_a_robot_that_is_anywhere_is_found():
     found = localizer()
     found.configure(replace(found.parameters, max_particles=10_000))
-    found.globally()
+    found.initialize_globally()
     assert len(found.filter.particles) == 10_000
     pose, odometry = (1.0, 1.2, 0.0), (0.0, 0.0, 0.0)
     for step in range(25):
@@ -115,7 +115,7 @@ def test_without_a_map():
     found = Localizer(AmclParameters(), np.random.default_rng(0))
     assert found.update("scan", Scan(np.ones(2), np.zeros(2), 3.5), (0.0, 0.0, 0.0)) is None
     with pytest.raises(RosminiError, match="there is no map yet"):
-        found.globally()
+        found.initialize_globally()
 
 
 def test_a_map_without_a_free_cell_leaves_the_one_before():

@@ -81,5 +81,5 @@ def test_without_errors_particles_do_as_the_odometry(start, before, after, model
 
 
 def test_a_model_that_is_none():
-    with pytest.raises(RosminiError, match=r"no odometry model 'dif' but diff, omni, diff-corrected.*diff"):
+    with pytest.raises(RosminiError, match=r"unknown odometry model 'dif'.*diff, omni, diff-corrected"):
         moved(np.zeros((1, 3)), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), ALPHAS, np.zeros((1, 3)), "dif")

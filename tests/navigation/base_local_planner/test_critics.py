@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from rosmini.navigation.base_local_planner.critics import Oscillation, prefer_forward, together, twirling
+from rosmini.navigation.base_local_planner.critics import (
+    Oscillation,
+    combined_scores,
+    prefer_forward,
+    twirling,
+)
 
 
 def test_who_has_turned_left_and_right_may_not_turn_left_again():
@@ -31,7 +36,7 @@ def test_turns_do_not_count_while_it_drives_on():
 
 def test_the_first_critic_that_rejects_decides_and_one_without_weight_is_not_asked():
     raw = np.array([[0.0, 1, 2], [-5, -1, 2], [0, -3, -2], [0, 0, -2]])
-    totals, rejected_by = together(raw, np.array([1.0, 2.0, 0.0]))
+    totals, rejected_by = combined_scores(raw, np.array([1.0, 2.0, 0.0]))
     assert totals.tolist() == [2, -5, -3, 0]
     assert rejected_by.tolist() == [-1, 0, 1, -1]
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.sparse import lil_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from rosmini.navigation.base_local_planner.map_grid import finer, goal_grid, path_grid, plan_cells
+from rosmini.navigation.base_local_planner.map_grid import densified, goal_grid, path_grid, plan_cells
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
 
 
@@ -54,7 +54,7 @@ def test_the_wavefront_is_the_shortest_way_round_obstacles(seed):
 
 
 def test_a_plan_of_few_points_is_filled_up_so_that_no_cell_is_left_out():
-    points = finer(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.3]]), 0.25)
+    points = densified(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.3]]), 0.25)
     assert points.tolist() == [[0, 0], [0.25, 0], [0.5, 0], [0.75, 0], [1, 0], [1, 0.15], [1, 0.3]]
 
 

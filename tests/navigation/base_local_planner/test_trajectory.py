@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.navigation.base_local_planner.trajectory import Samples, joined
+from rosmini.navigation.base_local_planner.trajectory import Samples, concatenated
 
 
 @pytest.fixture
@@ -49,6 +49,6 @@ def test_counts_are_by_critic(samples):
 
 
 def test_samples_of_two_phases_become_one(samples):
-    both = joined(samples, samples, best=3)
+    both = concatenated(samples, samples, best=3)
     assert (len(both), both.best, both.refused) == (6, 3, 4)
     assert both.counts()["obstacle"] == 2

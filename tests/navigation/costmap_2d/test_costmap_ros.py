@@ -323,7 +323,7 @@ def test_sides_are_whole_metres_as_in_ros(stage, capfd):
         plugins=layers("obstacles"), global_frame="odom", rolling_window=True, width=5.5, height=3.0
     )
     assert (costmap.grid.width, costmap.grid.height) == (120, 60)
-    assert "sides are whole metres, 6 m is taken" in log(capfd)
+    assert "whole metres, using 6 m" in log(capfd)
 
 
 def test_what_changes_while_it_runs(stage):

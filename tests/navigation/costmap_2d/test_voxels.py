@@ -13,9 +13,9 @@ from rosmini.navigation.costmap_2d import voxels
 from rosmini.navigation.costmap_2d.voxels import (
     UNKNOWN,
     clear_voxels,
-    heights_of,
     mark_voxels,
     marked_count,
+    marked_heights,
 )
 
 FRAME = np.array((0.0, 0.0, 0.0, 0.1, 0.2, 2.0))
@@ -36,7 +36,7 @@ def clear(columns, costs, sensor, ends, reach=100, marks=0, unknown=15, kernel=c
 def test_a_ray_clears_its_voxels_and_not_those_above():
     columns, costs = grid()
     clear(columns, costs, (0.05, 0.05, 0.1), [(1.55, 0.05, 0.1)])
-    assert [heights_of(int(column), 10) for column in columns[0, :16]] == (
+    assert [marked_heights(int(column), 10) for column in columns[0, :16]] == (
         [[1, 2, 3, 4, 5, 6, 7, 8, 9]] * 14 + [list(range(10))] * 2
     ), "two cells before its end a ray clears no more"
     assert (costs == 254).all(), "a column with marked voxels stays an obstacle"
@@ -68,7 +68,7 @@ def test_what_is_marked_is_counted(marks):
         mark_voxels(columns, mx, np.zeros_like(mx), mz)
     for x in range(4):
         heights = sorted({z for at, z in marks if at == x})
-        assert heights_of(int(columns[0, x]), 16) == heights
+        assert marked_heights(int(columns[0, x]), 16) == heights
         assert marked_count(columns)[0, x] == len(heights)
 
 

@@ -164,7 +164,7 @@ def test_names_of_earlier_releases_are_told_and_ignored(made, capsys):
         in warned
     )
     assert "penalize_negative_x is not read by this planner" in warned
-    assert "vtheta_samples is not read by this planner: it is one of TrajectoryPlannerROS" in warned
+    assert "vtheta_samples is not read by this planner: it belongs to TrajectoryPlannerROS" in warned
     assert bench.planner.parameters.max_vel_trans == 0.55
 
 

@@ -97,9 +97,7 @@ def test_what_the_base_gives_up_is_tried_again_and_then_left_out(stage):
     left, right = dict.fromkeys(stage.goals)
     assert stage.goals == [left, right, left, right]
     text = exploration.client.get_goal_status_text()
-    assert text.startswith(
-        "Failed exploration: the robot does not get away from (1.05, 1.05); 2 were given up, at ("
-    )
+    assert text.startswith("Failed exploration: the robot is stuck at (1.05, 1.05); 2 were given up, at (")
     assert stage.said("Failed to move to (")
     assert not stage.said("Finished exploring room"), "a robot that got nowhere has not finished"
     stage.answer = "set_succeeded"

@@ -130,7 +130,7 @@ def test_known_space_is_explored_again(stage):
 @pytest.mark.parametrize(
     ("points", "frame", "text"),
     [
-        ([(1, 1), (2, 2)], "map", "a polygon of 2 vertices bounds no area"),
+        ([(1, 1), (2, 2)], "map", "a polygon of 2 vertices has no area"),
         ([(1, 1), (2, 2), (2, 1), (1, 2)], "map", "edges after vertices 1 and 3"),
         (
             [(50, 50), (51, 50), (51, 51)],

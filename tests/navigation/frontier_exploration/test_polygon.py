@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.navigation.frontier_exploration.polygon import Selection, Step, fault, has_inside
+from rosmini.navigation.frontier_exploration.polygon import Selection, Step, contains, polygon_error
 
 SQUARE = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
 
@@ -62,7 +62,7 @@ def test_another_frame():
 
 
 def test_what_bounds_an_area():
-    assert fault(np.array(SQUARE)) is None
-    assert "no finite number" in fault(np.array([*SQUARE, (np.nan, 1.0)]))
-    assert has_inside(np.array(SQUARE), (1.0, 3.9))
-    assert not has_inside(np.array(SQUARE), (1.0, 4.1))
+    assert polygon_error(np.array(SQUARE)) is None
+    assert "no finite number" in polygon_error(np.array([*SQUARE, (np.nan, 1.0)]))
+    assert contains(np.array(SQUARE), (1.0, 3.9))
+    assert not contains(np.array(SQUARE), (1.0, 4.1))

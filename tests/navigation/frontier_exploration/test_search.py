@@ -161,7 +161,7 @@ def test_given_up_means_next_to_it_too():
     assert once.count((1.24, 1.76), 0.05) == 1
     assert not once.has((1.24, 1.76), 0.05), "it is tried again"
     given_up = Blacklist([(1.0, 2.0)] * 2)
-    assert given_up.has((1.24, 1.76), 0.05)
-    assert not given_up.has((1.26, 2.0), 0.05)
-    assert not given_up.has((1.0, 2.26), 0.05)
+    assert given_up.is_given_up((1.24, 1.76), 0.05)
+    assert not given_up.is_given_up((1.26, 2.0), 0.05)
+    assert not given_up.is_given_up((1.0, 2.26), 0.05)
     assert not Blacklist().has((0.0, 0.0), 0.05)

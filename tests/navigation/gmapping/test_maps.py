@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.navigation.gmapping.maps import NONE, PATCH_BYTES, SIDE, Scan, SharedMaps, register
+from rosmini.navigation.gmapping.maps import EMPTY_PATCH, PATCH_BYTES, SIDE, Scan, SharedMaps, register
 
 AHEAD = np.zeros(1)
 
@@ -51,7 +51,7 @@ def test_a_cell_has_the_mean_of_the_ends_in_it():
     ends = [1.01, 1.03, 1.05]
     for end in ends:
         write(maps, (0.0, 0.05, 0.0), [end])
-    patch = maps.tables[0][tuple(np.argwhere(maps.tables[0] != NONE)[0])]
+    patch = maps.tables[0][tuple(np.argwhere(maps.tables[0] != EMPTY_PATCH)[0])]
     full = np.argwhere(maps.hits > 0)
     assert len(full) == 1
     found = maps.means[tuple(full[0])]
@@ -72,7 +72,7 @@ def test_every_beam_ends_where_it_points(seed):
         end = x + length * math.cos(heading + bearing), y + length * math.sin(heading + bearing)
         assert at(maps, 0, *end) > 0
     other = SharedMaps(1, 0.05)
-    other.low, other.tables = maps.low, np.full_like(maps.tables, NONE)
+    other.low, other.tables = maps.low, np.full_like(maps.tables, EMPTY_PATCH)
     other._enlarge(len(maps.hits) - 1)
     scan = Scan(ranges, bearings, 10.0, np.zeros(other.tables.shape[1:], dtype=np.uint8))
     assert register(other.pool, scan, np.array([(x, y, heading)]), np.arange(1, len(other.hits)), 0) == 1

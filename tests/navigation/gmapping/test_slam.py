@@ -105,7 +105,7 @@ def test_paths_are_a_tree():
         slam.process(square(0.2 * x, 0.0, 0.0), BEARINGS, (x, 0.0, 0.0), x)
     slam.paths = [slam.paths[0], slam.paths[0], slam.paths[2]]
     slam.paths = [type(slam.paths[0])((3.0, float(n), 0.0), 3.0, one) for n, one in enumerate(slam.paths)]
-    assert slam.forefathers().tolist() == [2, 2, 2, 3]
+    assert slam.surviving_counts().tolist() == [2, 2, 2, 3]
     lines = slam.branches()
     assert [len(line) for line in lines] == [4, 2, 4], "the second leaves the first at its end"
     assert lines[1][0] == pytest.approx(lines[0][2])

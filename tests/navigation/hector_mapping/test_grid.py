@@ -86,5 +86,5 @@ def test_odds_over_a_long_time():
 
 @pytest.mark.parametrize("factor", [0.0, 1.0, -0.2, math.nan])
 def test_factors_that_are_no_probability(factor):
-    with pytest.raises(RosminiError, match="has to be a probability"):
+    with pytest.raises(RosminiError, match="must be a probability"):
         log_odds(factor)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from rosmini.core.geometry.poses import transform_points
 from rosmini.navigation.hector_mapping.grid import OccupancyGrid
-from rosmini.navigation.hector_mapping.matching import NOTHING_KNOWN, climb, match, surface
+from rosmini.navigation.hector_mapping.matching import UNKNOWN_VARIANCE, climb, match, surface
 from rosmini.navigation.kernels import kernel
 
 BEARINGS = np.arange(180) * math.tau / 180
@@ -133,5 +133,5 @@ def test_where_nothing_holds(grid):
     assert np.isfinite(found.pose).all()
     nowhere = match(grid, wall, (40.0, 0.0, 0.0), 5)
     assert (nowhere.pose, nowhere.steps) == ((40.0, 0.0, 0.0), 0)
-    assert np.diag(nowhere.covariance) == pytest.approx([NOTHING_KNOWN] * 3)
+    assert np.diag(nowhere.covariance) == pytest.approx([UNKNOWN_VARIANCE] * 3)
     assert match(grid, np.empty((0, 2)), (0.1, 0.1, 0.0), 5).pose == (0.1, 0.1, 0.0)

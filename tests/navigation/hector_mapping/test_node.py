@@ -236,10 +236,10 @@ def test_scans_that_cannot_be(graph):
     assert laser.said("angle_increment nan")
     graph.run(6.0)
     laser.scan([1.0] * 4, header=message_class("std_msgs/Header")(frame_id="nowhere", stamp=laser.node.now()))
-    assert laser.said("a scan of nowhere is left out")
+    assert laser.said("a scan of nowhere is ignored")
     graph.run(6.0)
     laser.scan([math.inf, math.nan, 0.0, -1.0])
-    assert laser.said("no beam of laser ended where it is looked at")
+    assert laser.said("no beam of laser ended within the limits")
     assert laser.mapper.slam.updates == 0
     laser.see(0.0, 0.0)
     half = np.hypot(*room((0.05, 0.0, 0.0)).T)[::2]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rosmini.core.tf.rigid import IDENTITY, from_rpy
-from rosmini.navigation.hector_mapping.scans import Limits, plain_ends, scan_ends
+from rosmini.navigation.hector_mapping.scans import Limits, ends_in_laser_frame, scan_ends
 
 
 def test_ranges_that_are_looked_at():
@@ -16,7 +16,7 @@ def test_ranges_that_are_looked_at():
     ends = scan_ends(ranges, np.zeros(9), (0.12, 3.5), IDENTITY, Limits())
     assert ends.tolist() == [[0.5, 0.0], [3.4, 0.0]]
     assert scan_ends(ranges, np.zeros(9), (0.12, 99.0), IDENTITY, Limits(0.0, 99.0))[-1, 0] == 3.5, "30 m"
-    assert plain_ends(ranges, np.zeros(9), (0.12, 3.5))[:, 0].tolist() == [0.3, 0.5]
+    assert ends_in_laser_frame(ranges, np.zeros(9), (0.12, 3.5))[:, 0].tolist() == [0.3, 0.5]
 
 
 def test_what_is_near_behind_is_the_robot_itself():

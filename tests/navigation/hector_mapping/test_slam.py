@@ -81,9 +81,9 @@ def test_a_reset_forgets():
 @pytest.mark.parametrize(
     ("changes", "text"),
     [
-        ({"map_resolution": 0.0}, "all have to be above 0"),
+        ({"map_resolution": 0.0}, "all must be greater than 0"),
         ({"map_multi_res_levels": 9}, "cannot be halved 8 times"),
-        ({"update_factor_free": 1.0}, "has to be a probability"),
+        ({"update_factor_free": 1.0}, "must be a probability"),
     ],
 )
 def test_parameters_that_make_no_map(changes, text):

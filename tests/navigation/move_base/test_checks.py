@@ -38,5 +38,5 @@ def test_namespaces_that_nobody_reads():
         node.set_param("~", {"global_costmp": {"width": 3}, "global_costmap": {}, "mine": {}, "rate": 1})
         (text,) = unread_namespaces(node, ["global_costmap", "local_costmap"])
     assert text.startswith(
-        "nobody reads the parameters in /move_base/global_costmp; did you mean global_costmap"
+        "nothing reads the parameters in /move_base/global_costmp; did you mean global_costmap"
     )

@@ -5,7 +5,7 @@ import io
 import pytest
 
 from rosmini.core.graph import Graph
-from rosmini.navigation.move_base.parts import RECOVERIES, STATES, TRANSFORMS, Link, inside
+from rosmini.navigation.move_base.parts import RECOVERIES, STATES, TRANSFORMS, Link, structure_of
 from rosmini.navigation.move_base.plugins import GLOBAL
 from rosmini.navigation.nav_core import BaseGlobalPlanner
 from rosmini.ros.launch import roslaunch
@@ -32,12 +32,12 @@ def move_base():
 
 
 def parts(move_base):
-    return {part.name: part for part in inside(move_base).parts}
+    return {part.name: part for part in structure_of(move_base).parts}
 
 
 def test_layers_and_planners_say_what_they_hear(move_base):
     found = parts(move_base)
-    assert {name: part.hears for name, part in found.items()} == {
+    assert {name: part.subscribes for name, part in found.items()} == {
         STATES: {"/move_base/goal", "/move_base_simple/goal"},
         TRANSFORMS: {"/tf", "/tf_static"},
         "global_costmap": {"/map", "/scan"},
@@ -46,9 +46,9 @@ def test_layers_and_planners_say_what_they_hear(move_base):
         "local planner": {"/odom"},
         RECOVERIES: set(),
     }
-    heard = frozenset().union(*(part.hears for part in found.values()))
+    heard = frozenset().union(*(part.subscribes for part in found.values()))
     assert heard <= set(move_base.node.subscriptions)
-    assert {name for name, part in found.items() if part.says == {"/cmd_vel"}} == {
+    assert {name for name, part in found.items() if part.publishes == {"/cmd_vel"}} == {
         "local planner",
         RECOVERIES,
     }
@@ -67,20 +67,20 @@ def test_the_lines_name_what_is_loaded(move_base):
 
 def test_another_planner_takes_the_place_of_the_old_one(move_base):
     costs = Link("global_costmap", "global planner", "costs")
-    assert costs in inside(move_base).links
+    assert costs in structure_of(move_base).links
     move_base.planners.load(GLOBAL, "test_parts/Blind")
     try:
         assert parts(move_base)["global planner"].lines[1] == "test_parts/Blind"
-        assert costs not in inside(move_base).links
+        assert costs not in structure_of(move_base).links
     finally:
         move_base.planners.load(GLOBAL, "navfn/NavfnROS")
 
 
 def test_recoveries_are_there_if_there_are_any(move_base, monkeypatch):
-    links = set(inside(move_base).links)
+    links = set(structure_of(move_base).links)
     assert {Link(RECOVERIES, each, "clear") for each in ("global_costmap", "local_costmap")} < links
     turns = [each for each in move_base.recovery_behaviors if each.name == "rotate_recovery"]
     monkeypatch.setattr(move_base, "recovery_behaviors", turns)
-    assert not [link for link in inside(move_base).links if link.what == "clear"]
+    assert not [link for link in structure_of(move_base).links if link.label == "clear"]
     monkeypatch.setattr(move_base, "recovery_behaviors", [])
     assert RECOVERIES not in parts(move_base)

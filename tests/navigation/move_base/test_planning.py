@@ -55,7 +55,7 @@ class Rig:
 
     def go(self, goal):
         self.lane.goal = goal
-        self.machine.begin(self.node.now().to_sec())
+        self.machine.start_goal(self.node.now().to_sec())
         self.lane.wake()
 
 
@@ -74,7 +74,7 @@ def test_with_one_it_goes_on(node):
     rig.go("A")
     node.graph.run(1.2)
     assert [when for when, _ in rig.goals] == [0.01, 0.51, 1.01]
-    rig.machine.end(2.0)
+    rig.machine.end_goal(2.0)
     node.graph.run(3.0)
     assert len(rig.goals) == 3
 

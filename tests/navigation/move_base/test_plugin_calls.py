@@ -86,19 +86,19 @@ def test_what_it_raises_is_said_with_its_place(node):
 def test_a_loop_without_end_is_ended(node):
     error = asked(node, Mine(node).spins, budget=0.2)
     assert isinstance(error, PluginFault)
-    assert "has not returned after 200,000 turns of its loops" in str(error)
+    assert "has not returned after 200,000 loop iterations" in str(error)
     assert sys.gettrace() is None
 
 
 @traced
 def test_so_is_a_loop_of_calls(node):
-    assert "turns of its loops" in str(asked(node, Mine(node).recurses, budget=0.2))
+    assert "loop iterations" in str(asked(node, Mine(node).recurses, budget=0.2))
 
 
 def test_it_may_block_within_its_budget(node):
     assert asked(node, Mine(node).sleeps, 1.5) == "awake"
     error = asked(node, Mine(node).sleeps, 5.0)
-    assert "has not returned for 2 s: it was waiting for time to pass. It was ended" in str(error)
+    assert "did not return within 2 s, waiting for time to pass" in str(error)
 
 
 def test_time_that_passes_is_the_graphs(node):

@@ -1,12 +1,12 @@
 import pytest
 
-from rosmini.navigation.move_base.recoveries import BadList, checked
+from rosmini.navigation.move_base.recoveries import InvalidList, parsed_entries
 
 
 def test_a_good_list_keeps_its_order():
     entries = [{"name": "b", "type": "p/B"}, {"name": "a", "type": "p/A"}]
-    assert checked(entries) == [("b", "p/B"), ("a", "p/A")]
-    assert checked([]) == []
+    assert parsed_entries(entries) == [("b", "p/B"), ("a", "p/A")]
+    assert parsed_entries([]) == []
 
 
 @pytest.mark.parametrize(
@@ -19,5 +19,5 @@ def test_a_good_list_keeps_its_order():
     ],
 )
 def test_a_bad_one_says_why(entries, message):
-    with pytest.raises(BadList, match=message):
-        checked(entries)
+    with pytest.raises(InvalidList, match=message):
+        parsed_entries(entries)

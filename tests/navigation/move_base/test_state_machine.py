@@ -19,7 +19,7 @@ from rosmini.navigation.move_base.state_machine import (
 
 def machine(recoveries=2, **limits):
     made = StateMachine(Limits(**limits), recoveries)
-    made.begin(0.0)
+    made.start_goal(0.0)
     return made
 
 
@@ -31,7 +31,7 @@ def test_from_goal_to_goal():
     it.plan_taken()
     assert it.step() == Follow()
     it.command_found(0.1)
-    it.end(9.0)
+    it.end_goal(9.0)
     assert it.state is State.PLANNING and not it.wants_plan
     assert [(each.event, each.after) for each in it.history] == [
         (Event.PLAN_FOUND, State.CONTROLLING),
@@ -101,28 +101,28 @@ def test_no_command_plans_again_until_patience_ends():
 
 def test_oscillation():
     it = machine(oscillation_timeout=10.0, oscillation_distance=0.5, recoveries=1)
-    it.at(0.0, 1.0, 1.0)
+    it.robot_at(0.0, 1.0, 1.0)
     it.plan_found(0.1)
-    it.at(5.0, 1.4, 1.0)
-    assert not it.oscillates(10.0)
-    assert it.oscillates(10.1)
+    it.robot_at(5.0, 1.4, 1.0)
+    assert not it.check_oscillation(10.0)
+    assert it.check_oscillation(10.1)
     assert it.step() == Recover(0)
     it.recovered(11.0)
     assert it.recovery_index == 1
-    it.at(12.0, 1.6, 1.0)
+    it.robot_at(12.0, 1.6, 1.0)
     assert it.recovery_index == 0, "it got on"
     it.plan_found(12.0)
-    assert it.oscillates(22.1)
+    assert it.check_oscillation(22.1)
     it.recovered(22.2)
     it.plan_found(22.3)
-    assert it.oscillates(32.3)
+    assert it.check_oscillation(32.3)
     assert it.step().text == Trigger.OSCILLATION.value
 
 
 def test_without_a_timeout_nothing_oscillates():
     it = machine()
     it.plan_found(0.1)
-    assert not it.oscillates(1e6)
+    assert not it.check_oscillation(1e6)
 
 
 def test_disabled_recoveries_abort_at_once():
@@ -139,7 +139,7 @@ def test_a_new_goal_starts_everything_again():
     assert it.step() == Plan()
     it.plan_failed(2.1)
     assert it.step() == Recover(1)
-    it.begin(3.0)
+    it.start_goal(3.0)
     assert (it.state, it.recovery_index, it.retries, it.wants_plan) == (State.PLANNING, 0, 0, True)
 
 
@@ -165,19 +165,19 @@ def test_whatever_happens_the_changes_are_those_of_the_table(events, frequency, 
         elif what == "no plan":
             it.plan_failed(now)
         elif what == "goal":
-            it.begin(now)
+            it.start_goal(now)
         elif what == "end":
-            it.end(now)
+            it.end_goal(now)
         elif what == "cycle":
             decision = it.step()
             if isinstance(decision, Recover):
                 assert decision.number < recoveries
                 it.recovered(now)
             elif isinstance(decision, Abort):
-                it.end(now)
+                it.end_goal(now)
         elif it.state is State.CONTROLLING:
             if what == "oscillates":
-                it.oscillates(now)
+                it.check_oscillation(now)
             elif what == "command":
                 it.command_found(now)
             else:

@@ -86,7 +86,7 @@ def write(package, xml=XML, code=CODE):
 @pytest.mark.parametrize(
     ("xml", "code", "message"),
     [
-        (XML, CODE.replace("class MyPlanner", "class Mine"), "is the class MyPlanner of my_pkg.planner"),
+        (XML, CODE.replace("class MyPlanner", "class Mine"), "as the class MyPlanner of my_pkg.planner"),
         (
             XML,
             "class MyPlanner: pass",

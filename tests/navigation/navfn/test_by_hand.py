@@ -62,5 +62,5 @@ def test_what_does_not_fit_is_refused():
     with pytest.raises(RosminiError, match=r"the cell \(0, 1\)"):
         made(parent={})
     ring = PARENT | {(0, 1): (1, 1)}
-    with pytest.raises(RosminiError, match="lead round in a ring"):
+    with pytest.raises(RosminiError, match="form a loop"):
         made(parent=ring, taken=TAKEN[::-1]).path()

@@ -12,8 +12,8 @@ def test_a_turn_is_done_when_the_robot_has_turned_once_around(start, step):
     turn = FullTurn(start, 0.1)
     turned = 0.0
     while not turn.is_done:
-        left = turn.left(start + turned)
-        assert left == pytest.approx(2 * math.pi - turned, abs=0.15 + 1e-9) or turned < math.pi
+        remaining = turn.remaining(start + turned)
+        assert remaining == pytest.approx(2 * math.pi - turned, abs=0.15 + 1e-9) or turned < math.pi
         turned += step
         assert turned < 2 * math.pi + 1
     assert turned - step == pytest.approx(2 * math.pi, abs=0.1 + 1e-9)
@@ -30,6 +30,6 @@ def test_nothing_left_is_free():
     assert first_collision(0.0, 0.0, 0.017, lambda _: -1.0) is None
 
 
-@pytest.mark.parametrize(("left", "speed"), [(2 * math.pi, 1.0), (0.1, 0.8), (0.001, 0.4)])
-def test_speed(left, speed):
-    assert turn_speed(left, 3.2, 0.4, 1.0) == pytest.approx(speed)
+@pytest.mark.parametrize(("remaining", "speed"), [(2 * math.pi, 1.0), (0.1, 0.8), (0.001, 0.4)])
+def test_speed(remaining, speed):
+    assert turn_speed(remaining, 3.2, 0.4, 1.0) == pytest.approx(speed)
