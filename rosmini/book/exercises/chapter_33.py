@@ -15,7 +15,7 @@ from rosmini.core.errors import RosminiError
 from rosmini.core.tf import StaticTransformBroadcaster
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.navigation.costmap_2d import Costmap2D
-from rosmini.navigation.costmap_2d.explanation import CellCosts
+from rosmini.navigation.costmap_2d.costmap_ros import CellCosts
 from rosmini.navigation.costmap_2d.footprint import footprint_from_radius, padded, radii
 from rosmini.navigation.costmap_2d.inflation import cost_at, inflated
 from rosmini.navigation.navfn import NavfnSearch

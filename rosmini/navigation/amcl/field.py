@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -25,8 +24,6 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Table = NDArray[np.float32]
 Form = Literal["cube", "log"]
-
-SCORES = f"{__name__}:compiled_scores"
 
 
 @dataclass(frozen=True)
@@ -99,7 +96,7 @@ class LikelihoodField:
         `ends` (b, 2) are the beam ends in the frame of the poses [m].
         """
         sums: Floats = np.empty(len(poses))
-        kernel(SCORES)(
+        compiled_scores()(
             table,
             outside,
             *self.origin,
@@ -152,7 +149,7 @@ def scores(
         sums[n] = total
 
 
-@cache
+@kernel
 def compiled_scores() -> Callable[..., None]:
     """Return `scores` compiled by numba, or the plain function if numba is not installed."""
     try:

@@ -24,7 +24,6 @@ from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.nav_core.poses import planar_pose, planar_transform
 
-from .diagnostics import deviations
 from .laser import Scan
 from .localizer import Estimate, Localizer
 from .motion import MODELS
@@ -49,6 +48,8 @@ DIAGNOSTICS_PERIOD = 1.0
 """Interval between messages on `/diagnostics` [s]."""
 COVARIANCE_INDICES = ((0, 0), (0, 1), (1, 0), (1, 1))
 """Indices of x and y in a six by six covariance; that of the heading is (5, 5)."""
+
+DEVIATION_AXES = ("x", "y", "yaw")
 
 
 class Amcl:
@@ -469,3 +470,25 @@ def planar_covariance(values: Any) -> NDArray[np.float64]:
         found[row, column] = (whole[row, column] + whole[column, row]) / 2
     found[2, 2] = whole[5, 5]
     return found
+
+
+def deviations(node_name: str, covariance: NDArray[Any], limits: AmclParameters, stamp: Time) -> Any:
+    """Return a `diagnostic_msgs/DiagnosticArray` for a covariance (3, 3) of x, y [m2] and heading [rad2]."""
+    spread = [math.sqrt(max(0.0, float(covariance[axis, axis]))) for axis in range(3)]
+    allowed = [getattr(limits, f"std_warn_level_{axis}") for axis in DEVIATION_AXES]
+    status = message_class("diagnostic_msgs/DiagnosticStatus")()
+    too_large = any(0 < limit < value for value, limit in zip(spread, allowed, strict=True))
+    status.level = status.WARN if too_large else status.OK
+    status.name = f"{node_name.lstrip('/')}: Standard deviation"
+    status.message = "Too large" if too_large else "OK"
+    status.hardware_id = "None"
+    pairs = [
+        *zip(DEVIATION_AXES, spread, strict=True),
+        *((f"warn_level_{a}", v) for a, v in zip(DEVIATION_AXES, allowed, strict=True)),
+    ]
+    pair = message_class("diagnostic_msgs/KeyValue")
+    status.values = [pair(key=f"std_{name}", value=f"{value:.6g}") for name, value in pairs]
+    message = message_class("diagnostic_msgs/DiagnosticArray")()
+    message.header.stamp = stamp
+    message.status = [status]
+    return message

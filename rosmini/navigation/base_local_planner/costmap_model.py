@@ -11,11 +11,8 @@ from numpy.typing import ArrayLike
 
 from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
-from rosmini.navigation.kernels import kernel
 
-from .rollout import HIT, OUTSIDE, UNSEEN
-
-KERNEL = "rosmini.navigation.base_local_planner.rollout:compiled_footprint_cost"
+from .rollout import HIT, OUTSIDE, UNSEEN, compiled_footprint_cost
 
 __all__ = ["HIT", "OUTSIDE", "UNSEEN", "footprint_cells", "footprint_cost", "line_cells"]
 
@@ -30,7 +27,9 @@ def footprint_cost(grid: Costmap2D, pose: Pose, footprint: ArrayLike) -> int:
     outline = np.ascontiguousarray(footprint, dtype=np.float64).reshape(-1, 2)
     costs = np.ascontiguousarray(grid.costs).reshape(-1)
     size = grid.width, grid.height
-    found = kernel(KERNEL)(costs, *size, *grid.origin, grid.resolution, *map(float, pose), outline, 1.0)
+    found = compiled_footprint_cost()(
+        costs, *size, *grid.origin, grid.resolution, *map(float, pose), outline, 1.0
+    )
     return int(found)
 
 

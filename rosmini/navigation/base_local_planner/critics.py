@@ -77,12 +77,6 @@ def twirling(commands: Floats) -> Floats:
     return np.abs(commands[:, 2])
 
 
-def prefer_forward(commands: Floats, penalty: float = 1.0) -> Floats:
-    """Return `penalty` for commands (n, 3) that reverse or hardly move, and ten times the turning speed for others."""
-    x, turn = commands[:, 0], np.abs(commands[:, 2])
-    return np.where((x < 0) | ((x < 0.1) & (turn < 0.2)), penalty, turn * 10)
-
-
 def combined_scores(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
     """Combine the critics' raw scores (n, k): return costs (n) and the index of the rejecting critic (n), or -1.
 

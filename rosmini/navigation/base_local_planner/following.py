@@ -1,10 +1,11 @@
-"""The part of local planners that uses the graph: the plan in the costmap's frame, topics, clouds and parameters.
+"""The part of local planners that uses the graph: the plan, odometry, topics, clouds and parameters.
 
-It does the work of `LocalPlannerUtil`, `MapGridVisualizer` and `goal_functions` for both planners.
+It does the work of `LocalPlannerUtil`, `OdometryHelperRos`, `MapGridVisualizer` and `goal_functions`.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -146,6 +147,29 @@ class Publications:
 
     def _cloud(self, publisher: Any, names: Sequence[str], rows: Floats) -> None:
         publisher.publish(point_cloud(self.frame, self.node.now(), names, rows))
+
+
+class OdometryHelper:
+    """Subscribes to `nav_msgs/Odometry`; `velocity` (3) is the latest one: x [m/s], y [m/s], theta [rad/s]."""
+
+    def __init__(self, node: Node, topic: str = "odom") -> None:
+        self.velocity: NDArray[np.float64] = np.zeros(3)
+        self._warn = node.logwarn
+        self._warned = False
+        if topic:
+            node.subscriber(topic, message_class("nav_msgs/Odometry"), self._on_odometry, queue_size=1)
+
+    def _on_odometry(self, message: Any) -> None:
+        twist = message.twist.twist
+        values = (twist.linear.x, twist.linear.y, twist.angular.z)
+        if all(map(math.isfinite, values)):
+            self.velocity = np.array(values)
+        elif not self._warned:
+            self._warned = True
+            self._warn(
+                f"the odometry reports the velocity {values}, which is not finite: using the last finite one, without "
+                "further warnings"
+            )
 
 
 # -- parameters --------------------------------------------------------------------------------------------------------

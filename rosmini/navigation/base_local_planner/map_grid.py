@@ -16,8 +16,6 @@ from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.costmap_2d.costmap import NO_INFORMATION, Costmap2D, Ints
 from rosmini.navigation.kernels import kernel
 
-KERNEL = "rosmini.navigation.base_local_planner.map_grid:compiled_wavefront"
-
 Distances = NDArray[np.int32]
 Floats = NDArray[np.float64]
 
@@ -58,6 +56,7 @@ def wavefront(
             tail += 1
 
 
+@kernel
 def compiled_wavefront() -> Callable[..., None]:
     """Return `wavefront` compiled by numba, or the plain function if numba is not installed."""
     try:
@@ -117,21 +116,11 @@ def plan_cells(grid: Costmap2D, plan: Floats) -> Ints:
     return np.asarray(cells[first : first + int(outside[0]) if len(outside) else None])
 
 
-def path_grid(grid: Costmap2D, plan: Floats, within: Ints | None = None) -> MapGrid:
-    """Return the distances to the plan (n, 2), as `MapGrid::setTargetCells` computes them.
+def grid_from(grid: Costmap2D, targets: Ints, within: Ints | None = None) -> MapGrid:
+    """Return the distances to the cells `targets` (n, 2), as `MapGrid::setTargetCells` and `setLocalGoal` do.
 
     `within` (n, 2) are the cells (mx, my) under the robot, which never stop the wavefront.
     """
-    return grid_from(grid, plan_cells(grid, plan), within)
-
-
-def goal_grid(grid: Costmap2D, plan: Floats) -> MapGrid:
-    """Return the distances to the plan's last point (n, 2) before it leaves the costmap: `MapGrid::setLocalGoal`."""
-    return grid_from(grid, plan_cells(grid, plan)[-1:])
-
-
-def grid_from(grid: Costmap2D, targets: Ints, within: Ints | None = None) -> MapGrid:
-    """Return the distances to the cells `targets` (n, 2); `within` as in `path_grid`."""
     size = grid.width * grid.height
     distances: Distances = np.full((grid.height, grid.width), size + 1, dtype=np.int32)
     inside = np.zeros((grid.height, grid.width), dtype=np.uint8)
@@ -142,5 +131,5 @@ def grid_from(grid: Costmap2D, targets: Ints, within: Ints | None = None) -> Map
     flat[targets[:, 1] * grid.width + targets[:, 0]] = 0
     starts = np.flatnonzero(flat == 0)
     queue[: len(starts)] = starts
-    kernel(KERNEL)(np.ascontiguousarray(grid.costs), inside, distances, queue, len(starts))
+    compiled_wavefront()(np.ascontiguousarray(grid.costs), inside, distances, queue, len(starts))
     return MapGrid(distances, targets)

@@ -16,11 +16,10 @@ from rosmini.core.parameters import parameter
 from rosmini.core.tf import Buffer
 from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
 
-from .following import Following, Publications, ignore, no_command, rename, sim_period, twist
+from .following import Following, OdometryHelper, Publications, ignore, no_command, rename, sim_period, twist
 from .goal_functions import distance_to_goal, is_stopped, turn_to_goal
 from .latched_stop_rotate import checked, decelerated, reachable_turn_speed
 from .limits import LocalPlannerLimits
-from .odometry_helper import OdometryHelper
 from .trajectory import Samples
 from .trajectory_planner import TrajectoryPlanner, TrajectoryPlannerParameters
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.machine_code import machine_code
+from rosmini.navigation.kernels import kernel
 
 Costs = NDArray[np.uint8]
 Floats = NDArray[np.float64]
@@ -264,6 +265,7 @@ def looked_up_distance(
     return value
 
 
+@kernel
 def compiled_footprint_cost() -> Callable[..., int]:
     """Return `footprint_cost` compiled by numba, or the plain function if numba is not installed."""
     try:
@@ -277,6 +279,7 @@ def compiled_footprint_cost() -> Callable[..., int]:
     return machine_code(footprint_cost, signature, (outline_cost, line_cost))
 
 
+@kernel
 def compiled_rollout() -> Callable[..., None]:
     """Return `rollout` compiled by numba, or the plain function if numba is not installed."""
     try:

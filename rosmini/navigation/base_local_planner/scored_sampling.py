@@ -11,13 +11,10 @@ from numpy.typing import NDArray
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.poses import Pose
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
-from rosmini.navigation.kernels import kernel
 
 from .limits import LocalPlannerLimits
 from .map_grid import MapGrid
-from .velocity_iterator import velocity_samples
-
-KERNEL = "rosmini.navigation.base_local_planner.rollout:compiled_rollout"
+from .rollout import compiled_rollout
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -61,7 +58,7 @@ def roll_out(
         )
     points = np.zeros((count, most, 3))
     raw, where = np.zeros((count, 5)), np.zeros((count, 5), dtype=np.int64)
-    kernel(KERNEL)(
+    compiled_rollout()(
         np.ascontiguousarray(grid.costs).reshape(-1),
         grid.width,
         grid.height,
@@ -150,6 +147,25 @@ class Sampling:
             return velocities
         gain = limits.accelerations * (self.sim_time / np.maximum(steps, 1))[:, None]
         return np.clip(velocities, velocity - gain, velocity + gain)
+
+
+def velocity_samples(low: float, high: float, count: int) -> NDArray[np.float64]:
+    """Return `count` evenly spaced values (at least two) from `low` to `high`, and 0 if it lies between two of them.
+
+    If `low` and `high` are equal, return only that value.
+
+    >>> velocity_samples(-1.0, 2.0, 3).tolist()
+    [-1.0, 0.0, 0.5, 2.0]
+    """
+    if low == high:
+        return np.array([low])
+    count = max(2, count)
+    values = low + (high - low) / (count - 1) * np.arange(count, dtype=np.float64)
+    values[-1] = high
+    after = int(np.searchsorted(values, 0.0))
+    if 0 < after < count and values[after] > 0 > values[after - 1]:
+        values = np.concatenate([values[:after], (0.0,), values[after:]])
+    return values
 
 
 def footprint_scales(

@@ -6,6 +6,7 @@ Both its parameters and its topics are in the node's private namespace under the
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
@@ -24,14 +25,12 @@ from rosmini.navigation.nav_core.failures import TransformMissing
 from rosmini.navigation.nav_core.poses import planar_pose, pose_stamped
 
 from . import footprint as outlines
-from .costmap import Costmap2D
-from .explanation import CellCosts
+from .costmap import FREE_SPACE, INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, fill
 from .inflation_layer import InflationLayer
 from .layer import Layer
 from .layered import LayeredCostmap
 from .migration import inherit, migrate
 from .parameters import CostmapConfig, CostmapParameters, name_above
-from .polygons import fill
 from .publisher import Costmap2DPublisher
 
 if TYPE_CHECKING:
@@ -44,6 +43,42 @@ DYNAMIC_NAMES = tuple(each.name for each in fields(CostmapConfig))
 """Names of the parameters that can change while the costmap runs."""
 POLL_PERIOD = 0.01
 """Interval between checks for the first update [s]."""
+
+MEANINGS = {
+    FREE_SPACE: "free",
+    INSCRIBED_INFLATED_OBSTACLE: "in collision whatever the heading",
+    LETHAL_OBSTACLE: "an obstacle",
+    NO_INFORMATION: "unknown",
+}
+"""Descriptions of special costs."""
+
+
+class CellCosts(dict[str, int | None]):
+    """The cost of a cell in each layer, keyed by layer name, lowest first; None if the layer sets no cost.
+
+    As text, one line describes the cell and one line each layer.
+    """
+
+    def __init__(
+        self, grid: Costmap2D, mx: int, my: int, explanations: Mapping[str, tuple[int | None, str]]
+    ) -> None:
+        super().__init__({name: cost for name, (cost, _) in explanations.items()})
+        self.cost = grid.cost(mx, my)
+        """The cell's cost in the master grid."""
+        self.cell = (mx, my)
+        self.point = grid.map_to_world(mx, my)
+        self._texts = {name: text for name, (_, text) in explanations.items()}
+
+    def __str__(self) -> str:
+        meaning = MEANINGS.get(self.cost, "near something")
+        lines = [
+            f"cell {self.cell} at ({self.point[0]:.2f}, {self.point[1]:.2f}) m costs {self.cost}: {meaning}"
+        ]
+        for name, cost in self.items():
+            text = self._texts[name]
+            shown = "nothing" if cost is None else str(cost)
+            lines.append(f"  {name}: {shown}{f' ({text})' if text else ''}")
+        return "\n".join(lines)
 
 
 class Costmap2DROS:

@@ -15,7 +15,7 @@ To write a layer, derive a class with a plugin name and add it to the costmap's 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -23,11 +23,12 @@ from rosmini.core.geometry.poses import Pose
 from rosmini.core.plugins import Plugin
 
 from .costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, Costs
-from .footprint import Footprint
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
     from rosmini.core.tf import Buffer
+
+    from .layered import LayeredCostmap
 
 FAR = 1e30
 """Coordinate of empty (inverted) and unlimited bounds."""
@@ -53,6 +54,13 @@ class Window(NamedTuple):
     def fits(self, grid: Costmap2D) -> bool:
         """True if the window lies completely inside a grid."""
         return self.x0 >= 0 and self.y0 >= 0 and self.xn <= grid.width and self.yn <= grid.height
+
+    def united(self, other: Window | None) -> Window:
+        """Return the smallest window that contains both; `other` may be None."""
+        if other is None:
+            return self
+        low = min(self.x0, other.x0), min(self.y0, other.y0)
+        return Window(*low, max(self.xn, other.xn), max(self.yn, other.yn))
 
     def view(self, costs: Costs) -> Costs:
         """Return the window's part of a grid (h, w), as a view."""
@@ -106,27 +114,6 @@ class Bounds:
         return made
 
 
-class Master(Protocol):
-    """The attributes of a `LayeredCostmap` that its layers use."""
-
-    grid: Costmap2D
-    """The master grid."""
-    global_frame: str
-    is_rolling: bool
-    """True if the grid moves with the robot."""
-    is_tracking_unknown: bool
-    """True if cells that no layer knows are unknown, not free."""
-    footprint: Footprint
-    """The padded footprint's vertices (n, 2) [m]."""
-    inscribed_radius: float
-    circumscribed_radius: float
-
-    def resize(
-        self, width: int, height: int, resolution: float, origin: tuple[float, float], *, lock: bool = False
-    ) -> None:
-        """Change the size [cells], resolution and origin [m] of the master grid and its layers."""
-
-
 class Layer(Plugin, ABC):
     """The base class of all layers."""
 
@@ -134,7 +121,7 @@ class Layer(Plugin, ABC):
     """The layer's name in the costmap's `plugins`."""
     namespace: str
     """The namespace of its parameters and topics, with a trailing `/`: `~global_costmap/static_layer/`."""
-    layered: Master
+    layered: LayeredCostmap
     """The costmap that the layer belongs to."""
     node: Node
     buffer: Buffer
@@ -143,7 +130,9 @@ class Layer(Plugin, ABC):
     is_current = True
     """True if the layer's data is recent enough for safe driving."""
 
-    def initialize(self, layered: Master, name: str, namespace: str, node: Node, buffer: Buffer) -> None:
+    def initialize(
+        self, layered: LayeredCostmap, name: str, namespace: str, node: Node, buffer: Buffer
+    ) -> None:
         """Attach the layer to its costmap; called once."""
         self.layered, self.name, self.namespace, self.node, self.buffer = (
             layered,

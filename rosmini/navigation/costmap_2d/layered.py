@@ -32,7 +32,9 @@ class LayeredCostmap:
     ) -> None:
         self.global_frame = global_frame
         self.is_rolling = rolling_window
+        """True if the grid moves with the robot."""
         self.is_tracking_unknown = track_unknown_space
+        """True if cells that no layer knows are unknown, not free."""
         self.grid = Costmap2D(0, 0, 1.0, default=NO_INFORMATION if track_unknown_space else FREE_SPACE)
         self.layers: list[Layer] = []
         self.footprint: Footprint = np.zeros((0, 2))

@@ -8,18 +8,15 @@ import numpy as np
 
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.geometry.poses import Pose
-from rosmini.navigation.kernels import kernel
 
-from .costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
+from .costmap import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D, fill
 from .footprint import Footprint, placed
 from .inflation import cell_distance
 from .layer import Bounds, CostmapLayer, Window
 from .observations import Observation
 from .parameters import MAXIMUM, OVERWRITE, ObstacleConfig, ObstacleParameters
-from .polygons import fill
+from .rays import compiled_clear_rays
 from .sources import ObservationSource
-
-CLEAR = "rosmini.navigation.costmap_2d.rays:compiled_clear_rays"
 
 
 class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
@@ -116,7 +113,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
             self.warn_outside(f"({ox:.2f}, {oy:.2f})")
             return
         reach = cell_distance(observation.raytrace_range, grid.resolution)
-        x0, y0, x1, y1 = kernel(CLEAR)(
+        x0, y0, x1, y1 = compiled_clear_rays()(
             grid.costs, *grid.origin, grid.resolution, ox, oy, observation.points, reach, FREE_SPACE
         )
         bounds.touch_cells(grid, Window(x0, y0, x1 + 1, y1 + 1))

@@ -51,13 +51,7 @@ class Costmap2DPublisher:
     def changed(self, window: Window) -> None:
         """Record that the cells of a window have changed since the last message."""
         if not window.is_empty:
-            before = self._changed or window
-            self._changed = Window(
-                min(before.x0, window.x0),
-                min(before.y0, window.y0),
-                max(before.xn, window.xn),
-                max(before.yn, window.yn),
-            )
+            self._changed = window.united(self._changed)
 
     def publish(self) -> None:
         """Publish the changes, or the whole grid if its size or origin differs from the last message.

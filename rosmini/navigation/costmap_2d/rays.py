@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.machine_code import machine_code
+from rosmini.navigation.kernels import kernel
 
 Ints = NDArray[np.int64]
 
@@ -111,7 +111,7 @@ def clear_rays(
     return low_x, low_y, high_x, high_y
 
 
-@cache
+@kernel
 def compiled_clear_rays() -> Callable[..., tuple[int, int, int, int]]:
     """Return `clear_rays` compiled by numba, or the plain function if numba is not installed."""
     try:

@@ -126,13 +126,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             )
             return
         window.view(self.costs)[...] = self._costs_of(update.data).reshape(update.height, update.width)
-        before = self._changed or window
-        self._changed = Window(
-            min(before.x0, window.x0),
-            min(before.y0, window.y0),
-            max(before.xn, window.xn),
-            max(before.yn, window.yn),
-        )
+        self._changed = window.united(self._changed)
 
     def _costs_of(self, data: Any) -> Costs:
         costs: Costs = self._table[np.asarray(data, dtype=np.int8).view(np.uint8)]

@@ -8,7 +8,6 @@ import numpy as np
 
 from rosmini.core.geometry.poses import Pose
 from rosmini.msgs import message_class
-from rosmini.navigation.kernels import kernel
 
 from .costmap import LETHAL_OBSTACLE, shifted
 from .inflation import cell_distance
@@ -16,9 +15,7 @@ from .layer import Bounds, Window
 from .observations import Observation
 from .obstacle_layer import ObstacleLayer
 from .parameters import VoxelConfig, VoxelParameters
-from .voxels import BITS, UNKNOWN, Columns, mark_voxels, marked_count, marked_heights
-
-CLEAR = "rosmini.navigation.costmap_2d.voxels:compiled_clear_voxels"
+from .voxels import BITS, UNKNOWN, Columns, compiled_clear_voxels, mark_voxels, marked_count, marked_heights
 
 
 class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
@@ -90,7 +87,7 @@ class VoxelLayer(ObstacleLayer, plugin="costmap_2d::VoxelLayer"):
             self.warn_outside(f"({ox:.2f}, {oy:.2f}, {oz:.2f})")
             return
         frame = (*grid.origin, self.origin_z, grid.resolution, self.z_resolution, self._max_height)
-        x0, y0, x1, y1 = kernel(CLEAR)(
+        x0, y0, x1, y1 = compiled_clear_voxels()(
             self.columns,
             grid.costs,
             np.array(frame),

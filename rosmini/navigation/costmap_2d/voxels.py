@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.machine_code import machine_code
+from rosmini.navigation.kernels import kernel
 
 Columns = NDArray[np.int64]
 
@@ -151,7 +152,7 @@ def clear_voxels(
     return low_x, low_y, high_x, high_y
 
 
-@cache
+@kernel
 def compiled_clear_voxels() -> Callable[..., tuple[int, int, int, int]]:
     """Return `clear_voxels` compiled by numba, or the plain function if numba is not installed."""
     try:

@@ -16,6 +16,7 @@ from rosmini.core.tf import Buffer
 from rosmini.msgs import message_class
 from rosmini.navigation.base_local_planner.following import (
     Following,
+    OdometryHelper,
     Publications,
     ignore,
     no_command,
@@ -23,7 +24,6 @@ from rosmini.navigation.base_local_planner.following import (
     twist,
 )
 from rosmini.navigation.base_local_planner.latched_stop_rotate import LatchedStopRotate
-from rosmini.navigation.base_local_planner.odometry_helper import OdometryHelper
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.base_local_planner.trajectory_planner import TrajectoryPlannerParameters
 from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose

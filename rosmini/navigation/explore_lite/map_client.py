@@ -24,7 +24,7 @@ from rosmini.navigation.nav_core.poses import planar_transform
 if TYPE_CHECKING:
     from rosmini.core.graph import Node
 
-    from .parameters import ExploreParameters
+    from .node import ExploreParameters
 
 WARN_PERIOD = 5.0
 """Interval between warnings while the map or the robot's transform is missing [s]."""

@@ -15,19 +15,20 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from rosmini.core.actionlib import SimpleActionClient, SimpleActionServer, Status
 from rosmini.core.errors import ROSException, ServiceException
+from rosmini.core.parameters import Parameters, parameter
 from rosmini.core.tf import TransformException, TransformListener
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.costmap_2d.footprint import points_of
 from rosmini.navigation.nav_core import TransformMissing, planar_pose, pose_stamped
 
-from .parameters import ExploreServerParameters
 from .plugin import BoundedExploreLayer, moved
 from .polygon import contains
 from .search import Blacklist
@@ -49,6 +50,20 @@ MAX_REPLACEMENTS = 3
 """A goal replaced this many times is kept until the robot arrives or move_base aborts it."""
 POSE_TIMEOUT = 30.0
 """Time [s] after which an unknown pose ends the task."""
+
+
+@dataclass(frozen=True)
+class ExploreServerParameters(Parameters):
+    """Parameters of `explore_server`."""
+
+    allowed: ClassVar[tuple[str, ...]] = ("explore_costmap",)
+
+    frequency: float = parameter(
+        0.0, "how often to look for the next frontier; 0: when the last is reached", unit="Hz"
+    )
+    goal_aliasing: float = parameter(
+        0.1, "a goal within half of this distance of the last one is not sent", unit="m"
+    )
 
 
 class ExploreServer:

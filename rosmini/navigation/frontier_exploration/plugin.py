@@ -8,6 +8,7 @@ and the others 50.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import ServiceRefused
 from rosmini.core.geometry.polygons import Floats
 from rosmini.core.geometry.poses import Pose, transform_points
+from rosmini.core.parameters import parameter
 from rosmini.core.tf import Buffer, TransformException
 from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
@@ -27,10 +29,11 @@ from rosmini.navigation.costmap_2d.rays import line_cells
 from rosmini.navigation.nav_core.clouds import point_cloud
 from rosmini.navigation.nav_core.poses import planar_transform, pose_stamped
 
-from .parameters import CENTROID, CLOSEST, MIDDLE, BoundedExploreParameters
 from .polygon import polygon_error
 from .search import MAX_FAILURES, Blacklist, Frontier, find_frontiers, formatted_points
 
+CLOSEST, MIDDLE, CENTROID = "closest", "middle", "centroid"
+"""Values of `frontier_travel_point`."""
 TIMEOUT = 10.0
 """Maximum time to wait for a transform, and for the boundary to be drawn [s]."""
 ROUNDING = 1e-3
@@ -39,6 +42,21 @@ POLL_PERIOD = 0.1
 """Interval between checks whether the boundary is drawn [s]."""
 OTHER_INTENSITY, CHOSEN_INTENSITY = 50.0, 100.0
 """Intensities of the frontiers in the cloud."""
+
+
+@dataclass(frozen=True)
+class BoundedExploreParameters(LayerConfig):
+    """Parameters of `frontier_exploration::BoundedExploreLayer`."""
+
+    explore_clear_space: bool = parameter(
+        True,
+        "whether everything inside the boundary is unknown initially, so that known space is explored again",
+    )
+    resize_to_boundary: bool = parameter(True, "whether the costmap gets the size of the boundary")
+    frontier_travel_point: str = parameter(
+        CLOSEST,
+        "the point of a frontier to drive to",
+    )
 
 
 def moved(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:

@@ -8,13 +8,13 @@ a cell's cost and `neutral_cost` in 8 bits, so that costs of 206 and above wrap 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.machine_code import machine_code
+from rosmini.navigation.kernels import kernel
 from rosmini.navigation.navfn.wave import HIGH, interpolated
 
 
@@ -109,7 +109,7 @@ def best_first(
     return result
 
 
-@cache
+@kernel
 def compiled_best_first() -> Callable[..., int]:
     """Return `best_first` compiled by numba, or the plain function if numba is not installed."""
     try:

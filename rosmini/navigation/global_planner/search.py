@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.navigation.costmap_2d.costmap import NO_INFORMATION
-from rosmini.navigation.kernels import kernel
 from rosmini.navigation.navfn.search import Point, Search, WaveSearch, cell_of, outlined
 from rosmini.navigation.navfn.wave import HIGH, interpolated
+
+from .best_first import compiled_best_first
 
 LETHAL_COST = 253
 NEUTRAL_COST = 50
@@ -160,7 +161,7 @@ class GlobalAStar(Search):
         return int(self._state[1])
 
     def _expand(self, count: int) -> int:
-        run = kernel("rosmini.navigation.global_planner.best_first:compiled_best_first")
+        run = compiled_best_first()
         result = int(
             run(
                 self.costs.ravel(),

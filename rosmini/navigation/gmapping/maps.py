@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,8 +31,6 @@ EMPTY_PATCH = 0
 
 PATCH_BYTES = SIDE * (SIDE * (4 + 4 + 16) + 8)
 """Memory of a patch [bytes]: hits, visits, mean ends, and bits of full cells."""
-
-REGISTER = f"{__name__}:compiled_register"
 
 
 class Pool(NamedTuple):
@@ -154,7 +151,7 @@ class SharedMaps:
         done = 0
         while done < len(laser_poses):
             free = np.flatnonzero(self.owners[1:] == 0) + 1
-            done = kernel(REGISTER)(self.pool, scan, laser_poses, free, done)
+            done = compiled_register()(self.pool, scan, laser_poses, free, done)
             if done < len(laser_poses):
                 self._add_patches(int(scan.touched.sum()))
 
@@ -258,7 +255,7 @@ def register(pool: Any, scan: Any, poses: Any, free: Any, first: int) -> int:
     return len(poses)
 
 
-@cache
+@kernel
 def compiled_register() -> Callable[..., int]:
     """Return `register` compiled by numba, or the plain function if numba is not installed."""
     try:

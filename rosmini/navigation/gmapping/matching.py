@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,8 +24,6 @@ from rosmini.navigation.kernels import kernel
 from .maps import SharedMaps
 
 Floats = NDArray[np.float64]
-
-MATCH = f"{__name__}:compiled_match"
 
 
 class Matched(NamedTuple):
@@ -101,7 +98,7 @@ class Matcher:
         """
         poses = np.ascontiguousarray(laser_poses, dtype=np.float64).copy()
         result = np.zeros((len(poses), 2))
-        kernel(MATCH)(
+        compiled_match()(
             grids_of(maps), self.beams(ranges, bearings, usable), self.rule, self.minimum_score, poses, result
         )
         return Matched(poses, result[:, 0], result[:, 1])
@@ -253,7 +250,7 @@ def match(grids: Any, beams: Any, rule: Any, minimum: float, poses: Any, result:
         result[n, 1] = fit(n, poses[n, 0], poses[n, 1], grids, beams, rule, -1.0)[1]
 
 
-@cache
+@kernel
 def compiled_match() -> Callable[..., None]:
     """Return `match` compiled by numba, or the plain function if numba is not installed."""
     try:

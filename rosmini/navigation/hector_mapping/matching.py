@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -58,9 +57,7 @@ def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> M
     start = np.array([*grid.cells(np.asarray(pose[:2], dtype=np.float64)), pose[2]])
     ends = np.ascontiguousarray(points, dtype=np.float64) / resolution
     result = np.zeros(8)
-    kernel("rosmini.navigation.hector_mapping.matching:compiled_climb")(
-        grid.probabilities, ends, start, iterations + 1, result
-    )
+    compiled_climb()(grid.probabilities, ends, start, iterations + 1, result)
     xx, xy, xt, yy, yt, tt, spread, steps = result.tolist()
     if steps:
         x, y, heading = start.tolist()
@@ -130,7 +127,7 @@ def climb(probabilities: Any, ends: Any, pose: Any, max_steps: int, result: Any)
         result[7] += 1.0
 
 
-@cache
+@kernel
 def compiled_climb() -> Callable[..., None]:
     """Return `climb` compiled by numba, or the plain function if numba is not installed."""
     try:

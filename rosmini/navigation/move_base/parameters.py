@@ -70,14 +70,6 @@ class MoveBaseConfig(Parameters):
 
 
 @dataclass(frozen=True)
-class Behavior(Parameters):
-    """One entry of `recovery_behaviors`."""
-
-    name: str = parameter("", "its namespace: its parameters are in ~NAME/")
-    type: str = parameter("", "its plugin, package/Class")
-
-
-@dataclass(frozen=True)
 class MoveBaseParameters(MoveBaseConfig):
     """All parameters of the node itself; costmaps, planners and recoveries have theirs in separate namespaces."""
 

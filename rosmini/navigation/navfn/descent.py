@@ -14,13 +14,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.machine_code import machine_code
+from rosmini.navigation.kernels import kernel
 
 from .wave import HIGH
 
@@ -193,7 +193,7 @@ def descend(
     return FULL
 
 
-@cache
+@kernel
 def compiled_descend() -> Callable[..., int]:
     """Return `descend` compiled by numba, or the plain function if numba is not installed."""
     try:

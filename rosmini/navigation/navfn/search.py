@@ -16,13 +16,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.graph.show import show
-from rosmini.navigation.costmap_2d.costmap import LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
-from rosmini.navigation.kernels import kernel
-from rosmini.navigation.nav_core.failures import OutsideMap, PlanningFailure
+from rosmini.navigation.costmap_2d.costmap import (
+    INSCRIBED_INFLATED_OBSTACLE,
+    LETHAL_OBSTACLE,
+    NO_INFORMATION,
+    Costmap2D,
+)
+from rosmini.navigation.nav_core.failures import (
+    GoalBlocked,
+    NoPath,
+    OutsideMap,
+    PlanningFailure,
+    StartBlocked,
+)
 
-from .descent import FULL
-from .reasons import failure
-from .wave import ARRIVED, EXPANDED, HIGH
+from .descent import FULL, compiled_descend
+from .wave import ARRIVED, EXPANDED, HIGH, compiled_wave
 
 Point = tuple[float, float]
 Points = NDArray[np.float64]
@@ -30,6 +39,12 @@ Ints = NDArray[np.int64]
 
 UNLIMITED = 1 << 62
 """A number greater than that of all cells."""
+MEANING = {
+    INSCRIBED_INFLATED_OBSTACLE: "nearer to an obstacle than the robot's inscribed radius",
+    LETHAL_OBSTACLE: "an obstacle, or at the map's edge",
+    NO_INFORMATION: "unknown",
+}
+"""Descriptions of special costs of a goal's cell."""
 
 
 class Search(ABC):
@@ -137,7 +152,7 @@ class Search(ABC):
         """Return the path to another point. Raises a `PlanningFailure` if that has not been reached."""
         if not self._inside(goal) or self.potential_with_rim[self._index(cell_of(goal))] >= HIGH:
             raise self.failure()
-        walk = kernel("rosmini.navigation.navfn.descent:compiled_descend")
+        walk = compiled_descend()
         begin, end = (goal[0] + 1, goal[1] + 1), (self.start[0] + 1, self.start[1] + 1)
         room = 8 * (self.width + self.height) + 64
         while True:
@@ -161,7 +176,7 @@ class Search(ABC):
 
     def failure(self, grid: Costmap2D | None = None) -> PlanningFailure:
         """Return the reason why there is no path, with numbers; in metres if a grid is given."""
-        return failure(self, grid)
+        return search_failure(self, grid)
 
     def show(self, **options: Any) -> Any:
         """Draw the costs, the potential, the frontier and, if the goal was reached, the path."""
@@ -172,6 +187,58 @@ class Search(ABC):
 
     @abstractmethod
     def _waiting(self) -> NDArray[np.int32]: ...
+
+
+def search_failure(search: Search, grid: Costmap2D | None = None) -> PlanningFailure:
+    """Return the failure of a finished search that did not reach its goal; in metres if a grid is given.
+
+    Its numbers are `start`, `goal`, `goal_cost`, `reachable` [cells], `nearest` (a reachable cell), and the `distance`
+    from there to the goal (in cells, or metres if a grid is given).
+    """
+    reached = search.reached
+    count = int(reached.sum())
+    rows, columns = np.nonzero(reached)
+    away = np.hypot(columns - search.goal[0], rows - search.goal[1])
+    best = int(away.argmin())
+    nearest = (int(columns[best]), int(rows[best]))
+    scale = 1.0 if grid is None else grid.resolution
+    numbers: dict[str, Any] = {
+        "start": search.start,
+        "goal": search.goal,
+        "goal_cost": search.goal_cost,
+        "reachable": count,
+        "nearest": nearest,
+        "distance": float(away[best]) * scale,
+    }
+    area = f"{count} cells" if grid is None else f"{count * scale * scale:.2f} m2"
+    unit = "cells" if grid is None else "m"
+    close = f"the robot can get to {_place(nearest, grid)}, {numbers['distance']:.2f} {unit} from it"
+    start, goal = _place(search.start, grid), _place(search.goal, grid)
+    if count == 1:
+        return StartBlocked(
+            f"the start {start} is shut in: no plan may enter a cell beside it. Clear the costmap, or drive the robot "
+            "away from what it touches",
+            **numbers,
+        )
+    if not math.isfinite(search.entering_goal):
+        meaning = MEANING.get(search.goal_cost, "taken as lethal")
+        return GoalBlocked(
+            f"the goal {goal} is blocked: its cell has the cost {search.goal_cost}, {meaning}; {close}. Move the "
+            "goal, or allow a tolerance",
+            **numbers,
+        )
+    return NoPath(
+        f"no path leads from the start {start} to the goal {goal}: {area} can be reached from the start, and {close}. "
+        "Something is in the way, or the passage is narrower than the inscribed radius on both sides",
+        **numbers,
+    )
+
+
+def _place(cell: tuple[float, float], grid: Costmap2D | None) -> str:
+    if grid is None:
+        return f"({cell[0]:g}, {cell[1]:g})"
+    x, y = grid.map_to_world(*cell)
+    return f"({x:.2f}, {y:.2f})"
 
 
 def show_steps(searches: Mapping[str, Search], **options: Any) -> Any:
@@ -226,7 +293,7 @@ class WaveSearch(Search):
         return int(self._state[EXPANDED])
 
     def _expand(self, count: int) -> int:
-        run = kernel("rosmini.navigation.navfn.wave:compiled_wave")
+        run = compiled_wave()
         return int(
             run(
                 self.costs.ravel(),

@@ -15,13 +15,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.machine_code import machine_code
+from rosmini.navigation.kernels import kernel
 
 HIGH = 1e10
 """The potential of a cell that the wave has not reached."""
@@ -153,7 +153,7 @@ def wave(
     return result
 
 
-@cache
+@kernel
 def compiled_wave() -> Callable[..., int]:
     """Return `wave` compiled by numba, or the plain function if numba is not installed."""
     try:

@@ -7,7 +7,6 @@ import numpy as np
 from rosmini.navigation.base_local_planner.critics import (
     Oscillation,
     combined_scores,
-    prefer_forward,
     twirling,
 )
 
@@ -41,7 +40,6 @@ def test_the_first_critic_that_rejects_decides_and_one_without_weight_is_not_ask
     assert rejected_by.tolist() == [-1, 0, 1, -1]
 
 
-def test_twirling_and_reversing_cost():
+def test_twirling_costs_the_turning_speed():
     commands = np.array([[0.5, 0, -0.3], [-0.1, 0, 0], [0.05, 0, 0.1]])
     assert np.allclose(twirling(commands), [0.3, 0, 0.1])
-    assert np.allclose(prefer_forward(commands), [3, 1, 1])

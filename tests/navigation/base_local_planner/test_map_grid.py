@@ -8,8 +8,12 @@ from hypothesis import strategies as st
 from scipy.sparse import lil_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from rosmini.navigation.base_local_planner.map_grid import densified, goal_grid, path_grid, plan_cells
+from rosmini.navigation.base_local_planner.map_grid import MapGrid, densified, grid_from, plan_cells
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
+
+
+def goal_grid(grid: Costmap2D, plan) -> MapGrid:
+    return grid_from(grid, plan_cells(grid, plan)[-1:])
 
 
 def reference(costs, targets, within=()):
@@ -36,7 +40,7 @@ def test_the_wavefront_is_the_shortest_way_round_obstacles(seed):
     grid = Costmap2D.of(costs)
     plan = random.uniform(0, (width, height), (3, 2))
     within = random.integers(0, (width, height), (2, 2))
-    found = path_grid(grid, plan, within)
+    found = grid_from(grid, plan_cells(grid, plan), within)
     expected = reference(costs, found.targets.tolist(), within.tolist()) if len(found.targets) else None
     for my in range(height):
         for mx in range(width):
@@ -62,13 +66,13 @@ def test_only_the_first_part_on_the_map_counts():
     grid = Costmap2D(5, 5, 1.0)
     plan = np.array([[-2.0, 2.5], [7.0, 2.5], [7.0, 0.5], [0.5, 0.5]])
     assert plan_cells(grid, plan)[[0, -1]].tolist() == [[0, 2], [4, 2]]
-    assert goal_grid(grid, plan).targets.tolist() == [[4, 2]]
     assert goal_grid(grid, plan).distances[0].tolist() == [6, 5, 4, 3, 2]
     grid.costs[2, 3] = 255
     assert goal_grid(grid, plan).targets.tolist() == [[2, 2]]
 
 
 def test_a_plan_that_is_elsewhere_reaches_nothing():
-    grid = path_grid(Costmap2D(5, 4, 1.0), np.array([[9.0, 9.0]]))
+    costmap = Costmap2D(5, 4, 1.0)
+    grid = grid_from(costmap, plan_cells(costmap, np.array([[9.0, 9.0]])))
     assert (grid.obstacle, grid.unreachable) == (20, 21)
     assert set(grid.distances.ravel().tolist()) == {21}

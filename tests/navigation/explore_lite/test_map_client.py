@@ -8,7 +8,7 @@ import pytest
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.publisher import published_values
 from rosmini.navigation.explore_lite.map_client import MapClient, costs_by_value
-from rosmini.navigation.explore_lite.parameters import ExploreParameters
+from rosmini.navigation.explore_lite.node import ExploreParameters
 from rosmini.navigation.nav_core import TransformMissing
 
 

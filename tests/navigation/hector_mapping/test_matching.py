@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from rosmini.core.geometry.poses import transform_points
 from rosmini.navigation.hector_mapping.grid import OccupancyGrid
-from rosmini.navigation.hector_mapping.matching import UNKNOWN_VARIANCE, climb, match, surface
-from rosmini.navigation.kernels import kernel
+from rosmini.navigation.hector_mapping.matching import UNKNOWN_VARIANCE, climb, compiled_climb, match, surface
 
 BEARINGS = np.arange(180) * math.tau / 180
 
@@ -88,9 +87,7 @@ def test_a_step_is_gauss_newtons(grid):
     assert moved - pose == pytest.approx(step, abs=1e-5)
     assert result[6] == pytest.approx(np.mean(lacking(pose) ** 2))
     compiled, same = pose.copy(), np.zeros(8)
-    kernel("rosmini.navigation.hector_mapping.matching:compiled_climb")(
-        grid.probabilities, ends, compiled, 1, same
-    )
+    compiled_climb()(grid.probabilities, ends, compiled, 1, same)
     assert compiled == pytest.approx(moved, abs=1e-9)
     assert same == pytest.approx(result, rel=1e-9)
 

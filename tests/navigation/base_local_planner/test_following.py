@@ -8,7 +8,7 @@ import pytest
 
 from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
-from rosmini.navigation.base_local_planner.odometry_helper import OdometryHelper
+from rosmini.navigation.base_local_planner.following import OdometryHelper
 
 
 @pytest.fixture

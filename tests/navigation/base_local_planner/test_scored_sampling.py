@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.navigation.base_local_planner.velocity_iterator import velocity_samples
+from rosmini.navigation.base_local_planner.scored_sampling import velocity_samples
 
 NUMBERS = st.floats(-5, 5, allow_subnormal=False).map(lambda value: round(value, 3))
 
