@@ -12,17 +12,33 @@ from importlib import import_module
 from pkgutil import walk_packages
 from typing import Any
 
+from rosmini.core.geometry.machine_code import machine_code
+
 Kernel = Callable[..., Any]
 
 KERNELS: list[Callable[[], Kernel]] = []
-"""The functions decorated with `kernel` in all modules imported so far."""
+"""The functions that return the kernels of all modules imported so far."""
 
 
-def kernel(compiled: Callable[[], Kernel]) -> Callable[[], Kernel]:
-    """Register a function that returns a kernel, and call it only once: compiled, or the plain loop without numba."""
-    cached = cache(compiled)
-    KERNELS.append(cached)
-    return cached
+def kernel(loop: Kernel, *helpers: Kernel) -> Callable[[Callable[[Any], Any]], Callable[[], Kernel]]:
+    """Register a loop, which calls `helpers`; the decorated function receives numba and returns the loop's signature.
+
+    The name then refers to a function that returns the compiled loop, or the plain one if numba is not installed.
+    """
+
+    def register(signature: Callable[[Any], Any]) -> Callable[[], Kernel]:
+        @cache
+        def compiled() -> Kernel:
+            try:
+                import numba
+            except ImportError:
+                return loop
+            return machine_code(loop, signature(numba), helpers)
+
+        KERNELS.append(compiled)
+        return compiled
+
+    return register
 
 
 def compile_all() -> int:

@@ -8,14 +8,12 @@ cubes of the likelihoods are added, instead of multiplying likelihoods, because 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 from .distances import clearances, distances, march
@@ -149,14 +147,8 @@ def scores(
         sums[n] = total
 
 
-@kernel
-def compiled_scores() -> Callable[..., None]:
-    """Return `scores` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        from numba import float32, float64, void
-    except ImportError:
-        return scores
-    number, table = float64, float64[:, ::1]
-    return machine_code(
-        scores, void(float32[:, ::1], number, number, number, number, table, table, float64[::1])
-    )
+@kernel(scores)
+def compiled_scores(numba: Any) -> Any:
+    """Return the signature of `scores`."""
+    number, table = numba.float64, numba.float64[:, ::1]
+    return numba.void(numba.float32[:, ::1], number, number, number, number, table, table, numba.float64[::1])

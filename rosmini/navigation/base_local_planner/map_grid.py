@@ -5,14 +5,12 @@ A wavefront spreads from the target cells across shared cell edges; obstacles st
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.costmap_2d.costmap import NO_INFORMATION, Costmap2D, Ints
 from rosmini.navigation.kernels import kernel
 
@@ -56,16 +54,11 @@ def wavefront(
             tail += 1
 
 
-@kernel
-def compiled_wavefront() -> Callable[..., None]:
-    """Return `wavefront` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        import numba
-    except ImportError:
-        return wavefront
-    read: Any = numba.types.Array(numba.uint8, 2, "C", readonly=True)
-    signature = numba.void(read, read, numba.int32[:, ::1], numba.int32[::1], numba.int64)
-    return machine_code(wavefront, signature)
+@kernel(wavefront)
+def compiled_wavefront(numba: Any) -> Any:
+    """Return the signature of `wavefront`."""
+    read = numba.types.Array(numba.uint8, 2, "C", readonly=True)
+    return numba.void(read, read, numba.int32[:, ::1], numba.int32[::1], numba.int64)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
@@ -17,8 +16,8 @@ from rosmini.core.tf import Buffer
 from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
 
 from .following import Following, OdometryHelper, Publications, ignore, no_command, rename, sim_period, twist
-from .goal_functions import distance_to_goal, is_stopped, turn_to_goal
-from .latched_stop_rotate import checked, decelerated, reachable_turn_speed
+from .goal_functions import turn_to_goal
+from .latched_stop_rotate import LatchedStopRotate
 from .limits import LocalPlannerLimits
 from .trajectory import Samples
 from .trajectory_planner import TrajectoryPlanner, TrajectoryPlannerParameters
@@ -100,7 +99,8 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
             meter_scoring=settings.meter_scoring,
         )
         self.odometry = OdometryHelper(self.node, settings.odom_topic)
-        self._latched = self._rotating = self._reached = False
+        self.latch = LatchedStopRotate(settings.latch_xy_goal_tolerance)
+        self._reached = False
         self._initial_config: dict[str, Any] | None = None
         self._server = Server(self.node, TrajectoryPlannerParameters, self._reconfigure, namespace=label)
 
@@ -163,7 +163,8 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
     def set_plan(self, plan: Sequence[Any]) -> None:
         """Follow this plan."""
         self.following.set_plan(plan)
-        self._latched = self._reached = False
+        self.latch.reset()
+        self._reached = False
 
     def is_goal_reached(self) -> bool:
         """True if the robot has reached the end of the plan and its heading."""
@@ -174,8 +175,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         pose = planar_pose(self.costmap.robot_pose())
         plan = self.following.local(pose, prune=self._settings.prune_plan)
         goal = (float(plan[-1, 0]), float(plan[-1, 1]), float(plan[-1, 2]))
-        if self._latched or distance_to_goal(pose, goal) <= self._settings.xy_goal_tolerance:
-            self._latched = self._latched or self._settings.latch_xy_goal_tolerance
+        if self.latch.is_position_reached(pose, goal, self._limits()):
             command = self._at_goal(pose, goal, plan)
             self.publications.path(self.publications.global_plan, plan)
             return twist(command)
@@ -200,27 +200,35 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         return samples
 
     def _at_goal(self, pose: Pose, goal: Pose, plan: Floats) -> Floats:
-        turn, velocity = turn_to_goal(pose, goal), self.odometry.velocity
-        if abs(turn) <= self._settings.yaw_goal_tolerance:
-            self._rotating = self._latched = False
+        if abs(turn_to_goal(pose, goal)) <= self._settings.yaw_goal_tolerance:
+            self.latch.reset()
             self._reached = True
-            return np.zeros(3)
-        # Update the distances that the check below uses.
-        self._sample(pose, plan)
-        if not self._rotating and not is_stopped(velocity, STOPPED_SPEED, STOPPED_SPEED):
-            command = decelerated(velocity, self.parameters.accelerations, self.planner.sim_period)
-            return checked(command, lambda asked: self._why_not(pose, asked), "Stopping cmd in collision")
-        self._rotating = True
-        p = self.parameters
-        most, least = p.max_vel_theta, p.min_in_place_vel_theta
-        speed = min(most, max(least, abs(turn)))
-        speed = reachable_turn_speed(
-            speed, turn, float(velocity[2]), p.acc_lim_theta, self.planner.sim_period
+        else:
+            # Update the distances that the check of the command uses.
+            self._sample(pose, plan)
+        return self.latch.command(
+            pose,
+            self.odometry.velocity,
+            goal,
+            self._limits(),
+            self.planner.sim_period,
+            lambda asked: self._why_not(pose, asked),
         )
-        # The velocity limits take precedence over the acceleration.
-        speed = min(most, max(least, speed))
-        command = np.array([0.0, 0.0, math.copysign(speed, turn)])
-        return checked(command, lambda asked: self._why_not(pose, asked), "Rotation cmd in collision")
+
+    def _limits(self) -> LocalPlannerLimits:
+        """Return the parameters in the form that `LatchedStopRotate` takes."""
+        p, own = self.parameters, self._settings
+        return LocalPlannerLimits(
+            max_vel_theta=p.max_vel_theta,
+            min_vel_theta=p.min_in_place_vel_theta,
+            acc_lim_x=p.acc_lim_x,
+            acc_lim_y=p.acc_lim_y,
+            acc_lim_theta=p.acc_lim_theta,
+            xy_goal_tolerance=own.xy_goal_tolerance,
+            yaw_goal_tolerance=own.yaw_goal_tolerance,
+            trans_stopped_vel=STOPPED_SPEED,
+            theta_stopped_vel=STOPPED_SPEED,
+        )
 
     def _why_not(self, pose: Pose, command: Floats) -> str:
         return self.planner.driven(self.costmap.grid, pose, self.odometry.velocity, command[None, :]).reason(

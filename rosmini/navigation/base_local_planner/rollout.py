@@ -7,13 +7,11 @@ as they are. They are in one file because numba's cache only checks the modifica
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 Costs = NDArray[np.uint8]
@@ -265,33 +263,24 @@ def looked_up_distance(
     return value
 
 
-@kernel
-def compiled_footprint_cost() -> Callable[..., int]:
-    """Return `footprint_cost` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        import numba
-    except ImportError:
-        return footprint_cost
+@kernel(footprint_cost, outline_cost, line_cost)
+def compiled_footprint_cost(numba: Any) -> Any:
+    """Return the signature of `footprint_cost`."""
     number = numba.float64
-    cells: Any = numba.types.Array(numba.uint8, 1, "C", readonly=True)
-    outline: Any = numba.types.Array(number, 2, "C", readonly=True)
-    signature = numba.int64(cells, numba.int64, numba.int64, *(number,) * 6, outline, number)
-    return machine_code(footprint_cost, signature, (outline_cost, line_cost))
+    cells = numba.types.Array(numba.uint8, 1, "C", readonly=True)
+    outline = numba.types.Array(number, 2, "C", readonly=True)
+    return numba.int64(cells, numba.int64, numba.int64, *(number,) * 6, outline, number)
 
 
-@kernel
-def compiled_rollout() -> Callable[..., None]:
-    """Return `rollout` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        import numba
-    except ImportError:
-        return rollout
+@kernel(rollout, outline_cost, line_cost, cell_of, approached, looked_up_distance)
+def compiled_rollout(numba: Any) -> Any:
+    """Return the signature of `rollout`."""
     number, whole, array = numba.float64, numba.int64, numba.types.Array
 
     def read(kind: Any, dimensions: int) -> Any:
         return array(kind, dimensions, "C", readonly=True)
 
-    signature = numba.void(
+    return numba.void(
         read(numba.uint8, 1),
         whole,
         whole,
@@ -310,7 +299,4 @@ def compiled_rollout() -> Callable[..., None]:
         number[:, :, ::1],
         number[:, ::1],
         whole[:, ::1],
-    )
-    return machine_code(
-        rollout, signature, (outline_cost, line_cost, cell_of, approached, looked_up_distance)
     )

@@ -124,6 +124,11 @@ class Costmap2D:
         """Width and height [m]."""
         return self.width * self.resolution, self.height * self.resolution
 
+    @property
+    def geometry(self) -> tuple[int, int, float, tuple[float, float]]:
+        """Width and height [cells], resolution and origin [m]."""
+        return self.width, self.height, self.resolution, self.origin
+
     def world_to_map(self, x: float, y: float) -> tuple[int, int] | None:
         """Return the cell (mx, my) that contains a point [m], or None if the point is outside the grid."""
         mx, my = self.world_to_map_no_bounds(x, y)

@@ -198,9 +198,9 @@ class Costmap2DROS:
             # As in the original: truncated, so a window of 0.15 m at 0.05 m is three cells wide.
             width, height = (int(side / new.resolution + 1e-9) for side in (new.width, new.height))
             size = (width, height, new.resolution, (new.origin_x, new.origin_y))
-            if self.layered.is_rolling and _geometry(self.grid) == size[:3]:
+            if self.layered.is_rolling and self.grid.geometry[:3] == size[:3]:
                 size = (*size[:3], self.grid.origin)
-            if (*_geometry(self.grid), self.grid.origin) != size:
+            if self.grid.geometry != size:
                 self.layered.resize(*size)
         if new.footprint_padding != self._padding:
             self._padding = new.footprint_padding
@@ -453,10 +453,6 @@ class Costmap2DROS:
             f"{type(error).__name__}: {error}",
             throttle=1.0,
         )
-
-
-def _geometry(grid: Costmap2D) -> tuple[int, int, float]:
-    return grid.width, grid.height, grid.resolution
 
 
 def migrate_sizes(node: Node, namespace: str) -> None:

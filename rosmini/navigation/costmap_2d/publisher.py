@@ -58,7 +58,7 @@ class Costmap2DPublisher:
 
         No message is created without subscribers; a new subscriber receives the whole grid.
         """
-        geometry = self._geometry()
+        geometry = self._grid.geometry
         changed, self._changed = self._changed, None
         if self._always_send_full or self._sent != geometry:
             self._sent = geometry
@@ -70,10 +70,6 @@ class Costmap2DPublisher:
     def _send_whole(self, subscriber: str) -> None:
         """Send the whole grid to a new subscriber."""
         self._whole_publisher.publish_to(subscriber, self._message())
-
-    def _geometry(self) -> tuple[Any, ...]:
-        grid = self._grid
-        return grid.width, grid.height, grid.resolution, grid.origin
 
     def _message(self) -> Any:
         grid = self._grid

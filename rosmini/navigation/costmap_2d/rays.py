@@ -7,13 +7,11 @@ between the centres of the end cells.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 Ints = NDArray[np.int64]
@@ -111,16 +109,11 @@ def clear_rays(
     return low_x, low_y, high_x, high_y
 
 
-@kernel
-def compiled_clear_rays() -> Callable[..., tuple[int, int, int, int]]:
-    """Return `clear_rays` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        import numba
-    except ImportError:
-        return clear_rays
-    types: Any = numba.types
+@kernel(clear_rays, clip_end)
+def compiled_clear_rays(numba: Any) -> Any:
+    """Return the signature of `clear_rays`."""
+    types = numba.types
     number, real = types.int64, types.float64
-    signature = types.UniTuple(number, 4)(
+    return types.UniTuple(number, 4)(
         types.uint8[:, ::1], real, real, real, real, real, types.float64[:, ::1], number, types.uint8
     )
-    return machine_code(clear_rays, signature, (clip_end,))

@@ -100,10 +100,10 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         origin = info.origin.position.x, info.origin.position.y
         geometry = (*size, float(info.resolution), origin)
         text = f"{size[0]} X {size[1]} at {info.resolution:f} m/pix"
-        if not self.layered.is_rolling and geometry != _geometry(self.layered.grid):
+        if not self.layered.is_rolling and geometry != self.layered.grid.geometry:
             self.node.loginfo(f"Resizing costmap to {text}")
             self.layered.resize(*geometry, lock=True)
-        if geometry != _geometry(self.grid):
+        if geometry != self.grid.geometry:
             if self.layered.is_rolling:
                 self.node.loginfo(f"Resizing static layer to {text}")
             self.grid.resize(*geometry)
@@ -201,7 +201,3 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
             along = (pose[axis, 0] * wx + (pose[axis, 3] - self.grid.origin[axis])) / self.grid.resolution
             cells.append(np.floor(along + pose[axis, 1] / self.grid.resolution * wy).astype(np.int64))
         return cells[0], cells[1]
-
-
-def _geometry(grid: Costmap2D) -> tuple[int, int, float, tuple[float, float]]:
-    return grid.width, grid.height, grid.resolution, grid.origin

@@ -7,14 +7,12 @@ voxel with only the first bit is unknown, with both bits marked, and with neithe
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 Columns = NDArray[np.int64]
@@ -152,16 +150,12 @@ def clear_voxels(
     return low_x, low_y, high_x, high_y
 
 
-@kernel
-def compiled_clear_voxels() -> Callable[..., tuple[int, int, int, int]]:
-    """Return `clear_voxels` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        import numba
-    except ImportError:
-        return clear_voxels
-    types: Any = numba.types
+@kernel(clear_voxels, bit_count, ray_fraction)
+def compiled_clear_voxels(numba: Any) -> Any:
+    """Return the signature of `clear_voxels`."""
+    types = numba.types
     number, line = types.int64, types.float64[::1]
-    signature = types.UniTuple(number, 4)(
+    return types.UniTuple(number, 4)(
         types.int64[:, ::1],
         types.uint8[:, ::1],
         line,
@@ -172,4 +166,3 @@ def compiled_clear_voxels() -> Callable[..., tuple[int, int, int, int]]:
         number,
         number,
     )
-    return machine_code(clear_voxels, signature, (bit_count, ray_fraction))

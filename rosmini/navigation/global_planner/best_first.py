@@ -7,13 +7,11 @@ a cell's cost and `neutral_cost` in 8 bits, so that costs of 206 and above wrap 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 from rosmini.navigation.navfn.wave import HIGH, interpolated
 
@@ -109,15 +107,10 @@ def best_first(
     return result
 
 
-@kernel
-def compiled_best_first() -> Callable[..., int]:
-    """Return `best_first` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        import numba
-    except ImportError:
-        return best_first
-    types: Any = numba.types
+@kernel(best_first, interpolated, push, sift)
+def compiled_best_first(numba: Any) -> Any:
+    """Return the signature of `best_first`."""
+    types = numba.types
     number, floats = types.int64, types.float32[::1]
     arrays = (types.uint8[::1], floats, floats, types.int32[::1], floats, types.int64[::1])
-    signature = number(*arrays, number, number, number, types.float64, number)
-    return machine_code(best_first, signature, (interpolated, push, sift))
+    return number(*arrays, number, number, number, types.float64, number)

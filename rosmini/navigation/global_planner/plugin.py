@@ -12,19 +12,11 @@ from rosmini.core.geometry.angles import quaternion_from_yaw, yaw_from_quaternio
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import PlanningFailure
-from rosmini.navigation.navfn.planning import GridPlanner, Poses
+from rosmini.navigation.navfn.planning import OFF_MAP_GOAL, OFF_MAP_START, GridPlanner, Poses
 from rosmini.navigation.navfn.search import Search, cell_of
 
 from .orientations import orient
 from .search import COST_FACTOR, LETHAL_COST, NEUTRAL_COST, GlobalAStar, GlobalDijkstra
-
-OFF_MAP_START = (
-    "The robot's start position is off the global costmap. Planning will always fail, are you sure the robot has been "
-    "properly localized?"
-)
-OFF_MAP_GOAL = (
-    "The goal sent to the global planner is off the global costmap. Planning will always fail to this goal."
-)
 
 
 @dataclass(frozen=True)
@@ -90,7 +82,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
 
     def _plan(self, start: Any, goal: Any, tolerance: float) -> Poses:  # noqa: ARG002 - as in the original
         begin = self.point(start, OFF_MAP_START, 0.5)
-        end = self.point(goal, OFF_MAP_GOAL, 0.5)
+        end = self.point(goal, OFF_MAP_GOAL.format("global"), 0.5)
         if self.parameters.old_navfn_behavior:
             begin, end = cell_of(begin), cell_of(end)
         self.search = search = self._search(begin, end)

@@ -7,14 +7,12 @@ point accumulator. Its occupancy is the ratio of the two counts, or -1 without a
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 Floats = NDArray[np.float64]
@@ -255,17 +253,12 @@ def register(pool: Any, scan: Any, poses: Any, free: Any, first: int) -> int:
     return len(poses)
 
 
-@kernel
-def compiled_register() -> Callable[..., int]:
-    """Return `register` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        from numba import float64, int32, int64, types, uint8
-    except ImportError:
-        return register
-    record: Any = types.NamedTuple
-    cells, beams = int32[:, :, ::1], float64[::1]
-    grids = cells, cells, cells, float64[:, :, :, ::1], int64[:, ::1], int64[::1]
-    pool = record((*grids, int64, int64, float64), Pool)
-    scan = record((beams, beams, float64, uint8[:, ::1]), Scan)
-    signature = int64(pool, scan, float64[:, ::1], int64[::1], int64)
-    return machine_code(register, signature, (count, trace, copy_patch))
+@kernel(register, count, trace, copy_patch)
+def compiled_register(numba: Any) -> Any:
+    """Return the signature of `register`."""
+    record = numba.types.NamedTuple
+    cells, beams = numba.int32[:, :, ::1], numba.float64[::1]
+    grids = cells, cells, cells, numba.float64[:, :, :, ::1], numba.int64[:, ::1], numba.int64[::1]
+    pool = record((*grids, numba.int64, numba.int64, numba.float64), Pool)
+    scan = record((beams, beams, numba.float64, numba.uint8[:, ::1]), Scan)
+    return numba.int64(pool, scan, numba.float64[:, ::1], numba.int64[::1], numba.int64)

@@ -11,14 +11,12 @@ half the map away, so that this test nearly always passes.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 from .maps import SharedMaps
@@ -250,16 +248,15 @@ def match(grids: Any, beams: Any, rule: Any, minimum: float, poses: Any, result:
         result[n, 1] = fit(n, poses[n, 0], poses[n, 1], grids, beams, rule, -1.0)[1]
 
 
-@kernel
-def compiled_match() -> Callable[..., None]:
-    """Return `match` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        from numba import float64, int32, int64, types, void
-    except ImportError:
-        return match
-    record: Any = types.NamedTuple
-    number, count, beam, pairs = float64, int64, float64[::1], float64[:, ::1]
-    grids = record((int32[:, :, ::1], float64[:, :, :, ::1], int64[:, ::1], count, count, number), Grids)
-    beams = record((beam, beam, beam, pairs, int64[:, ::1]), Beams)
+@kernel(match, aim, window, fit, climb)
+def compiled_match(numba: Any) -> Any:
+    """Return the signature of `match`."""
+    record = numba.types.NamedTuple
+    number, count, beam, pairs = numba.float64, numba.int64, numba.float64[::1], numba.float64[:, ::1]
+    grids = record(
+        (numba.int32[:, :, ::1], numba.float64[:, :, :, ::1], numba.int64[:, ::1], count, count, number),
+        Grids,
+    )
+    beams = record((beam, beam, beam, pairs, numba.int64[:, ::1]), Beams)
     rule = record((count, *(number,) * 5, count), Rule)
-    return machine_code(match, void(grids, beams, rule, number, pairs, pairs), (aim, window, fit, climb))
+    return numba.void(grids, beams, rule, number, pairs, pairs)

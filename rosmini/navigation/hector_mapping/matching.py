@@ -7,13 +7,11 @@ along x by the fraction of x where that of y is needed, and vice versa.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.geometry.products import inverse_matrix
 from rosmini.navigation.kernels import kernel
@@ -127,13 +125,9 @@ def climb(probabilities: Any, ends: Any, pose: Any, max_steps: int, result: Any)
         result[7] += 1.0
 
 
-@kernel
-def compiled_climb() -> Callable[..., None]:
-    """Return `climb` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        from numba import float32, float64, int64, void
-    except ImportError:
-        return climb
-    return machine_code(
-        climb, void(float32[:, ::1], float64[:, ::1], float64[::1], int64, float64[::1]), (surface,)
+@kernel(climb, surface)
+def compiled_climb(numba: Any) -> Any:
+    """Return the signature of `climb`."""
+    return numba.void(
+        numba.float32[:, ::1], numba.float64[:, ::1], numba.float64[::1], numba.int64, numba.float64[::1]
     )

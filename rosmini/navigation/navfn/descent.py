@@ -13,13 +13,11 @@ originals stop there, navfn after 4 points for each column of the map.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 from .wave import HIGH
@@ -193,18 +191,9 @@ def descend(
     return FULL
 
 
-@kernel
-def compiled_descend() -> Callable[..., int]:
-    """Return `descend` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        import numba
-    except ImportError:
-        return descend
-    types: Any = numba.types
+@kernel(descend, slope, down, unreached_beside, lowest_around, surrounded, step_down, step_to_lowest)
+def compiled_descend(numba: Any) -> Any:
+    """Return the signature of `descend`."""
+    types = numba.types
     number, real = types.int64, types.float64
-    signature = number(types.float32[::1], number, real, real, real, real, number, types.float64[::1])
-    return machine_code(
-        descend,
-        signature,
-        (slope, down, unreached_beside, lowest_around, surrounded, step_down, step_to_lowest),
-    )
+    return number(types.float32[::1], number, real, real, real, real, number, types.float64[::1])

@@ -13,17 +13,9 @@ from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import OutsideMap
 from rosmini.navigation.nav_core.clouds import point_cloud
 
-from .planning import GridPlanner, Poses
+from .planning import OFF_MAP_GOAL, OFF_MAP_START, GridPlanner, Poses
 from .search import NavfnSearch, cell_of
 from .wave import HIGH
-
-OFF_MAP_START = (
-    "The robot's start position is off the global costmap. Planning will always fail, are you sure the robot has been "
-    "properly localized?"
-)
-OFF_MAP_GOAL = (
-    "The goal sent to the navfn planner is off the global costmap. Planning will always fail to this goal."
-)
 
 
 @dataclass(frozen=True)
@@ -63,7 +55,7 @@ class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
     def _plan(self, start: Any, goal: Any, tolerance: float) -> Poses:
         begin = cell_of(self.point(start, OFF_MAP_START, 0.5))
         try:
-            end = cell_of(self.point(goal, OFF_MAP_GOAL, 0.5))
+            end = cell_of(self.point(goal, OFF_MAP_GOAL.format("navfn"), 0.5))
         except OutsideMap:
             if tolerance <= 0:
                 raise

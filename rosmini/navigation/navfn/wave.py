@@ -14,13 +14,11 @@ percent above the fixed point of their formula; here (except for A*) they are th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
 HIGH = 1e10
@@ -153,16 +151,11 @@ def wave(
     return result
 
 
-@kernel
-def compiled_wave() -> Callable[..., int]:
-    """Return `wave` compiled by numba, or the plain function if numba is not installed."""
-    try:
-        import numba
-    except ImportError:
-        return wave
-    types: Any = numba.types
+@kernel(wave, interpolated, enqueue)
+def compiled_wave(numba: Any) -> Any:
+    """Return the signature of `wave`."""
+    types = numba.types
     number, real = types.int64, types.float64
     bytes_, floats = types.uint8[::1], types.float32[::1]
     arrays = (bytes_, floats, floats, bytes_, types.int32[::1], types.int64[::1], types.float64[::1])
-    signature = number(*arrays, number, number, number, real, number)
-    return machine_code(wave, signature, (interpolated, enqueue))
+    return number(*arrays, number, number, number, real, number)
