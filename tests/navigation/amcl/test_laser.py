@@ -119,7 +119,7 @@ def test_beams_that_most_particles_cannot_explain_are_skipped_once_converged(fie
     ("count", "beams", "expected"), [(360, 60, 60), (360, 180, 180), (7, 30, 7), (360, 1, 2)]
 )
 def test_about_as_many_beams_as_asked_for(count, beams, expected):
-    chosen = LaserModel(max_beams=beams).chosen(count)
+    chosen = LaserModel(max_beams=beams).used_beams(count)
     assert expected <= len(range(count)[chosen]) <= 2 * expected
 
 

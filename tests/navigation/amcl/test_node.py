@@ -210,7 +210,7 @@ def test_initial_poses_that_are_of_no_use(graph):
     assert robot.heard("not finite")
     assert amcl.localizer.filter.particles is before
     robot.say(-7.0, 2.0)
-    assert robot.heard("(-7.00, 2.00) is not in free space of the map")
+    assert robot.heard("(-7.00, 2.00) is not in the free space of the map")
     robot.say(2.0, 2.0, frame="")
     assert robot.heard("empty frame_id")
     assert amcl.localizer.filter.mean().mean[:2] == pytest.approx((2.0, 2.0), abs=0.05)
@@ -240,7 +240,7 @@ def test_an_odometry_that_leaps(graph):
     robot.tell()
     robot.scan()
     graph.run(0.2)
-    assert robot.heard("over 5 m between two scans")
+    assert robot.heard("more than 5 m between two scans")
 
 
 def test_a_map_whose_origin_is_turned(graph):
@@ -352,7 +352,7 @@ def test_parameters_that_are_restored(graph):
 
 def test_a_start_outside_the_map(graph):
     robot, _ = ready(graph, "_initial_pose_x:=-4.0")
-    assert robot.heard("is not in free space of the map")
+    assert robot.heard("is not in the free space of the map")
 
 
 def test_another_base_frame_asks_anew_where_the_laser_is(graph):

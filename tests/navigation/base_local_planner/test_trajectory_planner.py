@@ -69,9 +69,9 @@ def test_it_turns_towards_a_plan_behind_it():
 
 def test_who_turned_right_twice_may_not_turn_left():
     turning = Turning()
-    turning.note(-1.0)
+    turning.record(-1.0)
     assert not turning.stuck_right
-    turning.note(-1.0)
+    turning.record(-1.0)
     assert turning.stuck_right
     assert not turning.stuck_left
 

@@ -62,7 +62,7 @@ def test_what_stays_in_the_window_keeps_its_cost_and_its_place(dx, dy, more_x, m
         ((3, 3, 0.0), "the resolution is 0.0"),
         ((3, 3, math.nan), "the resolution is nan"),
         ((-1, 3, 1.0), "a costmap of -1 x 3 cells"),
-        ((100_000, 100_000, 1.0), "no more than 100,000,000"),
+        ((100_000, 100_000, 1.0), "at most 100,000,000"),
         ((3, 3, 1.0, (math.inf, 0.0)), "the origin of a costmap is"),
     ],
 )

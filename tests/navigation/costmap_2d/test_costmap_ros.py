@@ -287,9 +287,9 @@ def test_without_a_footprint_the_radius_is_that_of_the_real_one(stage):
     ("parameters", "error", "said"),
     [
         ({"footprint": [[0, 0], [1, 1]]}, ParameterError, "at least three points"),
-        ({"resolution": -0.1}, ParameterError, "above 0"),
-        ({"resolution": 0.0}, ParameterError, "above 0"),
-        ({"width": 100_000, "resolution": 0.001}, CostmapError, "take a coarser resolution"),
+        ({"resolution": -0.1}, ParameterError, "greater than 0"),
+        ({"resolution": 0.0}, ParameterError, "greater than 0"),
+        ({"width": 100_000, "resolution": 0.001}, CostmapError, "use a coarser resolution"),
         ({"plugins": "obstacles"}, ParameterError, "plugins"),
         ({"update_frequency": "fast"}, ParameterError, "update_frequency"),
         ({"plugins": [{"name": "x", "type": "costmap_2d::InflatonLayer"}]}, PluginError, "InflationLayer"),

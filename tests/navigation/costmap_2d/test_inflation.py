@@ -67,9 +67,9 @@ def test_a_window_has_what_the_whole_has(grid, radius, data):
     whole, part = grid.copy(), grid.copy()
     inflate(whole, Window(0, 0, width, height), radius, table)
     inflate(part, window, radius, table)
-    assert (window.of(part) == window.of(whole)).all()
+    assert (window.view(part) == window.view(whole)).all()
     outside = np.ones(grid.shape, dtype=bool)
-    window.of(outside)[...] = False
+    window.view(outside)[...] = False
     assert (part[outside] == grid[outside]).all()
 
 

@@ -151,7 +151,7 @@ def test_steps_of_no_size_are_refused():
         DWAPlanner(replace(BURGER, sim_granularity=0.0))
     planner = DWAPlanner(replace(BURGER, sim_granularity=1e-7))
     planner.update_plan(local_grid(), (0, 0, 0), straight(), FOOTPRINT)
-    with pytest.raises(ParameterError, match="take a larger sim_granularity"):
+    with pytest.raises(ParameterError, match="use a larger sim_granularity"):
         planner.find_best(local_grid(), (0, 0, 0), np.zeros(3))
 
 
