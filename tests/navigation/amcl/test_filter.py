@@ -168,7 +168,7 @@ def test_the_mean_of_headings_is_circular():
 
 
 def test_numbers_of_particles_that_are_none():
-    with pytest.raises(RosminiError, match="min_particles \(20\)"):
+    with pytest.raises(RosminiError, match=r"min_particles \(20\)"):
         a_filter(20, 10)
 
 
