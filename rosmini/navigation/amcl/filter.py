@@ -34,7 +34,7 @@ HEADING_CELLS = 36
 MIN_ERROR = 1e-9
 """Lower bound of `kld_err`: a value of 0 gives the maximum number of particles."""
 WEIGHT_UNITS = 1 << 48
-"""Weights are rounded to multiples of 1 / GRAIN, so that every machine draws the same particles."""
+"""Weights are rounded to multiples of 1 / WEIGHT_UNITS, so that every machine draws the same particles."""
 CONVERGENCE_DISTANCE = 0.5
 """Convergence threshold: all particles lie within this distance [m] of their mean, along x and along y."""
 

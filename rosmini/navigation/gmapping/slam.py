@@ -24,7 +24,7 @@ from .matching import Matcher
 Floats = NDArray[np.float64]
 
 WEIGHT_UNITS = 1 << 48
-"""Weights are rounded to multiples of 1 / GRAIN, so that last-bit differences have no effect."""
+"""Weights are rounded to multiples of 1 / WEIGHT_UNITS, so that last-bit differences have no effect."""
 LIKELIHOOD_DECIMALS = 6
 """Number of decimals of log-likelihoods, for the same reason."""
 
