@@ -82,7 +82,7 @@ class OccupancyGrid:
         odds[kinds == 1] += self._free
         odds[(kinds == 2) & (odds < MAX_LOG_ODDS)] += self._occupied
         changed = kinds > 0
-        # The bounds avoid overflow: the lower one here does not change the probability, and `MAX_LOG_ODDS` is the upper one.
+        # The bounds avoid overflow: the lower one here does not change the result, `MAX_LOG_ODDS` is the upper one.
         some = np.exp(np.maximum(odds[changed].astype(np.float64), -80.0))
         self.probabilities[low:high, left:right][changed] = some / (1 + some)
 

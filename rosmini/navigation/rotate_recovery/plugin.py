@@ -87,7 +87,7 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
     def _continue_turn(self, turn: FullTurn) -> bool:
         """Command the next part of the rotation; return False if it would cause a collision."""
         x, y, heading = self._pose()
-        remaining = turn.remaining(heading)
+        remaining = turn.update(heading)
         if turn.is_done:
             return True
         cost = partial(self._cost, x, y)

@@ -16,7 +16,7 @@ class FullTurn:
         self.is_half_done = False
         self._remaining = 2 * math.pi
 
-    def remaining(self, heading: float) -> float:
+    def update(self, heading: float) -> float:
         """Update the turn with this heading, and return the remaining angle [rad]."""
         if self.is_half_done:
             self._remaining = abs(shortest_angular_distance(heading, self.start))

@@ -12,7 +12,7 @@ def test_a_turn_is_done_when_the_robot_has_turned_once_around(start, step):
     turn = FullTurn(start, 0.1)
     turned = 0.0
     while not turn.is_done:
-        remaining = turn.remaining(start + turned)
+        remaining = turn.update(start + turned)
         assert remaining == pytest.approx(2 * math.pi - turned, abs=0.15 + 1e-9) or turned < math.pi
         turned += step
         assert turned < 2 * math.pi + 1
