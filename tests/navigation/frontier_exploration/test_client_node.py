@@ -68,7 +68,7 @@ def test_it_shows_the_polygon_and_sends_it(stage, clicks):
 def test_without_a_server_it_says_so(stage, clicks):
     clicks(*CLICKS)
     stage.graph.run(6.0)
-    assert stage.said("waits for the action server explore_server")
+    assert stage.said("Waiting for the action server explore_server")
 
 
 def test_faults_are_logged(stage, clicks):

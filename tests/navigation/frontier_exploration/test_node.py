@@ -189,7 +189,7 @@ def test_a_robot_that_is_taken_away(stage):
     stage.timer.shutdown()
     exploration.graph.run(40.0)
     assert exploration.client.get_state() is Status.ABORTED
-    assert "for 30 s the robot's pose has been unknown" in exploration.client.get_goal_status_text()
+    assert "the robot's pose has been unknown for 30 s" in exploration.client.get_goal_status_text()
     assert not stage.base.is_active()
 
 

@@ -135,7 +135,7 @@ def test_known_space_is_explored_again(stage):
         (
             [(50, 50), (51, 50), (51, 51)],
             "map",
-            r"from \(50.00, 50.00\) to \(51.00, 51.00\), has nothing in common",
+            r"from \(50.00, 50.00\) to \(51.00, 51.00\), does not overlap",
         ),
         ([(1, 1), (2, 1), (2, 2)], "moon", "Couldn't transform from map to moon"),
     ],

@@ -63,6 +63,6 @@ def test_another_frame():
 
 def test_what_bounds_an_area():
     assert polygon_error(np.array(SQUARE)) is None
-    assert "no finite number" in polygon_error(np.array([*SQUARE, (np.nan, 1.0)]))
+    assert "not finite" in polygon_error(np.array([*SQUARE, (np.nan, 1.0)]))
     assert contains(np.array(SQUARE), (1.0, 3.9))
     assert not contains(np.array(SQUARE), (1.0, 4.1))

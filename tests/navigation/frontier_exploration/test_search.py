@@ -159,9 +159,9 @@ def test_it_finds_what_the_definition_says_in_the_same_order(costs, data):
 def test_given_up_means_next_to_it_too():
     once = Blacklist([(1.0, 2.0)])
     assert once.count((1.24, 1.76), 0.05) == 1
-    assert not once.has((1.24, 1.76), 0.05), "it is tried again"
+    assert not once.is_given_up((1.24, 1.76), 0.05), "it is tried again"
     given_up = Blacklist([(1.0, 2.0)] * 2)
     assert given_up.is_given_up((1.24, 1.76), 0.05)
     assert not given_up.is_given_up((1.26, 2.0), 0.05)
     assert not given_up.is_given_up((1.0, 2.26), 0.05)
-    assert not Blacklist().has((0.0, 0.0), 0.05)
+    assert not Blacklist().is_given_up((0.0, 0.0), 0.05)

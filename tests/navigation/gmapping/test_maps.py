@@ -73,7 +73,7 @@ def test_every_beam_ends_where_it_points(seed):
         assert at(maps, 0, *end) > 0
     other = SharedMaps(1, 0.05)
     other.low, other.tables = maps.low, np.full_like(maps.tables, EMPTY_PATCH)
-    other._enlarge(len(maps.hits) - 1)
+    other._add_patches(len(maps.hits) - 1)
     scan = Scan(ranges, bearings, 10.0, np.zeros(other.tables.shape[1:], dtype=np.uint8))
     assert register(other.pool, scan, np.array([(x, y, heading)]), np.arange(1, len(other.hits)), 0) == 1
     assert (other.hits == maps.hits).all()

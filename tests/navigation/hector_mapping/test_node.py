@@ -214,7 +214,7 @@ def test_an_initial_pose(graph):
     message = message_class("geometry_msgs/PoseWithCovarianceStamped")()
     for frame, x, text in (
         ("map", 50.0, "outside the map"),
-        ("odom", 0.5, "has to be in"),
+        ("odom", 0.5, "must be"),
         ("map", math.nan, "finite"),
     ):
         message.header.frame_id, message.pose.pose.position.x, message.pose.pose.orientation.w = frame, x, 1.0

@@ -89,7 +89,7 @@ def test_an_update_changes_a_part(graph):
 
 
 def test_unknown_poses_are_refused(graph):
-    with pytest.raises(ParameterError, match="does not estimate where the robots began"):
+    with pytest.raises(ParameterError, match="does not estimate start poses"):
         rosrun("multirobot_map_merge", "map_merge", "_known_init_poses:=false", graph=graph).instance()
 
 
