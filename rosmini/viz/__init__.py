@@ -1,6 +1,6 @@
 """Pictures and views: RViz, rqt, replay, 3D scenes and live widgets.
 
-What draws with numpy and matplotlib is loaded when it is first asked for.
+Modules that draw with numpy and matplotlib are imported on first use.
 """
 
 from __future__ import annotations

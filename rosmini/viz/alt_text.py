@@ -1,4 +1,4 @@
-"""For the built book: images in notebook outputs get the alt text and the caption that their metadata carries.
+"""For the built book: give images in notebook outputs the alt text and the caption from their metadata.
 
 myst-nb writes an `image/png` output as an image without alt text. It loads this class through the entry point group
 `myst_nb.mime_renderers`; a view's image brings `{"alt": ..., "caption": ...}` in the metadata of its output.
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class AltText:
-    """A mime renderer of myst-nb: leaves everything to myst-nb, then adds what it has left out."""
+    """A mime renderer for myst-nb that lets myst-nb render an image, then adds its alt text and caption."""
 
     mime_priority_overrides: ClassVar[list[tuple[str, str, int | None]]] = []
 
@@ -36,7 +36,7 @@ class AltText:
 
 
 def _figure(images: list[nodes.Element], caption: str) -> list[nodes.Element]:
-    """A figure as SVG pictures have one: not one of Sphinx's, which would count it itself."""
+    """Wrap images in the same figure element as SVG pictures: Sphinx would number a figure of its own kind."""
     from docutils import nodes
 
     begin = nodes.raw("", '<figure class="rosmini-figure">', format="html")

@@ -1,4 +1,4 @@
-"""Which HTML a view gives: that of the book, which shares scripts between pages, or one that stands alone."""
+"""The two forms of a view's HTML: for the book, where pages share scripts, or self-contained."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ BOOK = "book"
 
 
 def book_form() -> bool:
-    """Whether outputs are made for the book: the environment has `ROSMINI_DISPLAY=book`.
+    """True if outputs are made for the book: the environment has `ROSMINI_DISPLAY=book`.
 
-    `python -m book.tools.notebooks execute` and the tests set it for the kernels that they start, so committed
-    outputs hold small HTML that refers to the book's scripts. Anywhere else a view's HTML carries its scripts.
+    `python -m book.tools.notebooks execute` and the tests set it for the kernels that they start, so that committed
+    outputs hold small HTML that refers to the book's scripts. Elsewhere a view's HTML contains its scripts.
     """
     return os.environ.get(VARIABLE) == BOOK

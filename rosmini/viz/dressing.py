@@ -1,7 +1,7 @@
-"""The house style for figures that somebody else made: matplotlib's box, its sizes and its colours become ours.
+"""The house style for figures that readers make: their box, text sizes and colours become those of the book.
 
-Figures of ours are made inside of `rosmini.viz.figures.house_style`. A reader's own begins with `Figure()` or
-`pyplot.subplots()`; `rosmini.viz.matplotlib_picture` dresses it on its way to the page.
+Our figures are made inside `rosmini.viz.figures.house_style`. A reader's figure begins with `Figure()` or
+`pyplot.subplots()`; `rosmini.viz.matplotlib_picture` applies the style when it turns it into a picture.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ CYCLE: Mapping[str, str] = MappingProxyType(
         "#17becf": LIGHT["sky"],
     }
 )
-"""What matplotlib's colours C0 to C4 and C9 are in the palette; the others have no like in it."""
+"""matplotlib's colours C0 to C4 and C9 and their replacements; the palette has no equivalent of the others."""
 
 _THEIR_SIZES = (10.0, 12.0)
-"""Of matplotlib's text and titles [points]; a point becomes a CSS pixel, and text of ten pixels is hard to read."""
+"""matplotlib's default sizes of text and titles [pt]; one point becomes one CSS pixel, and 10 px are hard to read."""
 
 
 def dress(figure: Figure) -> None:
     """Give the boxed axes of a figure the house style: no box, a faint grid, our ink and sizes.
 
-    Axes whose box was taken away, in the house style or by hand, stay as they are, and so does text of a size of its
-    own.
+    Axes without a box (in the house style, or because the reader removed it) stay as they are, and so does text whose
+    size is not matplotlib's default.
     """
     boxed = [axes for axes in figure.axes if axes.axison and _is_boxed(axes)]
     if not boxed:

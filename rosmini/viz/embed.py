@@ -1,19 +1,19 @@
-"""Pictures that move: a still picture, data, and a script that takes the still picture's place.
+"""Moving pictures: a still picture, data, and a script that replaces the still picture.
 
 The script is a file of `rosmini/viz/static/` that defines a function `mount(host, data, options)`:
 
 - `host` is an empty element of the page, as wide as the text and at least `height` pixels high;
-- `data` is the JSON that Python gave (bytes are base64 in it);
-- `options` has `title`, `alt`, `height`, `book` (whether the page is one of the book), `asset(name)`, a promise of the
-  address of another file, `still`, the still picture's element, and `show(moving)`, which shows `host` or `still`.
+- `data` is the JSON from Python (bytes as base64);
+- `options` has `title`, `alt`, `height`, `book` (true on a page of the book), `asset(name)`, a promise of the URL
+  of another file, `still`, the element of the still picture, and `show(moving)`, which shows `host` or `still`.
 
-What it returns is awaited. If it fails or returns `false`, the still picture comes back. Without scripts (GitHub, a
-notebook that is not trusted, a page without its `_static` folder) the still picture is what one sees, and it is
-printed.
+The value that it returns is awaited. If it fails or returns `false`, the still picture is shown again. Where scripts
+do not run (GitHub, an untrusted notebook, a page without its `_static` folder), readers see the still picture, and
+it is printed.
 
-In the book form the scripts are files of the book, loaded once for each page, from file:// too. In the live form
-they are in the HTML, large ones compressed. The data never are: another zlib gives other bytes, and nbval compares
-the book form to the byte.
+In the book form the scripts are files of the book, loaded once per page, also from file:// URLs. In the live form
+they are part of the HTML, large ones compressed. The data are never compressed: another version of zlib produces
+other bytes, and nbval compares the book form byte by byte.
 """
 
 from __future__ import annotations
@@ -36,10 +36,10 @@ from rosmini.viz.view import ViewError
 
 STATIC = Path(__file__).parent / "static"
 MESHCAT = "meshcat.min.js"
-"""The viewer of meshcat: a file of its wheel, copied into the book when it is built and never committed."""
+"""The meshcat viewer: a file of meshcat's wheel, copied into the book at build time and never committed."""
 
 LIVE = "const book = false"
-"""What the live form holds and the book form does not."""
+"""Text that occurs in the live form and not in the book form."""
 
 _CALL = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
 
@@ -57,22 +57,22 @@ def embed(
     assets: Sequence[str] = (),
     book: bool | None = None,
 ) -> str:
-    """The HTML of a picture that moves: the same input gives the same bytes.
+    """Return the HTML of a moving picture; the same input gives the same bytes.
 
     Args:
         script_names: scripts of `rosmini/viz/static/`, run in this order before the call.
-        call: the function that shows the data, seen from the global object: `"rosminiReplay.mount"`.
-        data: what it shows, as JSON; bytes become base64.
-        title: the name of the thing, in a few words; `options.title` of the call.
-        alt: what it shows, in a sentence or two; `options.alt` of the call.
-        height: the least height of the place that the script is given [CSS px].
-        fallback_html: the still picture, with a text of its own.
-        caption: words under the picture.
+        call: the JavaScript function that shows the data, as seen from the global object: `"rosminiReplay.mount"`.
+        data: the data to show, as JSON; bytes become base64.
+        title: a name of a few words; `options.title` of the call.
+        alt: a description in one or two sentences; `options.alt` of the call.
+        height: the minimum height of the element that the script fills [CSS px].
+        fallback_html: the still picture, including its own text.
+        caption: the caption below the picture.
         assets: further files that the script may ask for with `options.asset(name)`.
-        book: the book's form or the live form; by default as `book_form()` says.
+        book: True for the book form, False for the live form; by default `book_form()`.
 
     Raises:
-        ViewError: there is no such script, the call is not a name, or the title, alt text or still picture is empty.
+        ViewError: a script does not exist, the call is not a name, or the title, alt text or still picture is empty.
 
     """
     for what, given in (("a title", title), ("alt text", alt), ("a still picture", fallback_html)):
@@ -106,10 +106,10 @@ def embed(
 
 
 def asset_path(name: str) -> Path:
-    """Where a script is that pages may load.
+    """Return the path of a script that pages may load.
 
     Raises:
-        ViewError: there is none of that name, or meshcat is not installed.
+        ViewError: no script has this name, or meshcat is not installed.
 
     """
     if name == MESHCAT:
@@ -125,7 +125,7 @@ def asset_path(name: str) -> Path:
 
 
 def _script_json(data: Mapping[str, Any]) -> str:
-    """JSON that ends no script element."""
+    """Return JSON that cannot end a script element."""
     text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False, default=_base64)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
@@ -139,13 +139,13 @@ def _base64(value: object) -> str:
 
 
 def _book(script_names: Sequence[str], assets: Sequence[str]) -> str:
-    """How a page of the book gets its scripts: each once, in order."""
-    del assets  # all of them are files beside the scripts
+    """Return the code that loads the scripts on a page of the book: each once, in order."""
+    del assets  # assets are files beside the scripts, so the page can load them itself
     return _FROM_BOOK % json.dumps(list(script_names))
 
 
 def _live(script_names: Sequence[str], assets: Sequence[str]) -> str:
-    """How an output that stands alone gets its scripts: it brings them."""
+    """Return the scripts themselves, for an output that must work alone."""
     scripts = "".join(
         f"(() => {{{asset_path(name).read_text(encoding='utf-8')}\n}})();" for name in script_names
     )
@@ -155,7 +155,7 @@ def _live(script_names: Sequence[str], assets: Sequence[str]) -> str:
 
 
 def unpacking(assets: Sequence[str]) -> str:
-    """A script with files in it that defines `asset(name)`, a promise of a file's address."""
+    """Return a script that contains the given files and defines `asset(name)`, a promise of a file's URL."""
     return _UNPACKING % json.dumps({name: _packed(name) for name in assets})
 
 
@@ -168,7 +168,7 @@ _PRINT = (
     "@media print{.rosmini-still[hidden]{display:block!important}.rosmini-moving{display:none!important}}"
 )
 
-# `find` takes the first picture of that mark that has no script yet: two equal ones on one page both work.
+# `find` takes the first picture with this mark that has no script yet, so that two equal ones on a page both work.
 _FROM_BOOK = """
 const root = document.documentElement.dataset.content_root;
 if (root === undefined) return;

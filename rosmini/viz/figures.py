@@ -1,8 +1,8 @@
-"""Figures in the house style: sized in CSS pixels, no frame, a faint grid, independent of a user's matplotlibrc.
+"""Figures in the house style: sized in CSS pixels, no frame, a faint grid, independent of the user's matplotlibrc.
 
-Pictures of worlds and runs are SVG: sharp, in the page's theme, legible to screen readers, and a few dozen kB small.
-nbval compares them to the byte, so what is drawn is rounded first (`rosmini.viz.rounding`), and what matplotlib writes
-is rounded again (`rosmini.viz.themed`). A PNG would have to look good on light and on dark pages at once.
+Pictures of worlds and runs are SVG: sharp, in the page's theme, readable by screen readers, and a few dozen kB.
+nbval compares them byte by byte, so the data drawn are rounded first (`rosmini.viz.rounding`), and matplotlib's
+output is rounded again (`rosmini.viz.themed`). A PNG would have to look good on both light and dark pages.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 WIDTH = 660.0
-"""As wide as the text of the book [CSS px]."""
+"""The width of the book's text column [CSS px]."""
 
 LARGEST = 4000.0
-"""No picture is wider or higher [CSS px]."""
+"""Maximum width and height of a picture [CSS px]."""
 
 _STYLE: dict[Any, Any] = {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib, so the layout is the same everywhere
@@ -60,7 +60,7 @@ _STYLE: dict[Any, Any] = {
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """Matplotlib with its own defaults and the house style, for as long as the block runs.
+    """Use matplotlib's defaults and the house style inside the block.
 
     Raises:
         ViewError: matplotlib is not installed.
@@ -79,7 +79,7 @@ def house_style() -> Iterator[None]:
 
 
 def blank_figure(width: float, height: float) -> Figure:
-    """An empty figure of this size in CSS pixels; make it inside of `house_style`.
+    """Return an empty figure of this size in CSS pixels; call it inside `house_style`.
 
     Raises:
         ViewError: it would be too small to draw in, or larger than a screen.
@@ -94,10 +94,10 @@ def blank_figure(width: float, height: float) -> Figure:
 
 
 def place(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
-    """Axes in a figure, by their left upper corner and their size [CSS px].
+    """Add axes to a figure, by their upper left corner and their size [CSS px].
 
     Raises:
-        ViewError: the figure is so small that nothing is left for them.
+        ViewError: the figure is so small that no space is left for them.
 
     """
     full_width, full_height = figure.get_size_inches() * 72
@@ -113,7 +113,7 @@ def place(figure: Figure, left: float, top: float, width: float, height: float) 
 
 
 def legend(figure: Figure, handles: Sequence[Any], left: float) -> None:
-    """One line of words about lines and marks, in the first 28 pixels of a figure, `left` from its side [CSS px]."""
+    """Add a one-line legend in the top 28 pixels of a figure, `left` from its left edge [CSS px]."""
     width, height = figure.get_size_inches() * 72
     figure.legend(
         handles=list(handles),
@@ -128,12 +128,12 @@ def legend(figure: Figure, handles: Sequence[Any], left: float) -> None:
 
 
 def legend_width(handles: Sequence[Any]) -> float:
-    """How wide their legend is, about [CSS px]."""
+    """Return the approximate width of a legend with these handles [CSS px]."""
     return sum(64.0 + 6.6 * len(handle.get_label()) for handle in handles)
 
 
 def ticks(low: float, high: float, step: float) -> list[float]:
-    """The multiples of `step` from `low` to `high`."""
+    """Return the multiples of `step` from `low` to `high`."""
     return [
         round(i * step, 9) for i in range(math.ceil(low / step - 1e-6), math.floor(high / step + 1e-6) + 1)
     ]
@@ -146,7 +146,7 @@ def mark(axis: Axis, low: float, high: float, step: float) -> None:
 
 
 def step_of(extent: float, most: int, steps: Sequence[float] = (1, 2, 5)) -> float:
-    """The smallest of `steps` times a power of ten that divides `extent` into `most` parts or fewer."""
+    """Return the smallest of `steps` times a power of ten that divides `extent` into at most `most` parts."""
     least = extent / most * (1 - 1e-9)
     power = 10.0 ** math.floor(math.log10(least / max(steps)))
     while True:
@@ -157,6 +157,6 @@ def step_of(extent: float, most: int, steps: Sequence[float] = (1, 2, 5)) -> flo
 
 
 def say(values: Sequence[float]) -> list[str]:
-    """The labels of ticks: as few decimals as they need, and a real minus sign."""
+    """Return the labels of ticks: as few decimals as possible, and a proper minus sign."""
     digits = max((len(f"{v:.6f}".rstrip("0").partition(".")[2]) for v in values), default=0)
     return [f"{v + 0.0:.{digits}f}".replace("-", "\N{MINUS SIGN}") for v in values]

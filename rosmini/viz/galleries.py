@@ -1,4 +1,4 @@
-"""Views side by side: one figure, one text, one alt text. On a narrow page they stand one below the other."""
+"""Views side by side: one figure, one text, one alt text. On a narrow page they are placed one below the other."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from rosmini.viz.svg import document, element, escape
 from rosmini.viz.view import SVG_MIME, View, ViewError
 
 GAP = 16.0
-"""Between two of them [CSS px]."""
+"""Space between two views [CSS px]."""
 LEAST = 240.0
-"""No view is narrower than this, where the page is not [CSS px]."""
+"""Minimum width of a view, unless the page is narrower [CSS px]."""
 KIND = "rosmini-grid"
 
 _SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 
 
 def grid(*views: View, columns: int = 2, title: str | None = None) -> View:
-    """Put views beside one another: pictures, and views that move or turn, each with its caption.
+    """Put views side by side: pictures, and views that move or turn, each with its caption.
 
     Args:
-        views: what is shown, from left to right, row by row; for two in the book's column, make them `width=320`.
-        columns: how many in a row, where there is room.
-        title: a caption under them all, and the first words of the text form.
+        views: the views, from left to right, row by row; for two in the book's column, make them `width=320`.
+        columns: the number of columns, where the page is wide enough.
+        title: a caption under all of them, and the first words of the text form.
 
     Raises:
-        ViewError: there are no views, the columns are not a positive number, or a view has no vector form, as images
-            of cameras have none.
+        ViewError: there are no views, `columns` is not positive, or a view has no vector form (camera images have
+            none).
 
     """
     if not views or columns < 1:
@@ -60,7 +60,7 @@ class _Grid(View):
         return {SVG_MIME: self._svg().encode()}
 
     def _svg(self) -> str:
-        """All in one document, each as wide as its column, rows as high as their highest."""
+        """Return all views as one document: each as wide as its column, each row as high as its highest view."""
         wide = (WIDTH - GAP * (self._columns - 1)) / self._columns
         drawn = [_svg_of(view) or "" for view in self._views]
         heights = [wide * _size(svg)[1] / _size(svg)[0] for svg in drawn]
@@ -92,7 +92,7 @@ class _Grid(View):
 
     @property
     def html(self) -> str:
-        """Their own figures in one, in as many columns as there is room for."""
+        """The views' own figures in one figure, in as many columns as the page has room for."""
         each = f"max({LEAST:g}px, calc({100 / self._columns:.4g}% - {GAP:g}px))"
         cells = "".join(f'<div style="min-width:0">{view.html}</div>' for view in self._views)
         columns = f"grid-template-columns:repeat(auto-fit,minmax(min(100%,{each}),1fr))"
@@ -109,13 +109,13 @@ def _svg_of(view: View) -> str | None:
 
 def _size(svg: str) -> tuple[float, float]:
     found = _SIZE.search(svg)
-    if found is None:  # every picture of ours has one
+    if found is None:  # each of our pictures has one
         raise ViewError("an SVG without a viewBox cannot stand in a grid")
     return float(found[1]), float(found[2])
 
 
 def _placed(svg: str, left: float, top: float, wide: float, high: float) -> str:
-    """An SVG document as an element at a place of another: its own size and style would rule otherwise."""
+    """Return an SVG document as a nested element at a position, without its own size and style."""
     head, _, rest = svg.partition(">")
     head = re.sub(r' (?:width|height|style)="[^"]*"', "", head)
     return f'{head} x="{left:.1f}" y="{top:.1f}" width="{wide:.1f}" height="{high:.1f}">{rest}'

@@ -1,4 +1,4 @@
-"""What drawings of laid out graphs share: shapes, texts, arrows, their style rules, and the document around them."""
+"""Building blocks for drawings of laid out graphs: shapes, texts, arrows, style rules, and the document around them."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from rosmini.viz.metrics import text_width
 from rosmini.viz.svg import bezier, document, element, escape, number
 
 MARGIN = 12.0
-"""Around a drawing [px]."""
+"""Margin around a drawing [px]."""
 LINE_HEIGHT = 15.0
 ARROW_LENGTH, ARROW_HALF = 8.5, 3.6
 
 
 def ellipse(rect: Rect, kind: str) -> str:
-    """An ellipse in the colours `kind`-fill and `kind`-line."""
+    """Return an ellipse in the colours `kind`-fill and `kind`-line."""
     x, y = rect.centre
     return element("ellipse", cx=x, cy=y, rx=rect.width / 2, ry=rect.height / 2, **_paint(kind))
 
 
 def box(rect: Rect, kind: str, radius: float, shift: float = 0.0) -> str:
-    """A rectangle with round corners in the colours `kind`-fill and `kind`-line, `shift` to the right and up."""
+    """Return a rectangle with round corners in the colours `kind`-fill and `kind`-line, `shift` to the right and up."""
     return element(
         "rect",
         x=rect.x + shift,
@@ -49,7 +49,7 @@ def text(
     anchor: str | None = "middle",
     kind: str | None = None,
 ) -> str:
-    """A line of text on a base line; `kind` is its class."""
+    """Return a line of text on a baseline; `kind` is its class."""
     return element(
         "text",
         escape(words),
@@ -63,18 +63,18 @@ def text(
 
 
 def name(words: str, rect: Rect) -> str:
-    """A name in the middle of a shape."""
+    """Return a name in the middle of a shape."""
     x, y = rect.centre
     return text(words, x, y + 4.5)
 
 
 def room_for(lines: list[str]) -> tuple[float, float]:
-    """The width and height that `facts` take."""
+    """Return the width and height that the text of `facts` needs."""
     return max(text_width(line, style.LABEL_SIZE) for line in lines) + 10, LINE_HEIGHT * len(lines) + 4
 
 
 def facts(lines: Iterable[str], room: Rect | None) -> str:
-    """Lines of text beside an edge, from the left of its room for a label."""
+    """Return lines of text beside an edge, aligned with the left side of the room for its label."""
     if room is None:
         return ""
     return "".join(
@@ -91,7 +91,7 @@ def facts(lines: Iterable[str], room: Rect | None) -> str:
 
 
 def arrow(route: Route, colour: str = "line", width: float | None = None) -> str:
-    """The curve of an edge with its arrow head."""
+    """Return the curve of an edge with its arrowhead."""
     points, head = _with_head(route.points)
     paint = style.LIGHT[colour]
     line = element("path", d=bezier(points), fill="none", stroke=paint, stroke_width=width)
@@ -99,7 +99,7 @@ def arrow(route: Route, colour: str = "line", width: float | None = None) -> str
 
 
 def _with_head(points: tuple[Point, ...]) -> tuple[tuple[Point, ...], str]:
-    """The curve, cut off where its arrow head begins, and the head's outline."""
+    """Return the curve, cut off at its arrowhead, and the outline of the arrowhead."""
     tip, before = points[-1], points[-2]
     dx, dy = tip[0] - before[0], tip[1] - before[1]
     length = (dx * dx + dy * dy) ** 0.5
@@ -116,7 +116,7 @@ def _with_head(points: tuple[Point, ...]) -> tuple[tuple[Point, ...], str]:
 
 
 def rule(selector: str, **properties: str) -> str:
-    """A style rule; the properties are colours of the palette."""
+    """Return a style rule; the properties are colours of the palette."""
     body = ";".join(f"{name}:{style.variable(value)}" for name, value in properties.items())
     return f".rosmini-svg {selector}{{{body}}}"
 
@@ -124,7 +124,7 @@ def rule(selector: str, **properties: str) -> str:
 def drawing(
     parts: Iterable[str], layout: Layout, *, title: str, alt: str, css: str, colours: list[str]
 ) -> str:
-    """The document of a drawing, with a margin around it."""
+    """Return the document of a drawing, with a margin around it."""
     moved = element("g", "".join(parts), transform=f"translate({number(MARGIN)},{number(MARGIN)})")
     width, height = layout.width + 2 * MARGIN, layout.height + 2 * MARGIN
     return document(moved, width=width, height=height, title=title, alt=alt, css=css, colours=colours)

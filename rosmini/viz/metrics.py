@@ -1,7 +1,7 @@
-"""How wide a text will be, without opening a font.
+"""Estimate the width of a text without opening a font.
 
-The table holds advance widths in thousandths of the font size for a wide sans-serif face (DejaVu Sans), so a text in
-any face of the house's stack is at most this wide, and the same number is found on every machine.
+The table contains advance widths in thousandths of the font size for a wide sans-serif face (DejaVu Sans), so a text
+in any font of the house style is at most this wide, and the result is the same on every machine.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _WIDE = 1050
 
 
 def text_width(text: str, size: float) -> float:
-    """The width of one line of text in a sans-serif face, in the unit of `size`, rather too large than too small."""
+    """Return the width of a line of sans-serif text, in the unit of `size`; rather too large than too small."""
     total = 0
     for character in text:
         advance = _ADVANCE.get(character)

@@ -1,4 +1,4 @@
-"""The base of pictures that move: a still picture, and in a page a script in its place (see `rosmini.viz.embed`)."""
+"""The base of moving pictures: a still picture that a script replaces in a page (see `rosmini.viz.embed`)."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from rosmini.viz.view import SVG_MIME, View
 
 
 class MovingView(View):
-    """A view that has a still picture, data, and scripts of `rosmini/viz/static/` that show the data."""
+    """A view with a still picture, data, and scripts of `rosmini/viz/static/` that show the data."""
 
     scripts: Sequence[str] = ()
-    """Run in this order before the call."""
+    """Scripts that run in this order before the call."""
     assets: ClassVar[tuple[str, ...]] = ()
     """Further files that the scripts may ask for."""
     call: ClassVar[str]
-    """The function that shows the data, seen from the global object."""
+    """The JavaScript function that shows the data, as seen from the global object."""
     usual_name: ClassVar[str] = ""
-    """What it is called without a title."""
+    """The name used without a title."""
     title: str | None = None
     """A caption, and the first words of the text form."""
 
     @property
     def name(self) -> str:
-        """What it is called, in a few words."""
+        """The name, in a few words."""
         return self.title or self.usual_name
 
     @property
@@ -37,16 +37,16 @@ class MovingView(View):
     @property
     @abstractmethod
     def data(self) -> Mapping[str, Any]:
-        """What the scripts get, as JSON; bytes become base64."""
+        """The data for the scripts, as JSON; bytes become base64."""
 
     @property
     @abstractmethod
     def height(self) -> int:
-        """The least height of what moves, with its controls [CSS px]."""
+        """The minimum height of the moving picture, with its controls [CSS px]."""
 
     @property
     def fallback(self) -> str:
-        """What a page shows without scripts and in print."""
+        """The HTML that a page shows without scripts and in print."""
         return self.svg
 
     def _images(self) -> dict[str, bytes]:
@@ -54,12 +54,12 @@ class MovingView(View):
 
     @property
     def html(self) -> str:
-        """What moves: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
+        """The moving picture: for the book or self-contained, according to `rosmini.viz.book_form.book_form`."""
         return self._html(None)
 
     @property
     def page(self) -> str:
-        """What moves with all that it needs, for a file of its own."""
+        """The moving picture with everything that it needs, for a separate file."""
         return self._html(book=False)
 
     def _html(self, book: bool | None) -> str:

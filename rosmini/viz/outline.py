@@ -1,4 +1,4 @@
-"""A tree drawn as an outline: a row for each entry, indented, with lines from each to what it belongs to."""
+"""A tree drawn as an outline: an indented row for each entry, with lines from each entry to its parent."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ MARGIN, ROW, STEP, GAP = 12.0, 24.0, 24.0, 14.0
 COLOURS = ["ink", "muted", "group-line", "node-line", "topic-fill", "topic-line"]
 
 HEAD, NAME, VALUE, KIND = "pt-namespace", "pt-name", "pt-value", "pt-kind"
-"""How a cell is written: bold, plain, in colour, or muted and slanted."""
+"""The styles of a cell: bold, plain, in colour, or muted and slanted."""
 
 
 @dataclass(frozen=True)
 class Row:
-    """An entry: how deep it is, the number of the row that it belongs to (-1: none), and its cells."""
+    """An entry: its depth, the index of its parent's row (-1 for none), and its cells."""
 
     depth: int
     parent: int

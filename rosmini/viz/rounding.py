@@ -1,8 +1,8 @@
-"""Numbers that are the same on every machine, for texts and for pictures that a notebook's test compares to the byte.
+"""Numbers that are the same on every machine, for texts and pictures that the notebook tests compare byte by byte.
 
-Sines, exponentials and sums may differ in their last bit between machines. A plain `round` makes that visible wherever
-a value lies on a boundary, and values that people choose do lie there: 0.125 m is 0.12 or 0.13. The functions here have
-their boundaries elsewhere, where only a chance value falls.
+Sines, exponentials and sums may differ in their last bit between machines. A plain `round` makes this visible if a
+value lies on a rounding boundary, and values that people choose often do: 0.125 m is 0.12 or 0.13. The functions here
+have their boundaries elsewhere, where values fall only by chance.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.core.geometry.polygons import simplified_indices
 
 MILLIMETRE = 1e-3
-"""To what pictures of a world are rounded [m]: a tenth of a pixel, at most."""
+"""Resolution to which pictures of a world are rounded [m]: at most a tenth of a pixel."""
 
 
 def fixed(value: float, digits: int) -> str:
-    """`value` with this number of decimals: half rounded away from zero, and no negative zero.
+    """Return `value` with this number of decimals: half rounded away from zero, and no negative zero.
 
     >>> fixed(0.125 - 1e-15, 2), fixed(-0.0001, 2)
     ('0.13', '0.00')
@@ -30,7 +30,7 @@ def fixed(value: float, digits: int) -> str:
 
 
 def degrees(angle: float, digits: int = 1) -> str:
-    """An angle [rad] in degrees, in (-180, 180].
+    """Return an angle [rad] in degrees, in (-180, 180].
 
     >>> degrees(-3.141592653589793), degrees(7.0, 0)
     ('180.0', '41')
@@ -40,20 +40,20 @@ def degrees(angle: float, digits: int = 1) -> str:
 
 
 def snap(values: ArrayLike, quantum: float = MILLIMETRE) -> NDArray[np.float64]:
-    """`values` as multiples of `quantum`; the boundaries lie a little off the halves."""
+    """Return `values` rounded to multiples of `quantum`; the rounding boundaries are slightly off the halves."""
     return np.floor(np.asarray(values, dtype=float) / quantum + 0.5371) * quantum + 0.0
 
 
 def kept(points: NDArray[np.float64], tolerance: float) -> list[int]:
-    """Which points of a line (n, 2) are enough to draw it: none of the others is further away than `tolerance`.
+    """Return the points of a line (n, 2) that suffice to draw it: no other point is further away than `tolerance`.
 
-    The ends stay; see `rosmini.core.geometry.polygons.simplified_indices`.
+    The ends are always included; see `rosmini.core.geometry.polygons.simplified_indices`.
     """
 
     def gaps(first: int, last: int) -> NDArray[np.float64]:
         start, chord = points[first], points[last] - points[first]
         between = points[first + 1 : last] - start
-        length = float((chord * chord).sum())  # not `@`: BLAS's last bits depend on the processor
+        length = float((chord * chord).sum())  # not `@`: the last bits of BLAS depend on the processor
         along = (
             np.clip((between * chord).sum(axis=1) / length, 0.0, 1.0) if length else np.zeros(len(between))
         )

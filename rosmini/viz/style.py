@@ -1,7 +1,7 @@
 """The house style: one palette for light and dark, one font stack, a few line widths.
 
-The hues are those of Okabe and Ito, "Color Universal Design" (2008), distinguished with every kind of colour vision and
-in print; each is paired with a fill that keeps text on it above a contrast of 4.5:1. Pictures name colours through
+The hues are those of Okabe and Ito, "Color Universal Design" (2008), distinguishable with every kind of colour vision
+and in print; each is paired with a fill that keeps the contrast of text on it above 4.5:1. Pictures name colours by
 CSS custom properties (`--rosmini-ink`), with the light colour as fallback, so they follow the theme of the page.
 """
 
@@ -12,7 +12,7 @@ from colorsys import hls_to_rgb, rgb_to_hls
 from types import MappingProxyType
 
 FONT = '"Helvetica Neue", Helvetica, Arial, "Liberation Sans", "DejaVu Sans", sans-serif'
-"""Faces that every system has; none is loaded."""
+"""Fonts that are present on every system; none is downloaded."""
 
 TEXT_SIZE = 13.0
 LABEL_SIZE = 12.0
@@ -75,8 +75,8 @@ PRINT: Mapping[str, str] = MappingProxyType(
         "sky": "#399ad9",
     }
 )
-"""On paper the colours of lines have the same hues, but steps of lightness (9 of CIE L*, 14 to 61): so they are
-distinguished without any colour, too. The others are those of a light page."""
+"""On paper the colours of lines have the same hues, but in steps of lightness (9 of CIE L*, 14 to 61), so that they
+can also be distinguished without colour. The others are those of a light page."""
 DARK_PAGES = (
     'html[data-theme="dark"]',  # the book (pydata and sphinx-book themes)
     'body[data-jp-theme-light="false"]',  # JupyterLab
@@ -85,7 +85,7 @@ DARK_PAGES = (
 
 
 def variable(name: str) -> str:
-    """The CSS value for a colour of the palette: `var(--rosmini-ink, #1b2733)`.
+    """Return the CSS value for a colour of the palette: `var(--rosmini-ink, #1b2733)`.
 
     Raises:
         KeyError: the palette has no such colour.
@@ -95,12 +95,12 @@ def variable(name: str) -> str:
 
 
 def declarations(palette: Mapping[str, str], names: list[str] | None = None) -> str:
-    """Custom properties of a palette, for use inside a rule; all of them, or those named."""
+    """Return the custom properties of a palette, for use inside a rule; all of them, or the named ones."""
     return "".join(f"--rosmini-{name}:{palette[name]};" for name in names or palette)
 
 
 def dark_of(colour: str) -> str:
-    """A colour `#rrggbb` outside the palette as it is on a dark page: the same hue, bright enough to be seen there."""
+    """Return the variant for dark pages of a colour `#rrggbb` outside the palette: the same hue, but bright enough."""
     red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
     hue, lightness, saturation = rgb_to_hls(red, green, blue)
     lighter = hls_to_rgb(hue, max(lightness, 0.40 + 0.45 * lightness), saturation)
@@ -108,11 +108,11 @@ def dark_of(colour: str) -> str:
 
 
 def themed(selector: str, names: list[str], others: Iterable[str] = ()) -> str:
-    """Rules that give inline pictures the dark palette on dark pages, and a picture opened alone a page of its own.
+    """Return rules for the dark palette on dark pages, and for the background of a picture opened by itself.
 
-    `others` are colours beside the palette, `#rrggbb`, that become custom properties too: `--rosmini-rrggbb`.
+    `others` are colours `#rrggbb` outside the palette that also become custom properties: `--rosmini-rrggbb`.
 
-    `svg:root` matches only where the SVG is the document, so what a reader's system prefers rules there, while on a
+    `svg:root` matches only if the SVG is the document, so that the reader's system preference applies there, and on a
     page the page's own switch does.
     """
     dark = ",".join(f"{page} {selector}" for page in DARK_PAGES)

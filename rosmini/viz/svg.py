@@ -1,6 +1,6 @@
-"""Writing SVG: elements as strings, well formed whatever a name contains, and the same bytes at each run.
+"""Write SVG: elements as strings, well formed whatever a name contains, with the same bytes at each run.
 
-There are no ids, since two pictures on one page would share them: a picture is named by `aria-label`.
+There are no ids, because two pictures on one page would share them: a picture is named by `aria-label`.
 """
 
 from __future__ import annotations
@@ -17,23 +17,23 @@ _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
 def number(value: float) -> str:
-    """A coordinate to a tenth of a pixel, without a trailing zero or a negative one."""
+    """Return a coordinate to a tenth of a pixel, without a trailing zero and without negative zero."""
     text = f"{value:.1f}".removesuffix(".0")
     return "0" if text == "-0" else text
 
 
 def clean(text: str) -> str:
-    """`text` without the characters that XML cannot hold at all (control characters, lone surrogates)."""
+    """Return `text` without the characters that XML cannot contain (control characters, lone surrogates)."""
     return _FORBIDDEN.sub(_REPLACEMENT, text)
 
 
 def escape(text: str) -> str:
-    """`text` for use in an attribute or an element of XML or HTML."""
+    """Return `text` escaped for an attribute or an element of XML or HTML."""
     return _escape(clean(text), quote=True)
 
 
 def element(tag: str, content: str = "", /, **attributes: str | float | None) -> str:
-    """An element. `content` is markup; attribute values are escaped; `class_` is class, `_` in names is `-`."""
+    """Return an element. `content` is markup; attribute values are escaped; `class_` is class, `_` in names is `-`."""
     parts = [tag]
     for name, value in attributes.items():
         if value is None:
@@ -45,7 +45,7 @@ def element(tag: str, content: str = "", /, **attributes: str | float | None) ->
 
 
 def bezier(points: Iterable[Point]) -> str:
-    """Path data for a chain of cubic curves: a start, then two control points and an end for each."""
+    """Return path data for a chain of cubic curves: a start, then two control points and an end for each."""
     start, *rest = points
     pieces = (rest[i : i + 3] for i in range(0, len(rest), 3))
     curves = ("C" + " ".join(f"{number(x)},{number(y)}" for x, y in piece) for piece in pieces)
@@ -64,11 +64,11 @@ def document(
     kind: str = "rosmini-svg",
     others: Iterable[str] = (),
 ) -> str:
-    """A whole picture: usable as a file, and inline in a page of any theme.
+    """Return a complete picture, which works as a file, and inline in a page of any theme.
 
-    `alt` is what a screen reader says; `css` may use the custom properties named in `colours`; `kind` is the class that
-    the picture's rules apply to; `others` are colours outside the palette that `css` uses. Outside of the book the
-    picture shrinks to 60 per cent at most, so that its text stays legible, and then the figure scrolls; in the book it
+    `alt` is the text for screen readers; `css` may use the custom properties named in `colours`; `kind` is the class
+    that the picture's rules apply to; `others` are colours outside the palette that `css` uses. Outside the book the
+    picture shrinks to at least 60 per cent, so that its text stays legible, and then the figure scrolls; in the book it
     shrinks with its column.
     """
     style = f".{kind} text{{font-family:{FONT}}}{css}{themed(f'.{kind}', colours, others)}"

@@ -1,14 +1,14 @@
-"""From matplotlib's SVG to ours: it follows the theme of its page, it is small, and it is the same on every machine.
+"""Turn matplotlib's SVG into ours, which follows the theme of its page, is small, and is the same on every machine.
 
 - Colours of the light palette become custom properties, so the picture turns dark with its page; black is ink and white
-  is the page. Other colours may become custom properties of their own, lighter on dark pages. Each stays as an
-  attribute too, for programs that know no custom properties. Matplotlib's own cycle of colours becomes the palette's.
-- Numbers keep a hundredth of a pixel. Matplotlib writes six decimals, of which the last may depend on the machine; they
-  are rounded as decimal text, so what it wrote alike stays alike.
-- Unused ids go. The others (of clip paths and markers) are made from what they name, so two pictures on a page share an
-  id only if it means the same in both.
-- Many markers that look alike say so once.
-- Text stays text, in the faces of the house; the style sheet of matplotlib, which would hold for the whole page, goes.
+  is the page. Other colours may become separate custom properties, lighter on dark pages. Each colour also stays as an
+  attribute, for programs that do not support custom properties. Matplotlib's colour cycle becomes the palette's.
+- Numbers have two decimals [px]. Matplotlib writes six, of which the last may depend on the machine; they are
+  rounded as decimal text, so that equal numbers stay equal.
+- Unused ids are removed. The others (of clip paths and markers) are derived from their content, so that two pictures
+  on a page share an id only if it means the same in both.
+- Many equal markers state their style only once.
+- Text stays text, in the fonts of the house style; matplotlib's style sheet, which would affect the page, is removed.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
 KIND = "rosmini-plot"
-"""The class of these pictures: rules of other pictures on the page are not for them."""
+"""The class of these pictures, so that rules of other pictures on the page do not apply to them."""
 
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 _FONT = re.compile(r"(?P<weight>bold|\d00)?\s*(?P<size>[\d.]+)px")
@@ -47,16 +47,16 @@ _DEFAULTS = {
 }  # fmt: skip
 _OURS = {"#000000": style.LIGHT["ink"], "#ffffff": style.LIGHT["page"], **CYCLE}
 _MANY = 100
-"""So many uses of one marker share what they say of its look."""
+"""Minimum number of uses of one marker that share the attributes of its style."""
 
 
 def themed_svg(
     svg: str, *, title: str, alt: str, adapt: bool = False, under: str = "", steady: Collection[str] = ()
 ) -> str:
-    """The SVG that matplotlib wrote with `svg.fonttype` "none", rewritten. A point of the figure becomes a CSS pixel.
+    """Rewrite an SVG that matplotlib wrote with `svg.fonttype` "none". A point of the figure becomes a CSS pixel.
 
-    With `adapt` colours beside the palette are lighter on dark pages; else they stay as they are. `under` are elements
-    below all others; the colours of the palette that are `steady` do not change with the page.
+    With `adapt`, colours outside the palette are lighter on dark pages; otherwise they do not change. `under` are
+    elements below all others; `steady` are the colours of the palette that do not change with the page.
     """
     root = fromstring(svg[svg.index("<svg") :])
     names = _new_names(root)
@@ -92,7 +92,7 @@ def themed_svg(
 
 
 def _written(node: Element, names: dict[str, str], parent: str = "") -> str:
-    """An element and what is in it; a group that says nothing is left out, its contents stay."""
+    """Return an element with its contents; groups without attributes are replaced by their contents."""
     tag = node.tag.rpartition("}")[2]
     if tag in ("metadata", "style"):
         return ""
@@ -102,7 +102,7 @@ def _written(node: Element, names: dict[str, str], parent: str = "") -> str:
     )
     attributes = dict(_attributes(node, tag, names))
     if tag == "path" and parent == "defs":
-        # a marker: each use of it says its colours, and no rule reaches what a use shows
+        # each use of a marker has its own colours, and rules do not reach the content of a use
         return element(tag, id=attributes["id"], d=attributes["d"]) if "id" in attributes else ""
     unseen = attributes.get("fill") == "none" and "stroke" not in attributes
     if (tag == "path" and unseen) or (tag in ("g", "defs") and not inner):
@@ -113,7 +113,7 @@ def _written(node: Element, names: dict[str, str], parent: str = "") -> str:
 
 
 def _markers(node: Element, names: dict[str, str]) -> str:
-    """What is in a group of nothing but many markers that look alike: their look is said once. Empty for others."""
+    """Return a group of many equal markers with their style stated once; empty for other groups."""
     uses = [dict(_attributes(child, "use", names)) for child in node if child.tag.rpartition("}")[2] == "use"]
     looks = {
         tuple((name, value) for name, value in use.items() if name not in ("href", "x", "y")) for use in uses
@@ -133,7 +133,7 @@ def _attributes(node: Element, tag: str, names: dict[str, str]) -> Iterator[tupl
         given[name.strip()] = value.strip()
     if tag == "text":
         given.setdefault("fill", style.LIGHT["ink"])
-        if font := _FONT.match(given.pop("font", "")):  # matplotlib before 3.10 or so writes all in one
+        if font := _FONT.match(given.pop("font", "")):  # matplotlib before about 3.10 writes one attribute
             given["font-size"] = font["size"]
             given |= {"font-weight": font["weight"]} if font["weight"] else {}
     for name, value in given.items():
@@ -151,7 +151,7 @@ def _attributes(node: Element, tag: str, names: dict[str, str]) -> Iterator[tupl
 
 
 def _short(value: str) -> str:
-    """Coordinates with two decimals at most, and no more space between them than needed."""
+    """Return coordinates with at most two decimals and without unnecessary spaces."""
     value = " ".join(_NUMBER.sub(_two_decimals, value).removesuffix("px").split())
     if value[:1] != "M":
         return value
@@ -164,7 +164,7 @@ def _two_decimals(found: re.Match[str]) -> str:
 
 
 def _new_names(root: Element) -> dict[str, str]:
-    """For each id that something refers to, one that says what it names."""
+    """Return, for each id in use, an id derived from the content of its element."""
     used = {found for node in root.iter() for found in _references(node)}
     names: dict[str, str] = {}
     for node in root.iter():

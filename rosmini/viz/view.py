@@ -1,15 +1,15 @@
-"""The display funnel: every picture that rosmini shows is a view, and a view has three forms.
+"""The display funnel: every picture in rosmini is a view, and a view has three forms.
 
-| form | what it is | who shows it |
+| form | contents | shown by |
 |---|---|---|
-| text | what the picture means, in a few lines | a terminal (`print(view)`), and nbval, which compares it |
+| text | the meaning of the picture, in a few lines | a terminal (`print(view)`), and nbval, which compares it |
 | image | SVG or PNG | files, GitHub, LaTeX, Jupyter's image viewers |
-| HTML | a `<figure>` with the picture and its alt text, offline, without foreign scripts | Jupyter and the built book |
+| HTML | a `<figure>` with picture and alt text, offline, without external scripts | Jupyter and the built book |
 
-Jupyter and myst-nb both take `text/html` before an image. Only so does the alt text reach the page: an
-`image/svg+xml` output becomes an `<img>` without one. An inline SVG also follows the light or dark theme of its page.
-A PNG has no HTML form here, because nbval compares `text/html` to the byte and PNG bytes differ between machines; its
-alt text travels in the output's metadata, and `rosmini.viz.alt_text` puts it on the page when the book is built.
+Jupyter and myst-nb both prefer `text/html` to an image. This is the only way for alt text to reach the page: an
+`image/svg+xml` output becomes an `<img>` without it. An inline SVG also follows the light or dark theme of its page.
+A PNG has no HTML form, because nbval compares `text/html` byte by byte and PNG bytes differ between machines; its
+alt text is in the output's metadata, and `rosmini.viz.alt_text` adds it to the page when the book is built.
 """
 
 from __future__ import annotations
@@ -33,34 +33,34 @@ MimeBundle = tuple[dict[str, str], dict[str, dict[str, Any]]]
 
 
 class ViewError(RosminiError, ValueError):
-    """A picture cannot be made or saved as asked."""
+    """A picture cannot be made or saved as requested."""
 
 
 class View(ABC):
-    """Something to look at. `repr` and `print` give its text form; at the end of a notebook cell it shows itself."""
+    """Something to show. `repr` and `print` give its text form; at the end of a notebook cell it displays itself."""
 
     @property
     @abstractmethod
     def text(self) -> str:
-        """What the picture means: complete, sorted, rounded, the same at each run."""
+        """The meaning of the picture: complete, sorted, rounded, the same at each run."""
 
     @property
     @abstractmethod
     def alt(self) -> str:
-        """The picture in a sentence or two, for those who do not see it. Never empty."""
+        """A description in one or two sentences, for people who cannot see the picture. Never empty."""
 
     @abstractmethod
     def _images(self) -> dict[str, bytes]:
-        """The picture's bytes by mime type, the preferred one first."""
+        """Return the picture's bytes by mime type, the preferred one first."""
 
     @property
     def html(self) -> str | None:
-        """The form for pages; None where the image alone does better."""
+        """The form for pages; None if the image alone is better."""
         return None
 
     @property
     def page(self) -> str | None:
-        """The form for a file of its own, self-contained whatever `html` is made for."""
+        """The form for a separate file, always self-contained."""
         return self.html
 
     def __repr__(self) -> str:
@@ -69,7 +69,7 @@ class View(ABC):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> MimeBundle:
-        """All forms for Jupyter; the metadata have the alt text, and the caption of an image without an HTML form."""
+        """Return all forms for Jupyter; the metadata contain the alt text, and captions of images without HTML form."""
         data: dict[str, str] = {"text/plain": self.text}
         metadata: dict[str, dict[str, Any]] = {}
         for mime, content in self._images().items():
@@ -83,14 +83,14 @@ class View(ABC):
         return {m: data[m] for m in wanted}, {m: metadata[m] for m in wanted if m in metadata}
 
     def _about_image(self) -> dict[str, str]:
-        """What the metadata of an image say of it."""
+        """Return the metadata of an image."""
         return {"alt": self.alt}
 
     def save(self, path: str | Path) -> Path:
-        """Write the picture to a file, in the format that the file's suffix names, and return its path.
+        """Write the picture to a file, in the format of the file's suffix, and return its path.
 
         Raises:
-            ViewError: the picture has no such form, and the message names those that it has; or the file cannot be
+            ViewError: the picture has no such form (the message lists those that it has), or the file cannot be
                 written.
 
         """
@@ -122,7 +122,7 @@ def _page(figure: str, title: str) -> str:
 
 
 class Picture(View):
-    """A finished still picture: an SVG text or the bytes of a PNG, with its text form and its alt text.
+    """A finished still picture: SVG text or the bytes of a PNG, with its text form and its alt text.
 
     Raises:
         ViewError: the text or the alt text is empty, or the image is neither SVG nor PNG.
@@ -149,17 +149,17 @@ class Picture(View):
 
     @property
     def text(self) -> str:
-        """What the picture means, as given."""
+        """The meaning of the picture, as given."""
         return self._text
 
     @property
     def alt(self) -> str:
-        """The picture in a sentence or two, as given."""
+        """The description, as given."""
         return self._alt
 
     @property
     def svg(self) -> str | None:
-        """The SVG text, if this picture is one."""
+        """The SVG text; None for a PNG."""
         return self._image if isinstance(self._image, str) else None
 
     def _images(self) -> dict[str, bytes]:
@@ -168,7 +168,7 @@ class Picture(View):
         return {PNG_MIME: self._image}
 
     def _about_image(self) -> dict[str, str]:
-        # an SVG's caption is in its HTML form, which a PNG does not have: its bytes differ between machines
+        # the caption of an SVG is in its HTML form; a PNG has none, because its bytes differ between machines
         own = {"caption": self.caption} if self.caption and self.svg is None else {}
         return {"alt": self.alt, **own}
 
@@ -195,13 +195,13 @@ def matplotlib_picture(
     under: str = "",
     steady: Collection[str] = (),
 ) -> Picture:
-    """A picture of a matplotlib figure in the house style (`rosmini.viz.dressing`), with no date and no random ids.
+    """Return a picture of a matplotlib figure in the house style (`rosmini.viz.dressing`), without date and random ids.
 
-    As SVG it follows the theme of its page where it uses the colours of `rosmini.viz.style.LIGHT`, black or white
-    (see `rosmini.viz.themed`), and with `adapt` also where it uses others; text is for DejaVu Sans. `under` are
-    SVG elements that lie below all others, such as the image of a map, and `steady` the colours of the palette that
-    are as on a light page for that. As PNG it has `dpi` dots an inch. The figure is not shown by Jupyter's inline
-    backend as well if it was made with `matplotlib.figure.Figure`.
+    An SVG follows the theme of its page where it uses black, white or colours of `rosmini.viz.style.LIGHT` (see
+    `rosmini.viz.themed`), and with `adapt` also where it uses other colours; text is for DejaVu Sans. `under` are
+    SVG elements below all others, such as the image of a map, and `steady` the colours of the palette that stay as on
+    a light page, to match it. A PNG has `dpi` dots per inch. Make the figure with `matplotlib.figure.Figure`, or
+    Jupyter's inline backend shows it as well.
 
     Raises:
         ViewError: the alt text or the text form is empty.

@@ -1,6 +1,6 @@
-"""What texts of pictures have in common."""
+"""Helpers for the text forms of pictures."""
 
 
 def plural(count: int, noun: str) -> str:
-    """A count with its noun: "1 topic", "2 topics"."""
+    """Return a count with its noun: "1 topic", "2 topics"."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"

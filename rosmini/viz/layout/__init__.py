@@ -1,7 +1,7 @@
-"""One layered layout for every graph that rosmini draws: plain Python, and the same on every machine.
+"""One layered layout for every graph that rosmini draws: plain Python, with the same result on every machine.
 
-`layered(vertices, edges)` takes names and sizes and returns places and curves. It does not know what is drawn, and
-it sorts its input first, so that the same graph gives the same drawing whatever order it came in.
+`layered(vertices, edges)` takes names and sizes and returns positions and curves. It does not know what is drawn,
+and it sorts its input first, so that the same graph gives the same drawing in whatever order it arrives.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ __all__ = ["Direction", "Edge", "Layout", "Rect", "Route", "Vertex", "layered"]
 ARROW_ROOM = 12.0
 COMPONENT_GAP = 26.0
 PAGE_WIDTH = 680.0
-"""Components stand side by side up to this width, or up to that of the widest component."""
+"""Components are placed side by side up to this width, or up to the width of the widest component."""
 
 
 def layered(
@@ -32,13 +32,13 @@ def layered(
     """Lay out a directed graph in layers that follow its edges to the right or down.
 
     Args:
-        vertices: what to place; names are unique.
-        edges: from vertex name to vertex name; names are unique. Parallel edges and loops are welcome.
-        direction: where edges lead, "right" as in rqt_graph or "down" as in a tree of frames.
-        first: the vertex at which cycles begin; None breaks them where the fewest edges run backwards.
+        vertices: the vertices to place; their names are unique.
+        edges: edges from vertex name to vertex name; their names are unique. Parallel edges and loops are allowed.
+        direction: the direction of the edges: "right" as in rqt_graph, or "down" as in a tree of frames.
+        first: the vertex at which cycles begin; None breaks cycles so that the fewest edges run backwards.
 
     Raises:
-        ValueError: a name is used twice, or an edge has an end that is no vertex.
+        ValueError: a name is used twice, or an end of an edge is not a vertex.
 
     """
     vertices = sorted(vertices, key=lambda vertex: vertex.name)
@@ -63,7 +63,7 @@ def _check(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> None:
 
 
 def _components(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> list[tuple[list[Vertex], list[Edge]]]:
-    """What hangs together by edges or by an outermost group; the largest first, then by name."""
+    """Return sets of vertices connected by edges or by an outermost group; the largest first, then by name."""
     joined = Joined(vertex.name for vertex in vertices)
     first_of_group: dict[str, str] = {}
     for vertex in vertices:
@@ -82,8 +82,8 @@ def _components(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> list[tuple
 def _component(
     vertices: Sequence[Vertex], edges: Sequence[Edge], direction: Direction, first: str | None
 ) -> Layout:
-    # The name of a group is written along its upper border, whichever way the layers run. Downwards, arrow heads
-    # end under it and need room of their own.
+    # The name of a group is written along its upper border, whatever the direction of the layers. In a downward
+    # layout, arrowheads end below that name and need extra room.
     along, across = (GROUP_PAD, GROUP_HEAD) if direction == "right" else (GROUP_HEAD + ARROW_ROOM, GROUP_PAD)
     proper = make_proper(vertices, edges, first)
     order_layers(proper)
@@ -122,8 +122,8 @@ def _moved(part: Layout, dx: float, dy: float, width: float, height: float) -> L
 
 
 def _on_shelves(parts: Sequence[Layout], direction: Direction) -> Layout:
-    """Put components side by side on shelves, as wide as the page or as the widest of them."""
-    if direction == "down":  # here the parts are still lying on their side
+    """Put components side by side in rows, as wide as the page or as the widest component."""
+    if direction == "down":  # at this point the parts are still transposed
         return _turned(_on_shelves([_turned(part) for part in parts], "right"))
     limit = max([PAGE_WIDTH, *(part.width for part in parts)])
     x = y = shelf = widest = 0.0
@@ -153,7 +153,7 @@ def _turned_rect(r: Rect) -> Rect:
 
 
 def _turned(layout: Layout) -> Layout:
-    """Mirror in the diagonal: what led to the right leads down."""
+    """Mirror a layout in the diagonal, so that edges to the right lead down."""
     return Layout(
         layout.height,
         layout.width,

@@ -1,8 +1,8 @@
-"""Positions across the layers: as straight as the order and the sizes allow.
+"""Positions across the layers: edges as straight as the order and the sizes allow.
 
-Each layer in turn takes the places that are nearest, in least squares, to what its neighbours ask for (pool adjacent
+Each layer in turn takes the positions nearest, in least squares, to those that its neighbours ask for (pool adjacent
 violators: Ayer et al., 1955). Then everything is pushed apart until the groups fit too, and slots slide to the
-median of their neighbours as far as there is room, which makes lines straight.
+median of their neighbours as far as there is room, which straightens the edges.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ SWEEPS = 24
 STRAIGHTENING = 12
 
 Node = Slot | tuple[str, tuple[str, ...]]
-"""What a position is sought for: a slot, or the ("top" or "bottom", group) border of a group."""
+"""Something that needs a position: a slot, or the ("top" or "bottom", group) border of a group."""
 
 
 def gap(a: Slot, b: Slot) -> float:
-    """The least distance between the borders of two neighbours that share all their groups."""
+    """Return the minimum distance between the borders of two neighbours that share all their groups."""
     return VERTEX_GAP if not a.bend and not b.bend else BEND_GAP if a.bend and b.bend else 13.0
 
 
@@ -62,14 +62,14 @@ def _wish(slot: Slot, *, downward: bool, both: bool) -> float:
 
 
 def distance(a: Slot, b: Slot, head: float) -> float:
-    """The least distance between the centre lines of two neighbours in a layer, group borders included."""
+    """Return the minimum distance between the centre lines of two neighbours in a layer, including group borders."""
     depth = shared_depth(a, b)
     closing, opening = len(a.groups) - depth, len(b.groups) - depth
     return a.after + gap(a, b) + b.before + closing * GROUP_PAD + opening * head
 
 
 class _Layer:
-    """A layer in its order, with the distances between its slots."""
+    """A layer in order, with the distances between its slots."""
 
     def __init__(self, row: Sequence[Slot], head: float) -> None:
         self.slots = row
@@ -97,7 +97,7 @@ class _Layer:
 
 
 class _Borders:
-    """The constraints that say who is before whom, the borders of groups included, and moves that keep them."""
+    """The order constraints between slots and group borders, and moves that respect them."""
 
     def __init__(self, proper: Proper, head: float) -> None:
         self.layers = proper.layers
@@ -144,7 +144,7 @@ class _Borders:
                 self._require(first[0], second[0], first[2] + second[1] + inner)
 
     def push_apart(self) -> None:
-        """Move things onwards, never back, until all constraints hold."""
+        """Move everything forwards, never back, until all constraints are met."""
         waiting = {node: len(self.before[node]) for node in self.position}
         ready = [node for node in self.position if waiting[node] == 0]
         for node in ready:
@@ -156,7 +156,7 @@ class _Borders:
         self._store()
 
     def straighten(self) -> None:
-        """Slide every slot to the weighted median of its neighbours, as far as the constraints leave room."""
+        """Slide every slot to the weighted median of its neighbours, as far as the constraints allow."""
         slots = [slot for row in self.layers for slot in row]
         borders = [node for node in self.position if isinstance(node, tuple)]
         for turn in range(STRAIGHTENING):
@@ -172,7 +172,7 @@ class _Borders:
             self._tighten(border)
 
     def _tighten(self, border: Node) -> None:
-        """Draw a border in, as near to the members of its group as they allow."""
+        """Move a border as near to the members of its group as they allow."""
         if border[0] == "top":  # type: ignore[index]
             self.position[border] = min(self.position[n] - apart for n, apart in self.after[border])
         else:
@@ -194,7 +194,7 @@ class _Borders:
             self.position[slot] = slot.at = max(low, min(wish, high))
 
     def _align(self, bends: Sequence[Slot]) -> None:
-        """Put the bends of an edge on one line, or on as few as their rooms allow."""
+        """Put the bends of an edge on one line, or on as few lines as possible."""
         run: list[Slot] = []
         low, high = -inf, inf
         for bend in bends:
@@ -221,7 +221,7 @@ class _Borders:
 
 
 def _median(values: list[tuple[float, float]], current: float) -> float:
-    """The weighted median; where it is a whole interval, its point nearest to `current`."""
+    """Return the weighted median; if it is an interval, the point of it nearest to `current`."""
     values = sorted(values)
     half = sum([weight for _, weight in values]) / 2
     seen = 0.0

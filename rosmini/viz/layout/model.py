@@ -1,4 +1,4 @@
-"""What goes into a layered layout and what comes out of it: sizes in, positions and curves out.
+"""Input and output of a layered layout: sizes in, positions and curves out.
 
 All lengths are in CSS pixels, x to the right and y downwards, as in SVG.
 """
@@ -15,7 +15,7 @@ Direction = Literal["right", "down"]
 
 @dataclass(frozen=True)
 class Vertex:
-    """A thing to be placed: its unique name, its size, and the groups that it is in, outermost first."""
+    """A vertex to be placed: its unique name, its size, and its groups, outermost first."""
 
     name: str
     width: float
@@ -26,7 +26,7 @@ class Vertex:
 
 @dataclass(frozen=True)
 class Edge:
-    """An arrow between two vertices; `name` tells parallel edges apart. A label of size 0 is no label."""
+    """An arrow between two vertices; `name` distinguishes parallel edges. A label of size 0 means no label."""
 
     name: str
     source: str
@@ -36,13 +36,13 @@ class Edge:
 
     @property
     def labelled(self) -> bool:
-        """Whether room is to be kept for a label."""
+        """True if the edge needs room for a label."""
         return self.label_width > 0 and self.label_height > 0
 
 
 @dataclass(frozen=True)
 class Rect:
-    """An axis-parallel rectangle by its upper left corner and its size."""
+    """An axis-parallel rectangle, given by its upper left corner and its size."""
 
     x: float
     y: float
@@ -74,7 +74,7 @@ class Rect:
         )
 
     def moved(self, dx: float, dy: float) -> Rect:
-        """The same rectangle elsewhere."""
+        """Return the rectangle moved by (dx, dy)."""
         return Rect(self.x + dx, self.y + dy, self.width, self.height)
 
 
@@ -82,8 +82,8 @@ class Rect:
 class Route:
     """A curve from the border of the source to the border of the target.
 
-    `points` is a chain of cubic Bezier curves: a start, then two control points and an end for each piece.
-    `label` is the rectangle that is kept free for the label. `reversed` edges run against the layers.
+    `points` is a chain of cubic Bezier curves: a start, then two control points and an end for each segment.
+    `label` is the rectangle reserved for the label. `reversed` edges run against the layers.
     """
 
     points: tuple[Point, ...]
@@ -91,14 +91,14 @@ class Route:
     reversed: bool = False
 
     def moved(self, dx: float, dy: float) -> Route:
-        """The same curve elsewhere."""
+        """Return the curve moved by (dx, dy)."""
         label = self.label.moved(dx, dy) if self.label else None
         return Route(tuple((x + dx, y + dy) for x, y in self.points), label, self.reversed)
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Where everything is. `layers` gives the layer of each vertex, counted from 0 within its component."""
+    """The positions of everything. `layers` gives the layer of each vertex, counted from 0 within its component."""
 
     width: float = 0.0
     height: float = 0.0

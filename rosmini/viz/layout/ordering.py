@@ -1,6 +1,6 @@
-"""The order within each layer: few crossings, groups kept together.
+"""The order of the slots in each layer: few crossings, groups kept together.
 
-Barycentre sweeps down and up with exchanges of neighbours, the best order seen being kept (Sugiyama, Tagawa and
+Barycentre sweeps down and up with exchanges of neighbours, keeping the best order seen (Sugiyama, Tagawa and
 Toda, "Methods for visual understanding of hierarchical system structures", 1981). The number of passes is bounded.
 """
 
@@ -13,15 +13,15 @@ from itertools import pairwise
 from rosmini.viz.layout.slots import Proper, Slot
 
 Order = list[list[int]]
-"""The layers, each slot by its number."""
+"""The layers; each slot is given by its number."""
 Groups = tuple[str, ...]
 Ends = tuple[list[int], list[int]]
-"""The places of a slot's neighbours in the layer before and in the layer after, each sorted."""
+"""The positions of a slot's neighbours in the previous and in the next layer, each sorted."""
 PASSES = 24
 FREE_PASSES = 6
-"""The first sweeps leave the groups free to move: their mean places then fix the order of the groups for good."""
+"""During the first sweeps groups may move; their mean positions then fix the order of the groups permanently."""
 ROUNDS = 4
-"""How often neighbours are exchanged in all layers after each pass, at most."""
+"""Maximum number of rounds of exchanges in all layers after each pass."""
 
 
 def order_layers(proper: Proper) -> None:
@@ -31,12 +31,12 @@ def order_layers(proper: Proper) -> None:
     if starts[0] == starts[1]:
         del starts[1]
     results = [_sweep(proper, links, start) for start in starts]
-    best = min(results, key=links.crossings)  # min keeps the first of equals
+    best = min(results, key=links.crossings)  # min returns the first of several equal ones
     proper.layers[:] = [[links.slots[number] for number in row] for row in best]
 
 
 class _Links:
-    """The slots by number, with the numbers of their neighbours: most of the time of a layout is spent here."""
+    """The slots by number, with the numbers of their neighbours; a layout spends most of its time here."""
 
     def __init__(self, proper: Proper) -> None:
         self.slots = [slot for row in proper.layers for slot in row]
@@ -49,7 +49,7 @@ class _Links:
         return [self.numbers[id(other)] for other, _ in links]
 
     def places(self, order: Order) -> list[int]:
-        """Return the place of each slot in its layer."""
+        """Return the position of each slot in its layer."""
         place = [0] * len(self.slots)
         for row in order:
             for i, slot in enumerate(row):
@@ -74,7 +74,7 @@ class _Links:
         return total
 
     def ends(self, slot: int, place: Sequence[int]) -> Ends:
-        """Return where the edges of a slot lead."""
+        """Return the positions of the slots that a slot's edges lead to."""
         return (
             sorted([place[other] for other in self.previous[slot]]),
             sorted([place[other] for other in self.following[slot]]),
@@ -82,7 +82,7 @@ class _Links:
 
 
 def _start(proper: Proper, links: _Links, *, outward: bool) -> Order:
-    """Slots in the order in which a depth-first walk along (or against) the edges meets them."""
+    """Return slots in the order in which a depth-first walk along (or against) the edges visits them."""
     met: dict[int, int] = {}
     order = [[links.numbers[id(slot)] for slot in row] for row in proper.layers]
     onward = links.following if outward else links.previous
@@ -110,7 +110,7 @@ def _sweep(proper: Proper, links: _Links, order: Order) -> Order:
         if proper.groups and turn < FREE_PASSES:
             continue
         state = (downward, tuple(map(tuple, order)))
-        if state in seen:  # all that would follow has been there
+        if state in seen:  # the sweeps would now repeat themselves
             break
         seen.add(state)
         count = links.crossings(order)
@@ -154,7 +154,7 @@ def _arrange(
     depth: int,
     ranking: dict[Groups, float],
 ) -> list[int]:
-    """Sort by wish, a group counting as one thing; where groups have a ranking, it decides between them."""
+    """Sort by wish, treating a group as one item; if groups have a ranking, it decides their order."""
     if not any(len(groups[slot]) > depth for slot in row):
         return sorted(row, key=wish.__getitem__)
     bundles: dict[object, list[int]] = {}
@@ -186,7 +186,7 @@ def _exchange_neighbours(links: _Links, order: Order) -> None:
         if not waiting:
             break
         for layer, row in enumerate(order):
-            if layer not in waiting:  # nothing around it has moved since nothing was to be gained in it
+            if layer not in waiting:  # nothing around it has changed since its last check
                 continue
             waiting.discard(layer)
             if _exchange_in(links, row, place):
@@ -194,7 +194,7 @@ def _exchange_neighbours(links: _Links, order: Order) -> None:
 
 
 def _exchange_in(links: _Links, row: list[int], place: list[int]) -> bool:
-    """Swap neighbours in one layer, once through it; return whether any were."""
+    """Go once through a layer and swap neighbours; return True if any were swapped."""
     improved = False
     ends = [links.ends(slot, place) for slot in row]
     for i in range(len(row) - 1):
@@ -209,9 +209,9 @@ def _exchange_in(links: _Links, row: list[int], place: list[int]) -> bool:
 
 
 def _gains(first: Ends, second: Ends) -> bool:
-    """Whether two neighbours in a layer have fewer crossings between their edges the other way round."""
+    """Return True if swapping two neighbours in a layer reduces the crossings between their edges."""
     (a, c), (b, d) = first, second
-    if not ((a and b and b[0] < a[-1]) or (c and d and d[0] < c[-1])):  # most have no crossings now
+    if not ((a and b and b[0] < a[-1]) or (c and d and d[0] < c[-1])):  # most pairs have no crossings
         return False
     pairs = ((a, b), (c, d))
     now = sum([bisect_left(b, end) for a, b in pairs for end in a])

@@ -1,8 +1,8 @@
-"""Layers for a directed graph: break its cycles, then give each vertex the layer that makes edges short.
+"""Layers for a directed graph: break its cycles, then assign vertices to layers so that edges are short.
 
 Cycles are broken after Eades, Lin and Smyth, "A fast and effective heuristic for the feedback arc set
 problem" (1993); layers come from the network simplex method of Gansner, Koutsofios, North and Vo,
-"A technique for drawing directed graphs" (1993). Everything is a list of integers: no names in here.
+"A technique for drawing directed graphs" (1993). Everything is a list of integers; names do not appear here.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ Arc = tuple[int, int]
 
 
 def feedback_arcs(count: int, arcs: Sequence[Arc], first: int | None = None) -> set[int]:
-    """Indices of arcs that, when reversed, leave no cycle. None of them could be left as it was.
+    """Return a minimal set of indices of arcs whose reversal leaves no cycle.
 
-    A vertex `first` comes before what can be reached from it: of a cycle through it, the arc into it is reversed.
+    A vertex `first` precedes everything reachable from it: in a cycle through it, the arc into it is reversed.
     """
     sequence = _greedy_sequence(count, arcs)
     if first is not None:
@@ -30,7 +30,7 @@ def feedback_arcs(count: int, arcs: Sequence[Arc], first: int | None = None) -> 
         if position[tail] < position[head]:
             successors[tail].append(head)
     reversed_arcs = set()
-    for i in backward:  # the greedy order may reverse an arc that lies on no cycle
+    for i in backward:  # the greedy order may reverse an arc that is in no cycle
         tail, head = arcs[i]
         if _reaches(successors, head, tail):
             reversed_arcs.add(i)
@@ -40,7 +40,7 @@ def feedback_arcs(count: int, arcs: Sequence[Arc], first: int | None = None) -> 
 
 
 def _greedy_sequence(count: int, arcs: Sequence[Arc]) -> list[int]:
-    """Sinks to the end, sources to the front, else the vertex with the most outgoing over incoming."""
+    """Order vertices: sinks last, sources first, otherwise by the surplus of outgoing over incoming arcs."""
     out_degree = [0] * count
     in_degree = [0] * count
     for tail, head in arcs:
@@ -85,9 +85,9 @@ def _reaches(successors: Sequence[Sequence[int]], start: int, goal: int) -> bool
 
 
 def layers(count: int, arcs: Sequence[Arc], lengths: Sequence[int]) -> list[int]:
-    """The layer of each vertex of a connected acyclic graph, the least being 0.
+    """Return the layer of each vertex of a connected acyclic graph, counted from 0.
 
-    Arc i spans at least `lengths[i]` layers, and the sum of all spans is the least possible.
+    Arc i spans at least `lengths[i]` layers, and the sum of all spans is minimal.
     """
     simplex = _NetworkSimplex(count, arcs, lengths)
     simplex.solve()
@@ -96,7 +96,7 @@ def layers(count: int, arcs: Sequence[Arc], lengths: Sequence[int]) -> list[int]
 
 
 class _NetworkSimplex:
-    """Ranks kept feasible by a spanning tree of tight arcs, improved one exchange of tree arcs at a time."""
+    """Ranks kept feasible by a spanning tree of tight arcs, improved by exchanging one tree arc at a time."""
 
     def __init__(self, count: int, arcs: Sequence[Arc], lengths: Sequence[int]) -> None:
         self.count = count
@@ -104,7 +104,7 @@ class _NetworkSimplex:
         self.lengths = lengths
         self.rank = _longest_path(count, arcs, lengths)
         self.tree: set[int] = set()
-        # Outgoing less incoming arcs: summed over one side of a tree arc, this is what lengthening that arc costs.
+        # Outgoing minus incoming arcs: summed over one side of a tree arc, this is the cost of lengthening that arc.
         self.pull = [0] * count
         for tail, head in arcs:
             self.pull[tail] += 1
@@ -114,7 +114,7 @@ class _NetworkSimplex:
         if self.count < 2:
             return
         self._span_with_tight_arcs()
-        for _ in range(4 * self.count + 8 * len(self.arcs)):  # far above what any graph has needed
+        for _ in range(4 * self.count + 8 * len(self.arcs)):  # far more than any graph has needed
             if not self._exchange():
                 break
 
@@ -138,7 +138,7 @@ class _NetworkSimplex:
             self.tree.add(nearest)
 
     def _exchange(self) -> bool:
-        """Replace one tree arc whose removal shortens the drawing; False when there is none."""
+        """Replace one tree arc whose removal shortens the drawing; return False if there is none."""
         neighbours: list[list[Arc]] = [[] for _ in range(self.count)]
         for arc in sorted(self.tree):
             tail, head = self.arcs[arc]
@@ -190,7 +190,7 @@ def _longest_path(count: int, arcs: Sequence[Arc], lengths: Sequence[int]) -> li
 
 
 def _walk(neighbours: Sequence[Sequence[Arc]]) -> tuple[list[int], dict[int, int]]:
-    """The tree's vertices, each after its parent, and the arc to the parent of each."""
+    """Return the tree's vertices, each after its parent, and the arc from each to its parent."""
     order = [0]
     parent_arc: dict[int, int] = {}
     for vertex in order:

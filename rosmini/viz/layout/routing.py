@@ -1,7 +1,7 @@
 """Positions along the layers, and curves: horizontal through the layers, bending only in the gaps between them.
 
-A slot keeps its whole layer's width free at its own height, and a gap has nothing in it but curves: so no edge can
-run over a vertex or a label that is not its own.
+A slot reserves the full width of its layer at its own height, and gaps contain nothing but curves, so no edge can
+cross a vertex or the label of another edge.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from rosmini.viz.layout.slots import LABEL_RISE, LOOP_DEPTH, Chain, Proper, Slot
 
 LAYER_GAP = 30.0
 LABEL_GAP = 22.0
-"""Gap beside a layer that holds nothing but labels and bends."""
+"""Gap beside a layer that contains only labels and bends."""
 
 
 class Bands:
-    """Where each layer begins and ends along the direction of the layout."""
+    """The start and end of each layer along the direction of the layout."""
 
     def __init__(self, proper: Proper, head: float) -> None:
         widths = [max((slot.length for slot in row), default=0.0) for row in proper.layers]
@@ -36,16 +36,16 @@ class Bands:
         self.length = position + closes[-1] * GROUP_PAD
 
     def end(self, layer: int) -> float:
-        """Where a layer ends."""
+        """Return the end of a layer."""
         return self.start[layer] + self.widths[layer]
 
     def middle(self, layer: int) -> float:
-        """The centre line of a layer."""
+        """Return the centre line of a layer."""
         return self.start[layer] + self.widths[layer] / 2
 
 
 def _group_ends(proper: Proper) -> tuple[list[int], list[int]]:
-    """For each layer, how deep the groups nest that begin there, and that end there."""
+    """Return, for each layer, the nesting depth of the groups that begin there, and of those that end there."""
     opens, closes = [0] * len(proper.layers), [0] * len(proper.layers)
     spans: dict[tuple[str, ...], tuple[int, int]] = {}
     for group in proper.groups:
@@ -59,14 +59,14 @@ def _group_ends(proper: Proper) -> tuple[list[int], list[int]]:
 
 
 def _gap(row: Sequence[Slot], following: Sequence[Slot]) -> float:
-    """Steep curves get more room."""
+    """Return the gap between two layers; steep curves get more room."""
     steepest = max((abs(slot.at - other.at) for slot in row for other, _ in slot.following), default=0.0)
     base = LAYER_GAP if any(not s.bend for s in row) and any(not s.bend for s in following) else LABEL_GAP
     return base + min(50.0, 0.16 * steepest)
 
 
 def rectangles(proper: Proper, bands: Bands, vertices: Sequence[Vertex]) -> dict[str, Rect]:
-    """Each vertex in the middle of its layer."""
+    """Place each vertex in the middle of its layer."""
     return {
         vertex.name: Rect(
             bands.middle(proper.vertices[vertex.name].layer) - vertex.width / 2,
@@ -81,9 +81,9 @@ def rectangles(proper: Proper, bands: Bands, vertices: Sequence[Vertex]) -> dict
 def group_rectangles(
     proper: Proper, bands: Bands, along: float, across: float
 ) -> dict[tuple[str, ...], Rect]:
-    """A box around each group; `along` and `across` are the rooms at its beginning in either direction."""
+    """Return a box around each group; `along` and `across` are the room at its beginning in the two directions."""
     boxes: dict[tuple[str, ...], Rect] = {}
-    for group in reversed(proper.groups):  # inner boxes first: the outer ones go around them
+    for group in reversed(proper.groups):  # inner boxes first, because the outer ones enclose them
         depth = len(group)
         own = [s for row in proper.layers for s in row if s.groups == group]
         inner = [box for path, box in boxes.items() if path[:depth] == group]
@@ -96,7 +96,7 @@ def group_rectangles(
 
 
 def routes(proper: Proper, bands: Bands, vertices: Sequence[Vertex]) -> dict[str, Route]:
-    """The curve of every edge, loops included, from its source to its target."""
+    """Return the curve of every edge, loops included, from its source to its target."""
     rects = rectangles(proper, bands, vertices)
     shapes = {vertex.name: vertex.shape for vertex in vertices}
     ports = _Ports(proper, rects, shapes)
@@ -107,7 +107,7 @@ def routes(proper: Proper, bands: Bands, vertices: Sequence[Vertex]) -> dict[str
 
 
 class _Ports:
-    """Where edges touch a vertex: spread over its side, in the order of what they lead to."""
+    """The points where edges touch a vertex: spread over its side, in the order of the edges' other ends."""
 
     def __init__(self, proper: Proper, rects: dict[str, Rect], shapes: Mapping[str, str]) -> None:
         self.rects = rects
@@ -126,7 +126,7 @@ class _Ports:
         step = min(11.0, usable / max(1, len(found) - 1))
         centre = self.rects[vertex].centre[1]
         lowest = centre - step * (len(found) - 1) / 2
-        if len(found) == 1:  # a single edge goes straight on where the side is high enough
+        if len(found) == 1:  # a single edge goes straight on if the side is high enough
             lowest = max(centre - usable / 4, min(found[0][0], centre + usable / 4))
         for i, (_, _, edge) in enumerate(found):
             self.offsets[edge, "out" if outgoing else "in"] = lowest + i * step
@@ -142,7 +142,7 @@ class _Ports:
 
 
 def _route(chain: Chain, bands: Bands, ports: _Ports) -> Route:
-    """Straight through each layer at the slot's height, an S-curve in each gap."""
+    """Return a curve that is straight through each layer at the slot's height, with an S-curve in each gap."""
     first, last = chain.slots[0], chain.slots[-1]
     start = ports.point(first.name, chain.edge.name, outgoing=True)
     end = ports.point(last.name, chain.edge.name, outgoing=False)
@@ -169,7 +169,7 @@ def _route(chain: Chain, bands: Bands, ports: _Ports) -> Route:
 
 
 def _loops(edges: Sequence[Edge], rect: Rect, ellipse: bool) -> dict[str, Route]:
-    """Edges from a vertex to itself share one loop on its far side, their labels in a stack beyond it."""
+    """Return one shared loop for edges from a vertex to itself, on its far side, with their labels stacked below."""
     x, _ = rect.centre
     spread = min(rect.width * 0.22, 26.0)
     share = spread / (rect.width / 2)

@@ -1,4 +1,4 @@
-"""The layered graph made proper: every edge is a chain of slots, one in each layer that it passes."""
+"""Build the proper layered graph: every edge is a chain of slots, one in each layer that it passes through."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from rosmini.viz.layout.ranks import feedback_arcs, layers
 T = TypeVar("T", int, str)
 
 LABEL_RISE = 3.0
-"""Pixels between a line and the foot of the label above it."""
+"""Distance between a line and the bottom of the label above it [px]."""
 LOOP_DEPTH = 18.0
-"""How far the loop of an edge from a vertex to itself hangs out of the vertex, in pixels."""
+"""Distance that the loop of an edge from a vertex to itself extends beyond the vertex [px]."""
 
 
 @dataclass(eq=False)
 class Slot:
-    """A place in a layer: for a vertex, for a bend of an edge, for a label, or a spacer that holds a group together.
+    """A position in a layer: for a vertex, a bend of an edge, a label, or a spacer that keeps a group together.
 
     `before` and `after` are the extents across the layer's direction, on either side of the centre line `at`.
     """
@@ -37,20 +37,20 @@ class Slot:
     following: list[tuple[Slot, float]] = field(default_factory=list)
 
     def link(self, other: Slot, weight: float) -> None:
-        """Connect to a slot of the next layer; the greater the weight, the straighter the line."""
+        """Connect to a slot of the next layer; a greater weight makes the line straighter."""
         self.following.append((other, weight))
         other.previous.append((self, weight))
 
 
 def shared_depth(a: Slot, b: Slot) -> int:
-    """How many groups, from the outermost on, two slots are both in."""
+    """Return the number of groups, from the outermost on, that two slots share."""
     alike = (one == other for one, other in zip(a.groups, b.groups, strict=False))
     return sum(1 for _ in takewhile(bool, alike))
 
 
 @dataclass(eq=False)
 class Chain:
-    """An edge with the slots that it passes, from the lower layer to the higher one."""
+    """An edge with the slots that it passes through, from the lower layer to the higher one."""
 
     edge: Edge
     slots: list[Slot]
@@ -60,7 +60,7 @@ class Chain:
 
 @dataclass(eq=False)
 class Proper:
-    """A component ready for ordering: its layers from first to last, its chains, its loops and its groups."""
+    """A component that is ready for ordering: its layers from first to last, its chains, its loops and its groups."""
 
     layers: list[list[Slot]]
     vertices: dict[str, Slot]
@@ -70,29 +70,29 @@ class Proper:
 
 
 class Joined(Generic[T]):
-    """Which things belong together: sets that grow into one another, each named by its least member."""
+    """Disjoint sets (union-find), each represented by its least member."""
 
     def __init__(self, things: Iterable[T]) -> None:
         self._leader: dict[T, T] = {thing: thing for thing in things}
 
     def find(self, thing: T) -> T:
-        """The least member of the set of a thing."""
+        """Return the least member of the set that contains `thing`."""
         while (leader := self._leader[thing]) != thing:
             self._leader[thing] = self._leader[leader]
             thing = leader
         return thing
 
     def join(self, a: T, b: T) -> bool:
-        """Let the sets of two things be one; return whether they were two."""
+        """Merge the sets of two things; return True if they were different."""
         first, second = sorted((self.find(a), self.find(b)))
         self._leader[second] = first
         return first != second
 
 
 def make_proper(vertices: Sequence[Vertex], edges: Sequence[Edge], first: str | None = None) -> Proper:
-    """Layer one connected component. `vertices` and `edges` come sorted, sizes as (along, across) the layers.
+    """Layer a connected component. `vertices` and `edges` are sorted, with sizes as (along, across) the layers.
 
-    Cycles begin at the vertex named `first`, if it is one of these.
+    Cycles begin at the vertex named `first`, if it is in the component.
     """
     loops: dict[str, list[Edge]] = {}
     straight: list[Edge] = []
@@ -123,7 +123,7 @@ def make_proper(vertices: Sequence[Vertex], edges: Sequence[Edge], first: str | 
 
 
 def _all_groups(vertices: Sequence[Vertex]) -> list[tuple[str, ...]]:
-    """Every group that has a vertex, outer groups before the inner ones."""
+    """Return every group that has a vertex, outer groups before inner ones."""
     paths = {vertex.groups[:depth] for vertex in vertices for depth in range(1, len(vertex.groups) + 1)}
     return sorted(paths, key=lambda path: (len(path), path))
 
@@ -131,7 +131,7 @@ def _all_groups(vertices: Sequence[Vertex]) -> list[tuple[str, ...]]:
 def _with_group_ties(
     vertices: Sequence[Vertex], arcs: list[tuple[int, int]], lengths: list[int]
 ) -> tuple[list[tuple[int, int]], list[int]]:
-    """Connect what only a shared group holds together: a tie of length 0 where no edge does it."""
+    """Connect vertices that only a shared group joins by a tie of length 0."""
     joined = Joined(range(len(vertices)))
     for tail, head in arcs:
         joined.join(tail, head)
@@ -175,13 +175,13 @@ def _chain(edge: Edge, backward: bool, by_name: dict[str, Slot], rows: list[list
         slots.append(slot)
     slots.append(last)
     for a, b in pairwise(slots):
-        # Long edges are kept straighter than short ones (the weights of Gansner et al.).
+        # Long edges are kept straighter than short ones (weights of Gansner et al.).
         a.link(b, 8.0 if a.bend and b.bend else 2.0 if a.bend or b.bend else 1.0)
     return Chain(edge, slots, label, backward)
 
 
 def _fill_gaps(group: tuple[str, ...], rows: list[list[Slot]]) -> None:
-    """Give the group a spacer in each layer that it spans without having anything there, so that nothing gets in."""
+    """Give a group a spacer in each layer that it spans without a member, so that nothing else gets in."""
     depth = len(group)
     members = [[slot for slot in row if slot.groups[:depth] == group] for row in rows]
     filled = [layer for layer, slots in enumerate(members) if slots]
