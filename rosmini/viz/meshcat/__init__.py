@@ -1,4 +1,4 @@
-"""The robot and its world in three dimensions, through meshcat's API with no server."""
+"""The robot and its world in three dimensions, through meshcat's API and without a server."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The TurtleBot3 Burger as solids: plates, wheels, boards and laser, as large and where its model says.
+"""The TurtleBot3 Burger as solids: plates, wheels, boards and laser, with the dimensions of its model.
 
-What a model has no number for (the thickness of a plate, the spacing of its holes) follows the robot's proportions: a
-stack of four "waffle" plates on standoffs; motors under it, battery, controller and computer on the floors above.
+Dimensions that a model does not contain (thickness of a plate, spacing of its holes) follow the robot's proportions:
+a stack of four "waffle" plates on standoffs; motors at the bottom, then battery, controller and computer.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ TYRE = 0.018
 
 
 def body(model: RobotModel, node: str) -> list[Part]:
-    """The parts of everything but the wheels, in the frame base_footprint."""
+    """Return all parts except the wheels, in the frame base_footprint."""
     x = model.laser.mount[0]
     length, width = 0.138, model.wheel_separation - TYRE - 0.006
-    # Four floors between the axles and the foot of the laser.
+    # four floors between the axles and the bottom of the laser
     laser_foot = model.laser.mount[2] - 0.030
     low = model.wheel_radius - 0.017
     floors = [low + i * (laser_foot - THICKNESS - low) / 3 for i in range(4)]
@@ -56,7 +56,7 @@ def body(model: RobotModel, node: str) -> list[Part]:
 
 
 def wheel(model: RobotModel, node: str, outwards: int) -> list[Part]:
-    """The parts of a wheel in its own frame, turning about y; `outwards` is 1 for the left one, -1 for the right."""
+    """Return the parts of a wheel in its own frame, turning about y; `outwards` is 1 on the left, -1 on the right."""
     radius, hub = model.wheel_radius, 0.62 * model.wheel_radius
     spokes = tuple(
         Rod(
@@ -77,7 +77,7 @@ def wheel(model: RobotModel, node: str, outwards: int) -> list[Part]:
 
 
 def _treads(radius: float, count: int = 16) -> Facets:
-    """Bars across the tyre, so that one sees it turn: the outer side of each and its two flanks."""
+    """Return bars across the tyre, which make its rotation visible: the outer side of each and its two flanks."""
     low, high, right = radius - 0.002, radius, -TYRE / 2 + 0.002
     left = -right
     faces = []
@@ -91,7 +91,7 @@ def _treads(radius: float, count: int = 16) -> Facets:
 
 
 def _holes(x: float, length: float, width: float, heights: list[float]) -> Facets:
-    """The dark square holes of the plates, as tiles on them; below the highest plate only those that one sees."""
+    """Return the dark square holes of the plates, as tiles; below the highest plate, only the visible ones."""
     pitch, half = 0.0125, 0.0036
     rows, columns = int((length / 2 - 0.008) / pitch), int((width / 2 - 0.008) / pitch)
     tile = np.array(
@@ -110,13 +110,13 @@ def _holes(x: float, length: float, width: float, heights: list[float]) -> Facet
 
 
 def _caster(low: float) -> Solid:
-    """The ball that carries the back, as far behind as the description says (-0.081 m)."""
+    """Return the ball that supports the rear, at the x of the robot's description (-0.081 m)."""
     radius = low / 2
     return Ball((-0.081, 0.0, radius), radius)
 
 
 def _inside(node: str, x: float, floors: list[float]) -> list[Part]:
-    """Motors on the lowest floor, then battery, controller and computer, one a floor."""
+    """Return the motors on the lowest floor, then battery, controller and computer, one per floor."""
     z0, z1, z2 = (z + THICKNESS for z in floors[:3])
     motors = tuple(box(0.004, side * 0.036, z0, 0.046, 0.052, 0.034) for side in (-1, 1))
     controller = (
@@ -139,7 +139,7 @@ def _inside(node: str, x: float, floors: list[float]) -> list[Part]:
 
 
 def _laser(node: str, model: RobotModel, foot: float) -> list[Part]:
-    """LDS-01: a flat base, and the turning head with its window in the plane of the scan."""
+    """Return the LDS-01: a flat base, and the rotating head with its window in the plane of the scan."""
     x, y, scan = model.laser.mount
     top = model.height
     low, high = scan - 0.0045, scan + 0.0045

@@ -1,7 +1,7 @@
-"""meshcat without a server: a window that keeps what a `meshcat.Visualizer` sends to it.
+"""meshcat without a server: a window that records the commands of a `meshcat.Visualizer`.
 
-Nothing is started and nothing is opened. meshcat names objects by random UUIDs; here they are numbered, and numbers
-have single precision, which is what the graphics card computes with. So the same calls give the same bytes.
+No server starts and no window opens. meshcat names objects by random UUIDs; here they are numbered, and numbers
+have single precision, like on the graphics card. So the same calls give the same bytes.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 _UUID = re.compile(r"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 
-# What meshcat says of each material though three.js takes it for granted: half of a small object's bytes.
+# Defaults of three.js that meshcat repeats for each material: half of the bytes of a small object.
 _PLAIN: dict[str, Any] = {
     "transparent": False, "opacity": 1.0, "linewidth": 1.0, "wireframe": False, "wireframeLinewidth": 1.0,
     "vertexColors": 0, "reflectivity": 0.5, "normalized": False,
@@ -21,14 +21,14 @@ _PLAIN: dict[str, Any] = {
 
 
 def meshcat() -> ModuleType:
-    """The package meshcat, imported when it is first needed (it takes a third of a second).
+    """Return the package meshcat, imported on first use (it takes a third of a second).
 
     Raises:
         ViewError: it is not installed.
 
     """
     with warnings.catch_warnings():
-        # It imports zmq.eventloop.ioloop, which pyzmq calls deprecated, for a server that is not started here.
+        # It imports zmq.eventloop.ioloop, which pyzmq has deprecated, for a server that is not started here.
         warnings.simplefilter("ignore", DeprecationWarning)
         try:
             import meshcat.animation
@@ -44,23 +44,23 @@ def meshcat() -> ModuleType:
 
 
 class Recorder:
-    """What stands behind a `meshcat.Visualizer` in place of its window: `Visualizer(window=Recorder())`."""
+    """A window for a `meshcat.Visualizer` that records commands: `Visualizer(window=Recorder())`."""
 
     def __init__(self) -> None:
         self.commands: list[bytes] = []
-        """What was sent, each packed as the viewer reads it."""
+        """The commands, each packed in the viewer's format."""
         self._names: dict[str, str] = {}
 
     def send(self, command: Any) -> None:
-        """Keep one of meshcat's commands."""
+        """Record a command of meshcat."""
         self._keep(command.lower())
 
     def set_property(self, path: str, name: str, *, value: bool) -> None:
-        """Set a property of three.js with a capital in its name: meshcat's own `set_property` takes them away."""
+        """Set a property of three.js with a capital in its name, which meshcat's own `set_property` would lowercase."""
         self._keep({"type": "set_property", "path": path, "property": name, "value": value})
 
     def take(self) -> list[bytes]:
-        """What was sent since the last time."""
+        """Return the commands since the last call."""
         sent, self.commands, self._names = self.commands, [], {}
         return sent
 

@@ -1,6 +1,6 @@
-"""The still picture of a scene: an SVG in the perspective in which the viewer begins.
+"""The still picture of a scene: an SVG in the viewer's initial perspective.
 
-Faces that look away and fine detail are left out; of the others the visible ones are painted, the farther first.
+Faces turned away and fine detail are left out; of the others, the visible ones are painted, farther ones first.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ Floats = NDArray[np.float64]
 WIDTH, HEIGHT = 760, 420
 NEAR = 0.02
 DEEP = 0.05
-"""So far behind a face a laser's point is still on it [m]: lasers have noise."""
+"""A laser's point up to this distance behind a face is still on it [m], because lasers have noise."""
 SUN = np.array([0.25, -0.42, 0.87])
 THINGS = ("group-fill", "group-line", "vermilion")
 
 
 def draw(scene: Scene3D, *, title: str, alt: str) -> str:
-    """The scene as an SVG."""
+    """Return the scene as an SVG."""
     look = _Look(scene.camera)
     faces = [face for polygon, colour in _polygons(scene) if (face := look.face(polygon, colour)) is not None]
     planes = np.array([face.plane for face in faces]).reshape(-1, 3)
@@ -47,7 +47,7 @@ def draw(scene: Scene3D, *, title: str, alt: str) -> str:
 
 
 class _Face(NamedTuple):
-    """A face that looks at the camera: its picture, how near it is (see `Painting`), and its colour in the light."""
+    """A face turned towards the camera: its outline in the picture, its plane (see `Painting`), and its lit colour."""
 
     outline: Floats
     plane: Floats
@@ -67,7 +67,7 @@ class _Look:
         self._scale = HEIGHT / 2 / math.tan(math.radians(camera.field_of_view / 2))
 
     def project(self, points: Floats) -> Floats:
-        """A polygon or a line (n, 3) in the picture (m, 3): x, y [px], depth [m]; without what is behind the camera."""
+        """Project a polygon or line (n, 3) to (m, 3): x, y [px], depth [m]; parts behind the camera are cut off."""
         seen = _before(matrix_product(points - self.position, self._axes.T))
         if not len(seen):
             return np.empty((0, 3))
@@ -75,12 +75,12 @@ class _Look:
         return np.column_stack([snap([WIDTH / 2, HEIGHT / 2] + flat * (1, -1), 0.1), seen[:, 2]])
 
     def path(self, points: Floats, *, closed: bool = True) -> str:
-        """The picture of a polygon or of a line as path data; empty where it is out of the picture."""
+        """Return the projection of a polygon or line as path data; empty if it is outside the picture."""
         outline = self.project(points)[:, :2]
         return _path(outline, closed=closed) if _within(outline) else ""
 
     def face(self, polygon: Floats, colour: str) -> _Face | None:
-        """A flat polygon (n, 3) of a colour; None if it looks away or is out of the picture."""
+        """Project a flat polygon (n, 3) of a colour; None if it is turned away or outside the picture."""
         normal = np.cross(polygon[1] - polygon[0], polygon[2] - polygon[1])
         size = norm(normal)
         towards = scalar_product(normal, self.position - polygon[0])
@@ -99,7 +99,7 @@ class _Look:
 
 
 def _within(outline: Floats) -> bool:
-    """Whether a part of an outline (n, 2) may be in the picture."""
+    """Return True if part of an outline (n, 2) may be in the picture."""
     return (
         len(outline) > 1
         and bool((outline.max(axis=0) > 0).all())
@@ -112,7 +112,7 @@ def _path(outline: Floats, *, closed: bool = True) -> str:
 
 
 def _before(points: Floats) -> Floats:
-    """A polygon (n, 3) in the camera's frame, cut at the plane `NEAR` before it."""
+    """Cut a polygon (n, 3) in the camera's frame at the plane `NEAR` in front of the camera."""
     if (points[:, 2] >= NEAR).all():
         return points
     kept = []
@@ -145,7 +145,7 @@ def _trails(scene: Scene3D, look: _Look) -> Iterator[str]:
 
 
 def _scans(scene: Scene3D, look: _Look, painting: Painting) -> Iterator[str]:
-    """The points that lasers saw, but for those that something hides."""
+    """Yield the points seen by lasers, except those that something hides."""
     for scan in scene.scans:
         dots = np.vstack([np.empty((0, 3)), *(look.project(point[None]) for point in scan)])
         inside = dots[((dots[:, :2] > 0) & (dots[:, :2] < (WIDTH, HEIGHT))).all(axis=1)]
@@ -156,7 +156,7 @@ def _scans(scene: Scene3D, look: _Look, painting: Painting) -> Iterator[str]:
 
 
 def _polygons(scene: Scene3D) -> Iterator[tuple[Floats, str]]:
-    """All faces (n, 3) in the world, and their colours; fine detail is left out."""
+    """Yield all faces (n, 3) in the world and their colours; fine detail is left out."""
     for part in scene.parts:
         place = scene.transform(part.node)
         for solid in () if part.fine else part.solids:
@@ -169,6 +169,6 @@ def _polygons(scene: Scene3D) -> Iterator[tuple[Floats, str]]:
 
 
 def _painted(faces: list[_Face]) -> Iterator[str]:
-    """Faces in this order, those of one colour that follow one another as one path."""
+    """Yield faces in this order; consecutive ones of the same colour form one path."""
     for colour, alike in groupby(faces, key=lambda face: face.colour):
         yield element("path", d="".join(_path(face.outline) for face in alike), fill=colour, stroke=colour)

@@ -1,4 +1,4 @@
-"""A running Gazebo world in three dimensions: its models as their visuals look, or as their collisions are solid."""
+"""A running Gazebo world in three dimensions: its models by their visuals or by their collision shapes."""
 
 from __future__ import annotations
 
@@ -23,29 +23,29 @@ from .view import HEIGHT, MeshcatView, camera_for, free_sight
 from .visuals import SOLID, is_plain, surfaces
 
 CLOSE = 1.7
-"""How far the camera is from a model by its size."""
+"""Distance of the camera from a model, as a multiple of the model's size."""
 STEEP = 58.0
-"""How high the camera looks from on a world with robots [deg]: they are small, and walls stand around them."""
+"""Elevation of the camera for a world with robots [deg]: they are small, and walls surround them."""
 
 
 def gazebo_3d(
     snapshot: Snapshot, *, focus: str = "world", collisions: bool = False, distance: float | None = None,
     azimuth: float | None = None, elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
-    """A world of Gazebo in three dimensions, as its window shows it.
+    """Show a Gazebo world in three dimensions, as Gazebo's window shows it.
 
     Args:
-        snapshot: what a server's or a client's `snapshot()` gives.
-        focus: what the camera looks at: "world", or the name of a model.
-        collisions: show what is solid in place of what one sees, as View, Collisions does.
-        distance: of the camera from what it looks at [m].
-        azimuth: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y.
-        elevation: how high from [deg].
+        snapshot: the snapshot of a server or a client.
+        focus: the target of the camera: "world", or the name of a model.
+        collisions: show collision shapes instead of visuals, like the menu entry View, Collisions.
+        distance: distance of the camera from its target [m].
+        azimuth: direction of the camera as seen from its target [deg]: 0 is the side of x, 90 the side of y.
+        elevation: angle of the camera above the horizon [deg].
         title: a caption under the picture, and the first line of its text form.
-        height: of the viewer [CSS px].
+        height: height of the viewer [CSS px].
 
     Raises:
-        ViewError: there is no such model, or the distance is not positive.
+        ViewError: the model does not exist, or the distance is not positive.
         MeshError: a mesh cannot be read.
 
     """
@@ -79,7 +79,7 @@ def gazebo_3d(
 
 
 def _add(scene: Scene3D, model: ShownModel, *, collisions: bool) -> None:
-    """Add a model; what equal ones consist of is there once."""
+    """Add a model; the surfaces of equal models are stored once."""
     node = "models/" + model.name.replace("/", " ")
     there = matrix(model.pose)
     for link in model.links:
@@ -95,7 +95,7 @@ def _add(scene: Scene3D, model: ShownModel, *, collisions: bool) -> None:
 def _close(
     snapshot: Snapshot, name: str, *, distance: float | None, azimuth: float | None, elevation: float | None
 ) -> Camera:
-    """A view of one model."""
+    """Return a camera aimed at one model."""
     models = {model.name: model for model in snapshot.models}
     if name not in models:
         hint = nearest(name, models) or f"the models are: {', '.join(models) or 'none'}"
@@ -120,7 +120,7 @@ def _close(
 
 
 def _corners(model: ShownModel) -> Floats:
-    """Corners (n, 3) of what there is to see of a model, in the world."""
+    """Return the corners (n, 3) of the visible parts of a model, in the world."""
     there = matrix(model.pose)
     placed = ((link, matrix_product(there, matrix(link.pose))) for link in model.links)
     found = [surface.moved(at).vertices for link, at in placed for surface in surfaces(link, at)]

@@ -1,4 +1,4 @@
-"""What there is to see of a robot's links: meshes and plain shapes of its URDF as surfaces, one for each colour."""
+"""The visible parts of a robot's links: meshes and plain shapes of its URDF as surfaces, one per colour."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from .solids import Facets, Floats, LinkPart, Prism, mesh, regular, triangulate
 
 GREY = "#98a3ad"
 ROUND, BALL = 28, 12
-"""Corners of a cylinder; rings of a ball."""
+"""Number of vertices around a cylinder; number of rings of a ball."""
 
 
 @lru_cache(maxsize=8)
 def turtlebot3(model: str) -> Robot:
-    """The TurtleBot3 of this name by its description; read once."""
+    """Return the TurtleBot3 of this name from its description, which is read once."""
     return load(f"package://turtlebot3_description/urdf/turtlebot3_{model}.urdf.xacro")
 
 
 def link_parts(node: str, surfaces: list[Surface]) -> list[LinkPart]:
-    """The surfaces of a link below a node of the scene."""
+    """Return the surfaces of a link as parts below a node of the scene."""
     return [
         LinkPart(node, surface.name or str(i), hex_colour(surface), surface)
         for i, surface in enumerate(surfaces)
@@ -36,7 +36,7 @@ def link_parts(node: str, surfaces: list[Surface]) -> list[LinkPart]:
 
 
 def hex_colour(surface: Surface) -> str:
-    """The colour of a surface as `#rrggbb`."""
+    """Return the colour of a surface as `#rrggbb`."""
     if surface.colour is None:
         return GREY
     return "#" + "".join(f"{math.floor(255 * part + 0.5):02x}" for part in surface.colour[:3])
@@ -45,9 +45,9 @@ def hex_colour(surface: Surface) -> str:
 def link_surfaces(
     robot: Robot, link: str, *, collisions: bool = False, without: Collection[str] = ()
 ) -> list[Surface]:
-    """What there is to see of a link, in its frame: one surface for each colour.
+    """Return the visible parts of a link, in its frame: one surface per colour.
 
-    A material of the URDF comes before the colours of a mesh file, as in RViz. Surfaces in one of the colours
+    A material of the URDF overrides the colours of a mesh file, as in RViz. Surfaces in one of the colours
     `without`, `#rrggbb`, are left out. Raises `MeshError`.
     """
     found: dict[str, list[Surface]] = {}
@@ -70,7 +70,7 @@ def link_surfaces(
 
 
 def surfaces_of(geometry: Geometry) -> list[Surface]:
-    """A shape around its origin."""
+    """Return a shape around its origin as surfaces."""
     if isinstance(geometry, Box):
         x, y, z = (side / 2 for side in geometry.size)
         return [upright(np.array([(-x, -y), (x, -y), (x, y), (-x, y)]), -z, z)]
@@ -85,14 +85,14 @@ def surfaces_of(geometry: Geometry) -> list[Surface]:
 
 
 def upright(outline: Floats, bottom: float, top: float) -> Surface:
-    """An outline (n, 2), counter-clockwise, from `bottom` to `top`, closed."""
+    """Return an outline (n, 2), counter-clockwise, extruded from `bottom` to `top`, closed."""
     floor = np.column_stack([outline, np.full(len(outline), bottom)])
     below = Facets(tuple(floor[corners[::-1]] for corners in triangulate(outline)))
     return Surface(*mesh([Prism(outline, bottom, top), below]))
 
 
 def lathe(profile: list[tuple[float, float]], corners: int = ROUND) -> Surface:
-    """The surface of revolution about z of a profile of (radius, height), upwards: smooth, but for its edges."""
+    """Return the surface of revolution about z of a profile of (radius, height), upwards, with sharp edges."""
     vertices, faces = [], []
     circle, ahead = regular(corners, 1.0), np.roll(np.arange(corners), -1)
     low = np.arange(corners)
@@ -113,7 +113,7 @@ def _mesh(mesh: Mesh) -> list[Surface]:
 
 
 def merged(surfaces: list[Surface]) -> Surface:
-    """Several surfaces as one, in the colour of the first."""
+    """Merge several surfaces into one, in the colour of the first."""
     starts = np.cumsum([0, *(len(each.vertices) for each in surfaces)])
     faces = [each.faces + start for each, start in zip(surfaces, starts, strict=False)]
     return Surface(np.vstack([each.vertices for each in surfaces]), np.vstack(faces), surfaces[0].colour)

@@ -1,7 +1,7 @@
-"""Which faces of a scene are visible, and in which order to paint them, which distances alone cannot tell.
+"""The visible faces of a scene, and the order in which to paint them, which distances alone cannot determine.
 
 They are rasterised, as on a graphics card (the z-buffer: E. Catmull, "A subdivision algorithm for computer display of
-curved surfaces", 1974). What is nearest at no pixel is left out; of two on one pixel the farther is painted first.
+curved surfaces", 1974). A face that is nearest at no pixel is left out; of two on a pixel the farther is painted first.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ Ints = NDArray[np.int64]
 
 
 class Painting:
-    """The order in which to paint flat polygons, and how near the nearest one is at each pixel.
+    """The order in which to paint flat polygons, and the depth of the nearest one at each pixel.
 
-    `outlines` are their pictures (n, 2) [px], and `planes` (n, 3) say how near they are: a b c, where 1 / depth is
+    `outlines` are their projections (n, 2) [px], and `planes` (n, 3) their depths: a b c, where 1 / depth is
     `a x + b y + c` at the pixel (x, y) [1/m].
     """
 
     def __init__(self, outlines: Sequence[Floats], planes: Floats, width: int, height: int) -> None:
         self._width, self._height = width, height
         self._nearest = np.zeros(width * height)
-        """1 / depth [1/m]; 0 where there is nothing."""
+        """1 / depth [1/m]; 0 where there is no polygon."""
         self.order: list[int] = []
-        """The polygons that one sees, by their indices."""
+        """The visible polygons, by index."""
         polygon, pixel, nearness = self._rasterise(outlines, planes)
         if not len(polygon):
             return
@@ -53,11 +53,11 @@ class Painting:
         )
 
     def hides(self, x: float, y: float, depth: float) -> bool:
-        """Whether something is in front of a point of the picture [px] that is `depth` away [m]."""
+        """Return True if something is in front of a point of the picture [px] that is `depth` away [m]."""
         return bool(self._nearest[int(y) * self._width + int(x)] * depth > 1)
 
     def _rasterise(self, outlines: Sequence[Floats], planes: Floats) -> tuple[Ints, Ints, Floats]:
-        """For every pixel whose middle a polygon covers: the polygon, the pixel, and 1 / its depth there."""
+        """For every pixel whose centre a polygon covers, return the polygon, the pixel, and 1 / its depth there."""
         found: list[tuple[Ints, Ints, Floats]] = [(np.empty(0, int), np.empty(0, int), np.empty(0))]
         for i, outline in enumerate(outlines):
             x0, y0 = np.maximum(np.ceil(outline.min(axis=0) - 0.5), 0).astype(int)
@@ -82,12 +82,12 @@ def _nearnesses(points: Floats, plane: Floats) -> Floats:
 def _sorted(
     seen: list[int], pairs: list[tuple[int, int]], counts: list[int], far: dict[int, float]
 ) -> list[int]:
-    """Every pair's first before its second; what stands in a circle, the farthest first."""
+    """Sort so that the first of every pair comes before the second; break cycles at the farthest."""
     votes = {(a, b): count for (a, b), count in zip(pairs, counts, strict=True)}
     after: dict[int, list[int]] = {i: [] for i in seen}
     waiting = dict.fromkeys(seen, 0)
     for (a, b), count in votes.items():
-        # Where two cut through one another, or touch, what most pixels say counts.
+        # where two faces intersect or touch, the majority of pixels decides
         if count > votes.get((b, a), 0) or (count == votes.get((b, a), 0) and a < b):
             after[a].append(b)
             waiting[b] += 1

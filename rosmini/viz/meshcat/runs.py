@@ -1,4 +1,4 @@
-"""Runs in three dimensions: a recording, a bag or a run of layers, to play in meshcat's viewer."""
+"""Runs in three dimensions: a recording, a bag or a run of layers, played in meshcat's viewer."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ from .view import HEIGHT, Focus, MeshcatView, camera_for, node_of, title_of
 
 Floats = NDArray[np.float64]
 CLOSE = 1.5
-"""How far the camera is from a robot that it follows [m]."""
+"""Distance of the camera from a robot that it follows [m]."""
 
 PLAYED = ("rosmini-replay-data.js", "rosmini-meshcat.js", "rosmini-meshcat-player.js")
-"""What a viewer needs for what moves."""
+"""Scripts that a viewer needs to play a run."""
 LAYERED = (
     "rosmini-canvas.js",
     "rosmini-replay-data.js",
@@ -38,11 +38,11 @@ LAYERED = (
     "rosmini-meshcat-layers.js",
     *PLAYED[1:],
 )
-"""What it needs for layers, too: they are drawn as on the canvas, and laid on the ground."""
+"""Scripts that it also needs for layers, which are drawn as on the canvas and laid on the ground."""
 LEAST = 140_000
-"""What layers may take in a page, however much the world and the robots do [bytes]."""
+"""Budget for the layers of a page, independent of the size of the world and the robots [bytes]."""
 RATE = 10.0
-"""Of the poses of a robot that messages tell of [Hz]."""
+"""Sampling rate of robot poses that come from messages [Hz]."""
 
 
 def replay_3d(
@@ -51,16 +51,16 @@ def replay_3d(
     topics: Collection[str] | None = None, frame: str | None = None, robot: str | RobotModel | None = None,
     names: Sequence[str] | None = None,
 ) -> MeshcatView | RunsView:  # fmt: skip
-    """A run to play: the robot on its way, and on the ground what was published: maps, costmaps, plans, particles.
+    """Play a run: the robot as it drives, and published maps, costmaps, plans and particles on the ground.
 
-    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser of a recording
-    saw, each beam from where the robot was when it was measured. `topics` and `frame` are those of `replay`; `robot` is
-    the model of the robots of a bag, which are flat arrow heads without. Several runs are side by side by one clock,
-    with `names` above them, and who turns one view turns all.
+    The camera follows the robot, or stands still if the focus is the world. `scans` shows the laser scans of a
+    recording, each beam from the robot's pose at its measurement. `topics` and `frame` are those of `replay`; `robot`
+    is the model of the robots of a bag, which are otherwise flat arrowheads. Several runs are shown side by side with
+    one clock, with `names` above them, and turning one view turns all.
 
     Raises:
-        ViewError: it is nothing that can be played, or there is nothing to see in it; the focus or the distance is
-            impossible; there are not as many names as runs.
+        ViewError: a source cannot be played, or contains nothing to show; the focus or the distance is invalid;
+            the number of names differs from the number of runs.
         ROSBagException: a bag cannot be read.
 
     """
@@ -89,7 +89,7 @@ def replay_3d(
 def _recording(
     recording: Recording, kept: Run | None, look: dict[str, Any], *, scans: bool, title: str | None, height: int
 ) -> MeshcatView:  # fmt: skip
-    """A simulated robot in its world; `kept` is what a recorder kept beside it."""
+    """Show a simulated robot in its world; `kept` contains the layers recorded with it."""
     world, model, truth = recording.world, recording.model, recording.truth
     start: Pose = tuple(truth[0].tolist())
     is_close = look["focus"] == "robot"
@@ -137,9 +137,9 @@ def _recording(
 def _run(
     run: Run, robot: RobotModel | None, look: dict[str, Any], *, title: str | None, height: int
 ) -> MeshcatView:
-    """What messages tell of: bare ground, and robots on it if it is known what they look like."""
+    """Show the content of messages: bare ground, with robots on it if their model is known."""
     x0, y0, x1, y1 = run.extent()
-    # what a topic says of where a robot is (names with a slash) lies flat under the robot itself
+    # poses of a robot according to topics (names with a slash) lie flat under the robot itself
     own = [body for body in run.bodies if not body.name.startswith("/")] or list(run.bodies[:1])
     bodies = own if robot is not None else []
     start = bodies[0].poses[0].tolist() if bodies else None
@@ -153,7 +153,7 @@ def _run(
     times = np.linspace(run.start, run.end, 1 + min(1200, int(RATE * run.duration)))
     tracks: list[tuple[str, str, Floats]] = []
     for i, body in enumerate(bodies):
-        assert robot is not None  # noqa: S101 - there are no bodies without
+        assert robot is not None  # noqa: S101 - there are no bodies without a model
         node = node_of(body.name) if i else ROBOT
         poses = _sampled(times, body.times, body.poses)
         scene.add_robot(robot, tuple(poses[0].tolist()), node)
@@ -166,12 +166,12 @@ def _run(
     )  # fmt: skip
     view.svg = (
         still_of(run, title=label, alt=run.alt()).svg or ""
-    )  # a drawing of bare ground would say nothing
+    )  # a drawing of bare ground would show nothing
     return view
 
 
 def _lay(view: MeshcatView, run: Run, runs: int) -> None:
-    """Give a viewer, one of `runs`, what lies on its ground, thinned until the page is small."""
+    """Give a viewer, one of `runs`, the layers on its ground, thinned until the page is small enough."""
     bodies = [body.data() for body in run.bodies]
     used = size({**view.parts, "bodies": bodies}) + 4 * len(squeezed(view.scene.commands)) // 3
     layers, notes = thinned(run.layers, max(LEAST, BUDGET - used) // runs)
@@ -182,7 +182,7 @@ def _lay(view: MeshcatView, run: Run, runs: int) -> None:
 
 
 def _all_tracks(scene: Scene3D, recording: Recording) -> list[tuple[str, str, Floats]]:
-    """How all that moves moves, at the recording's times."""
+    """Return the tracks of everything that moves, at the recording's times."""
     times = recording.times
     tracks = _tracks(recording.model, recording.truth, ROBOT, wheels=f"{ROBOT}/wheel_left" in scene.nodes)
     for other in recording.others:
@@ -195,12 +195,12 @@ def _all_tracks(scene: Scene3D, recording: Recording) -> list[tuple[str, str, Fl
 
 
 def _sampled(times: Floats, known: Floats, poses: Floats) -> Floats:
-    """Poses (n, 3) at `times` (n,), linear between those at the times `known`."""
+    """Return poses (n, 3) at `times` (n,), by linear interpolation between those at the times `known`."""
     return np.column_stack([np.interp(times, known, column) for column in poses.T])
 
 
 def _tracks(model: RobotModel, truth: Floats, node: str, *, wheels: bool) -> list[tuple[str, str, Floats]]:
-    """How a robot and its wheels, if it has some, move: the wheels roll without slipping along the true way."""
+    """Return the tracks of a robot and of its wheels, if any; they roll without slipping along the true path."""
     place = np.column_stack([truth[:, :2], np.zeros(len(truth))])
     steps, turns = np.diff(truth[:, :2], axis=0), np.diff(truth[:, 2])
     towards = truth[:-1, 2] + turns / 2
@@ -217,7 +217,7 @@ BEAM_STEP = 2
 
 
 def _scan_track(recording: Recording) -> dict[str, Any]:
-    """Every second beam of at most `MOST_SCANS` scans, rounded if some are left out; 0 where nothing was hit."""
+    """Return every second beam of at most `MOST_SCANS` scans, rounded if scans are left out; 0 means no hit."""
     every = -(-len(recording.scans) // MOST_SCANS)
     ranges = recording.scans[::every, ::BEAM_STEP]
     hit = np.isfinite(ranges)

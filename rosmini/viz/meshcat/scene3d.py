@@ -1,7 +1,7 @@
-"""A scene in three dimensions, built through meshcat's own API and kept as commands.
+"""A scene in three dimensions, built through meshcat's own API and recorded as commands.
 
-Frames are ROS's: x forward, y to the left, z up, metres (REP 103). The scene is moved so that what the camera looks at
-is in meshcat's origin, around which its controls turn.
+Frames follow ROS: x forward, y to the left, z up, metres (REP 103). The scene is moved so that the camera's target is
+at meshcat's origin, around which its controls rotate.
 """
 
 from __future__ import annotations
@@ -35,21 +35,21 @@ Floats = NDArray[np.float64]
 Colour = tuple[float, float, float]
 
 DESCRIBED = ("waffle", "waffle_pi")
-"""Models that are drawn from their URDF. The Burger has a drawing of its own, a tenth as large."""
+"""Models that are drawn from their URDF. The Burger has its own drawing, a tenth of the size."""
 TINY = ("#181c20",)
-"""Colours left out of these drawings in a world: holes in plates, a quarter of the bytes and mere dots there."""
+"""Colours left out of these drawings in a world: holes in plates, a quarter of the bytes and barely visible there."""
 SIDES = (("left", 1), ("right", -1))
-"""The wheels, and where they look."""
+"""The wheels, and the sign of their y axis that points outwards."""
 ROBOT = "robots/robot"
 """The path of the first robot."""
 WALL_THICKNESS = 0.03
-"""Of a wall that a map gives as a line [m]."""
+"""Thickness of a wall that a map gives as a line [m]."""
 MANY_WALLS = 400
-"""Above this number, walls are sheets without a top: a traced map has thousands."""
+"""Above this number, walls are sheets without a top: a traced map has thousands of walls."""
 TRAIL_WIDTH = 0.016
-"""[m]"""
+"""Width of a trail [m]."""
 HAIR = 0.012
-"""So far before what a laser without noise has hit its points are drawn [m]."""
+"""Distance by which points of a laser without noise are moved towards it, so that they stay visible [m]."""
 
 WALL, GREY, GROUND, GRID = "#c4ccd4", "#98a3ad", "#e8ecf0", "#b9c2ca"
 DARK_GROUND, DARK_GRID, DARK_WALL = "#2d353e", "#505c68", "#77828d"
@@ -57,7 +57,7 @@ DARK_GROUND, DARK_GRID, DARK_WALL = "#2d353e", "#505c68", "#77828d"
 
 @dataclass(frozen=True)
 class Camera:
-    """Where one looks from: around a point, as far as `distance` [m], from `azimuth` and `elevation` [deg].
+    """A camera that looks at a point from a `distance` [m], an `azimuth` and an `elevation` [deg].
 
     At azimuth 0 the camera is on the side of x, at 90 on the side of y.
     """
@@ -67,11 +67,11 @@ class Camera:
     azimuth: float = -50.0
     elevation: float = 32.0
     field_of_view: float = 38.0
-    """From bottom to top [deg]."""
+    """Vertical field of view [deg]."""
 
     @property
     def position(self) -> Floats:
-        """Where it is, in the world (3,)."""
+        """The position in the world (3,)."""
         azimuth, elevation = math.radians(self.azimuth), math.radians(self.elevation)
         flat = self.distance * math.cos(elevation)
         return np.array(
@@ -95,7 +95,7 @@ class Trail:
 
 @dataclass(frozen=True)
 class Motion:
-    """How a property of what is at a path changes: values (n, 1) or (n, 3) [m or rad] at times (n,) [s]."""
+    """The change of a property of the object at a path: values (n, 1) or (n, 3) [m or rad] at times (n,) [s]."""
 
     path: str
     name: str
@@ -104,29 +104,29 @@ class Motion:
 
     @property
     def data(self) -> list[str]:
-        """What the script of the viewer reads: path, property and packed columns, to 0.1 mm and 0.1 mrad."""
+        """The data for the viewer's script: path, property and packed columns, to 0.1 mm and 0.1 mrad."""
         rows = np.column_stack([self.times, self.values])
         return [self.path, self.name, pack_columns(rows, TIME, *[ANGLE] * self.values.shape[1])]
 
 
 @dataclass
 class Scene3D:
-    """Things in a world, each under a path of meshcat's tree; `visualizer` takes more through meshcat's API."""
+    """Objects in a world, each under a path of meshcat's tree; `visualizer` accepts more through meshcat's API."""
 
     camera: Camera
     parts: list[Part] = field(default_factory=list)
     surfaces: list[LinkPart] = field(default_factory=list)
-    """Of robots that are drawn from their description."""
+    """Surfaces of robots that are drawn from their description."""
     trails: list[Trail] = field(default_factory=list)
     scans: list[Floats] = field(default_factory=list)
     """Points (n, 3) in the world that lasers saw."""
     bounds: tuple[float, float, float, float] = (-1.0, -1.0, 1.0, 1.0)
-    """What the ground covers."""
+    """The area covered by the ground: x and y of its lower left, then of its upper right corner."""
     duration: float = 0.0
-    """Of the animation [s]; 0: nothing moves."""
+    """Duration of the animation [s]; 0 if nothing moves."""
     motions: list[Motion] = field(default_factory=list)
     copies: list[tuple[str, str]] = field(default_factory=list)
-    """Paths of objects, each with the path of a copy: the viewer keeps one geometry for all."""
+    """Paths of objects, each with the path of a copy: the viewer stores one geometry for all copies."""
 
     def __post_init__(self) -> None:
         self._shared: dict[tuple[str, bytes, bytes], str] = {}
@@ -137,18 +137,18 @@ class Scene3D:
 
     @property
     def commands(self) -> list[bytes]:
-        """What meshcat's viewer has to be told, in this order."""
+        """The commands for meshcat's viewer, in order."""
         return self.recorder.commands
 
     def _stage(self) -> None:
-        """Camera and lights; what meshcat shows by itself is hidden."""
+        """Set up the camera and the lights, and hide meshcat's own grid, axes and background."""
         scene, camera = self.visualizer, self.camera
         for name in ("/Grid", "/Axes", "/Background"):
             scene[name].set_property("visible", False)
         lens = meshcat().geometry.PerspectiveCamera(fov=camera.field_of_view, near=0.02, far=200.0)
         scene["/Cameras/default/rotated"].set_object(lens)
         x, y, z = (camera.position - camera.target).tolist()
-        # meshcat turns its camera's frame by a quarter around x.
+        # meshcat rotates the frame of its camera by 90 degrees about x.
         scene["/Cameras/default/rotated/<object>"].set_property("position", [x, z, -y])
         reach = max(2.5, camera.distance)
         spot = scene["/Lights/SpotLight/<object>"]
@@ -166,7 +166,7 @@ class Scene3D:
         scene.set_transform(rounded(shift))
 
     def place(self, node: str, transform: Floats) -> None:
-        """Put a node at a transform (4, 4) seen from the node above it."""
+        """Give a node a transform (4, 4) relative to its parent."""
         self.nodes[node] = transform
         self.visualizer[node].set_transform(rounded(transform))
 
@@ -195,7 +195,7 @@ class Scene3D:
             path[str(i)].set_transform(rounded(place))
 
     def add_surface(self, part: LinkPart, *, shared: bool = False) -> None:
-        """Add a surface to its node; a `shared` one that is there already is told of only as a copy of the other."""
+        """Add a surface to its node; if an equal `shared` surface exists, only record it as a copy."""
         self.surfaces.append(part)
         path, vertices = f"{part.node}/{part.name}", rounded(part.surface.vertices)
         if shared:
@@ -210,7 +210,7 @@ class Scene3D:
         self.visualizer[path].set_object(triangles, material)
 
     def add_ground(self, bounds: tuple[float, float, float, float]) -> None:
-        """Add a floor that reaches half a metre further than `bounds`, with a line each metre."""
+        """Add a floor that extends half a metre beyond `bounds`, with a line every metre."""
         x0, y0, x1, y1 = self.bounds = (
             math.floor(bounds[0] - 0.5), math.floor(bounds[1] - 0.5),
             math.ceil(bounds[2] + 0.5), math.ceil(bounds[3] + 0.5),
@@ -219,7 +219,7 @@ class Scene3D:
         corners = np.array([(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)])
         floor = geometry.TriangularMeshGeometry(corners, [(0, 1, 2), (0, 2, 3)])
         self.visualizer["ground"].set_object(floor, _matt(GROUND))
-        # As lines the viewer would draw them one pixel wide, near and far.
+        # The viewer would draw lines one pixel wide, near and far, so they are thin strips.
         width = 0.0022 * self.camera.distance
         strips = [ribbon(np.array(line, dtype=float), width, 0.002) for line in grid(self.bounds)]
         vertices = np.vstack([corners for corners, _ in strips])
@@ -228,7 +228,7 @@ class Scene3D:
         self.visualizer["grid"].set_object(lines, geometry.MeshBasicMaterial(color=int(GRID[1:], 16)))
 
     def add_world(self, world: World, *, bounds: tuple[float, float, float, float] | None = None) -> None:
-        """Add walls and obstacles, and ground under them or under `bounds`."""
+        """Add walls and obstacles, and ground under them or within `bounds`."""
         self.add_ground(bounds or world.bounds)
         if len(world.walls):
             self._add_walls(world)
@@ -254,7 +254,7 @@ class Scene3D:
     def add_obstacle(self, obstacle: Obstacle) -> None:
         """Add an obstacle where it is."""
         node = obstacle_node(obstacle.name)
-        while node in self.nodes:  # names may be used twice
+        while node in self.nodes:  # names may occur twice
             node += "'"
         self.place(node, planar(obstacle.pose))
         bottom, top = obstacle.bottom, obstacle.height
@@ -278,14 +278,14 @@ class Scene3D:
                 self.add(self._solid(seen, name, f"part{i}", model.height))
 
     def _place_hub(self, model: RobotModel, name: str, side: str, outwards: int) -> str:
-        """Place the node of a wheel, which turns about its y, and return it."""
+        """Place the node of a wheel, which turns about its y axis, and return its path."""
         hub = np.eye(4)
         hub[:3, 3] = (0.0, outwards * model.wheel_separation / 2, model.wheel_radius)
         self.place(f"{name}/wheel_{side}", hub)
         return f"{name}/wheel_{side}"
 
     def _add_described(self, model: RobotModel, name: str) -> None:
-        """Add a TurtleBot3 as its URDF describes it; what turns is below the nodes of its wheels."""
+        """Add a TurtleBot3 from its URDF; everything that turns is below the nodes of its wheels."""
         robot = turtlebot3(model.name)
         for side, outwards in SIDES:
             self._place_hub(model, name, side, outwards)
@@ -302,7 +302,7 @@ class Scene3D:
                 self.add_surface(part)
 
     def _solid(self, part: SimplePart, node: str, name: str, height: float) -> Part:
-        """A part of a robot of which only the outlines are known."""
+        """Return a part of a robot of which only the outlines are known."""
         bottom, top = part.bottom, min(part.top, height)
         solids = tuple(
             _upright(shape, pose, bottom, top) for shape, pose in simple_parts(part.shape, part.pose)
@@ -312,9 +312,9 @@ class Scene3D:
     def add_scan(
         self, model: RobotModel, ranges: Floats, pose: Pose | Floats | None = None, name: str = ROBOT
     ) -> None:
-        """Add what the laser of a robot that is there saw: ranges (beams,) [m], not finite where nothing was hit.
+        """Add the scan of a robot that was added before: ranges (beams,) [m], not finite where nothing was hit.
 
-        It saw that at `pose`, or at each beam at one of these (beams, 3); by default where the robot is.
+        It was taken at `pose`, or each beam at one of several poses (beams, 3); by default at the robot's pose.
         """
         points = scan_points(ranges, model.laser)
         mount = np.eye(4)
@@ -334,7 +334,7 @@ class Scene3D:
         self.scans.append(matrix_product(points[np.isfinite(ranges)], place[:3, :3].T) + place[:3, 3])
         geometry = meshcat().geometry
         colours = np.tile(np.array([_rgb(style.LIGHT["vermilion"])]), (len(points), 1))
-        # A beam that hits nothing has its point far below the ground, so that each beam keeps its place.
+        # A beam without a hit has its point far below the ground, so that the number of points is constant.
         self.visualizer[f"{name}/scan"].set_object(
             geometry.PointCloud(points.T.astype(np.float32), colours.T.astype(np.float32), size=0.022)
         )
@@ -353,9 +353,9 @@ class Scene3D:
         self.visualizer[f"trails/{name}"].set_object(strip, material)
 
     def animate(self, times: Floats, tracks: Iterable[tuple[str, str, Floats]]) -> None:
-        """Let nodes move: tracks are (node, property, values), values (n,) or (n, 3) at `times` (n,), lines in between.
+        """Animate nodes: tracks are (node, property, values), values (n,) or (n, 3) at `times` (n,), linear in between.
 
-        Properties are those of three.js: `position`, `rotation[z]` ... Samples that the others tell are left out.
+        Properties are those of three.js: `position`, `rotation[z]` ... Samples that follow from others are left out.
         """
         for node, name, values in tracks:
             table = values.reshape(len(times), -1)
@@ -364,7 +364,7 @@ class Scene3D:
         self.duration = float(snap(times[-1]))
 
     def transform(self, node: str) -> Floats:
-        """Where a node is in the world (4, 4)."""
+        """Return the transform of a node in the world (4, 4)."""
         result: Floats = np.eye(4)
         names = node.split("/")
         for i in range(1, len(names) + 1):
@@ -373,7 +373,7 @@ class Scene3D:
 
     @property
     def themes(self) -> dict[str, dict[str, Sequence[float]]]:
-        """What changes its colour with the page: the paths and their colours, for light and for dark pages."""
+        """Objects whose colour depends on the page's theme: their paths and colours, for light and for dark pages."""
         paths = {"/meshcat/ground": (GROUND, DARK_GROUND), "/meshcat/grid": (GRID, DARK_GRID)}
         walls = (part for part in self.parts if part.colour == WALL)
         paths |= {f"/meshcat/{part.node}/{part.name}".replace("//", "/"): (WALL, DARK_WALL) for part in walls}
@@ -386,19 +386,19 @@ class Scene3D:
 
 
 def planar(pose: Pose) -> Floats:
-    """The transform (4, 4) of a pose on the ground."""
+    """Return the transform (4, 4) of a pose on the ground."""
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
     return np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, 0], [0, 0, 0, 1.0]])
 
 
 def obstacle_node(name: str) -> str:
-    """Where in the scene an obstacle is."""
+    """Return the path of an obstacle in the scene."""
     return "obstacles/" + name.replace("/", " ")
 
 
 def _upright(shape: Simple, pose: Pose, bottom: float, top: float) -> Solid:
-    """A shape as it stands, or lies if it is a ball."""
+    """Return a shape as an upright solid."""
     if isinstance(shape, Sphere):
         return Ball((pose[0], pose[1], bottom + shape.radius), shape.radius)
     if isinstance(shape, Cylinder):
@@ -407,15 +407,15 @@ def _upright(shape: Simple, pose: Pose, bottom: float, top: float) -> Solid:
 
 
 def colour_of(name: str) -> str:
-    """The colour of an obstacle."""
+    """Return the colour of an obstacle."""
     return name if name.startswith("#") else {"wall": WALL, "grey": GREY}.get(name) or style.LIGHT[name]
 
 
 def scan_points(ranges: Floats, lidar: LidarModel) -> Floats:
-    """Where beams end (beams, 3), seen from the laser; 100 m below it where they hit nothing.
+    """Return the ends of beams (beams, 3), seen from the laser; 100 m below it for beams without a hit.
 
-    A laser that sees all around may give fewer ranges than it has beams, as evenly spread. The points of a laser
-    without noise would lie within the surfaces, where nobody sees them: they are drawn a hair nearer.
+    A laser with a full circle may give fewer ranges than it has beams, evenly spread. The points of a laser without
+    noise would lie in the surfaces, where they cannot be seen, so they are drawn slightly nearer.
     """
     places = np.arange(len(ranges))
     step = 2 * math.pi * places / len(ranges) if lidar.angle_max is None else lidar.increment * places
@@ -428,7 +428,7 @@ def scan_points(ranges: Floats, lidar: LidarModel) -> Floats:
 
 
 def grid(bounds: tuple[float, float, float, float]) -> list[tuple[tuple[float, float], tuple[float, float]]]:
-    """A line each metre in both directions; on large grounds each five or more."""
+    """Return a line every metre in both directions; on large grounds every five metres or more."""
     x0, y0, x1, y1 = bounds
     step = next(s for s in (1, 5, 10, 50, 100, 1000) if max(x1 - x0, y1 - y0) / s <= 60 or s == 1000)
     xs = np.arange(math.ceil(x0 / step) * step, x1 + step / 2, step).tolist()
@@ -437,7 +437,7 @@ def grid(bounds: tuple[float, float, float, float]) -> list[tuple[tuple[float, f
 
 
 def ribbon(points: Floats, width: float, height: float) -> tuple[Floats, NDArray[np.int64]]:
-    """A strip along a line (n, 2): vertices (2n, 3) and triangles (m, 3) that look up, of the same width at corners."""
+    """Return a strip along a line (n, 2): vertices (2n, 3) and triangles (m, 3) facing up, of constant width."""
     steps = np.diff(points, axis=0)
     steps /= np.hypot(*steps.T)[:, None] + 1e-12
     normals = np.column_stack([-steps[:, 1], steps[:, 0]])
@@ -452,19 +452,19 @@ def ribbon(points: Floats, width: float, height: float) -> tuple[Floats, NDArray
 
 
 def keyframes(times: Floats, values: Floats, tolerance: float) -> list[int]:
-    """Which samples (n, k) to keep so that lines between them are within `tolerance` of all others."""
+    """Return the samples (n, k) to keep so that lines between them are within `tolerance` of all others."""
 
     def gaps(first: int, last: int) -> Floats:
         part = (times[first + 1 : last] - times[first]) / (times[last] - times[first])
         line = values[first] + part[:, None] * (values[last] - values[first])
-        # Snapped, so that of two samples that are equally far off the same one is taken everywhere.
+        # snapped, so that of two samples at the same distance every machine takes the same one
         return snap(np.abs(values[first + 1 : last] - line).max(axis=1), 1e-7)
 
     return simplified_indices([0, len(times) - 1], gaps, tolerance)
 
 
 def simplified(points: Floats, tolerance: float = 0.002) -> Floats:
-    """The corners of a line (n, 2) without those that change it by less than `tolerance` in x and in y."""
+    """Return the vertices of a line (n, 2) without those that change it by less than `tolerance` in x and in y."""
     steps = np.hypot(*np.diff(points, axis=0).T)
     way = np.concatenate([[0.0], np.cumsum(np.where(steps > 1e-9, steps, 0.0))])
     moved = np.concatenate([[True], np.diff(way) > 0])
@@ -473,7 +473,7 @@ def simplified(points: Floats, tolerance: float = 0.002) -> Floats:
 
 
 def _slab(x1: float, y1: float, x2: float, y2: float) -> Floats:
-    """The outline of a wall along a segment."""
+    """Return the outline of a wall along a segment."""
     a, b = np.array([x1, y1]), np.array([x2, y2])
     along = (b - a) / (math.hypot(x2 - x1, y2 - y1) or 1.0) * WALL_THICKNESS / 2
     aside = np.array([-along[1], along[0]])
@@ -485,5 +485,5 @@ def _rgb(colour: str) -> Colour:
 
 
 def _matt(colour: str) -> Any:
-    # Not Lambert's: the viewer computes that one at corners only, and a ground has four.
+    # Not a Lambert material: the viewer computes its light only at vertices, and the ground has four.
     return meshcat().geometry.MeshPhongMaterial(color=int(colour[1:], 16), shininess=0, specular=0)

@@ -1,4 +1,4 @@
-"""Runs side by side in three dimensions, by one clock."""
+"""Runs side by side in three dimensions, with one clock."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .view import MeshcatView
 
 
 class RunsView(MovingView):
-    """Several runs, each in a viewer of its own, with one bar of controls; its image is that of the first."""
+    """Several runs, each in its own viewer, with one bar of controls; the image is that of the first."""
 
     assets = (MESHCAT,)
     call = "rosminiMeshcat.mount"
@@ -29,12 +29,12 @@ class RunsView(MovingView):
 
     @property
     def name(self) -> str:
-        """Its title, or what is played."""
+        """The title, or a short description."""
         return self.title or f"{len(self.runs)} runs in 3D, side by side"
 
     @property
     def text(self) -> str:
-        """What happened in each, in numbers."""
+        """The result of each run, in numbers."""
         told = (f"{name}: {run.text}" for name, run in zip(self.names, self.runs, strict=True))
         return "\n".join([self.name, *told])
 
@@ -46,23 +46,23 @@ class RunsView(MovingView):
 
     @property
     def svg(self) -> str:
-        """The first run in one picture."""
+        """A picture of the first run."""
         return self.runs[0].svg
 
     @property
     def fallback(self) -> str:
-        """The runs in pictures, side by side."""
+        """Pictures of the runs, side by side."""
         drawn = [element("div", run.svg, style="flex:1 1 18rem;min-width:0") for run in self.runs]
         return element("div", "".join(drawn), style="display:flex;flex-wrap:wrap;gap:8px")
 
     @property
     def height(self) -> int:
-        """That of one viewer [CSS px]."""
+        """The height of one viewer [CSS px]."""
         return self.runs[0].height
 
     @property
     def data(self) -> dict[str, Any]:
-        """What the script of the viewers takes: the commands of all together, since they repeat one another."""
+        """The data for the viewers' script: the commands of all runs together, since much is the same in each."""
         return {
             "commands": squeezed(command for run in self.runs for command in run.scene.commands),
             "duration": max(run.scene.duration for run in self.runs),

@@ -1,7 +1,7 @@
-"""Solid shapes that both the viewer and the drawing understand: prisms, rods and balls, in metres.
+"""Solid shapes for both the viewer and the drawing: prisms, rods and balls, in metres.
 
-A part has one colour and stands in the frame of its node (`robot/wheel_left`). What is round is round in the viewer and
-has corners in the drawing.
+A part has one colour and is given in the frame of its node (`robot/wheel_left`). Round shapes are round in the viewer
+and polygonal in the drawing.
 """
 
 from __future__ import annotations
@@ -20,29 +20,29 @@ from rosmini.viz.rounding import snap
 
 Floats = NDArray[np.float64]
 Outline = Floats
-"""Corners (n, 2) of a simple polygon, counter-clockwise seen from above."""
+"""Vertices (n, 2) of a simple polygon, counter-clockwise seen from above."""
 Face = Floats
-"""Corners (n, 3) of a flat polygon, counter-clockwise seen from outside."""
+"""Vertices (n, 3) of a flat polygon, counter-clockwise seen from outside."""
 
 RESOLUTION = 1e-5
-"""To what coordinates are rounded [m], so that they are the same on every machine."""
+"""Resolution to which coordinates are rounded [m], so that they are equal on every machine."""
 
 
 def rounded(values: Floats) -> Floats:
-    """`values` to a hundredth of a millimetre, with no negative zero."""
+    """Return `values` rounded to a hundredth of a millimetre, without negative zeros."""
     return snap(values, RESOLUTION)
 
 
 @dataclass(frozen=True)
 class Prism:
-    """A polygon from `bottom` to `top`; seen from below it is open."""
+    """A polygon extruded from `bottom` to `top`, open at the bottom."""
 
     outline: Outline
     bottom: float
     top: float
 
     def faces(self) -> Iterator[Face]:
-        """The top, then the sides."""
+        """Yield the top, then the sides."""
         yield _at(self.outline, self.top)
         low, high = _at(self.outline, self.bottom), _at(self.outline, self.top)
         for i in range(len(self.outline)):
@@ -50,7 +50,7 @@ class Prism:
             yield np.array([low[i], low[j], high[j], high[i]])
 
     def triangles(self) -> Iterator[tuple[Face, NDArray[np.int64]]]:
-        """The faces, each with its triangles (m, 3) as places among its corners."""
+        """Yield the faces, each with its triangles (m, 3) as indices of its vertices."""
         top, *sides = self.faces()
         yield top, triangulate(self.outline)
         for side in sides:
@@ -59,23 +59,23 @@ class Prism:
 
 @dataclass(frozen=True)
 class Facets:
-    """Convex polygons anywhere."""
+    """Convex polygons in any position."""
 
     polygons: tuple[Face, ...]
 
     def faces(self) -> Iterator[Face]:
-        """The polygons."""
+        """Yield the polygons."""
         yield from self.polygons
 
     def triangles(self) -> Iterator[tuple[Face, NDArray[np.int64]]]:
-        """Each polygon as a fan around its first corner."""
+        """Yield each polygon with a fan of triangles around its first vertex."""
         for face in self.polygons:
             yield face, np.array([(0, i, i + 1) for i in range(1, len(face) - 1)])
 
 
 @dataclass(frozen=True)
 class Rod:
-    """A cylinder around its centre; its axis is z, or y from right to left."""
+    """A cylinder, given by its centre; its axis is z, or y from right to left."""
 
     centre: tuple[float, float, float]
     radius: float
@@ -83,7 +83,7 @@ class Rod:
     axis: Literal["y", "z"] = "z"
 
     def faces(self) -> Iterator[Face]:
-        """The two ends, then the sides: the thinner, the fewer."""
+        """Yield the two ends, then the sides; thin rods have fewer."""
         corners = next(n for n, below in ((6, 0.006), (14, 0.05), (18, math.inf)) if self.radius < below)
         circle = regular(corners, 1.0) * self.radius
         low, high = _at(circle, -self.length / 2), _at(circle, self.length / 2)
@@ -95,7 +95,7 @@ class Rod:
                 for i, j in ((i, (i + 1) % corners) for i in range(corners))
             ),
         ):
-            # A quarter turn around x takes z to -y: mirror it, so that the axis points to the left.
+            # A quarter turn about x takes z to -y: mirror it, so that the axis points to the left.
             turned = face if self.axis == "z" else np.column_stack([face[:, 0], face[:, 2], -face[:, 1]])
             yield turned + self.centre
 
@@ -108,7 +108,7 @@ class Ball:
     radius: float
 
     def faces(self) -> Iterator[Face]:
-        """Quadrilaterals between circles of latitude."""
+        """Yield quadrilaterals between circles of latitude."""
         corners = 10
         heights = np.sin(np.linspace(-math.pi / 2, math.pi / 2, corners // 2 + 1))
         rings = [_at(regular(corners, math.sqrt(max(0.0, 1 - h * h))), float(h)) for h in heights]
@@ -131,9 +131,9 @@ class Part:
     """`#rrggbb`"""
     solids: tuple[Solid, ...]
     shine: float = 0.0
-    """How bright the lights are mirrored, 0 to 1."""
+    """Specular reflection, 0 to 1."""
     fine: bool = False
-    """Left out of the drawing."""
+    """True to leave the part out of the drawing."""
 
 
 @dataclass(frozen=True)
@@ -148,13 +148,13 @@ class LinkPart:
 
 
 def box(x: float, y: float, z: float, length: float, width: float, height: float) -> Prism:
-    """A box around (x, y) that stands on z."""
+    """Return a box centred at (x, y) whose bottom is at z."""
     a, b = length / 2, width / 2
     return Prism(np.array([(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b)]), z, z + height)
 
 
 def plate(x: float, y: float, length: float, width: float, radius: float, corners: int = 5) -> Outline:
-    """The outline of a rectangle around (x, y) with round corners."""
+    """Return the outline of a rectangle around (x, y) with round corners."""
     points = []
     for quarter, (a, b) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
         for step in range(corners):
@@ -169,13 +169,13 @@ def plate(x: float, y: float, length: float, width: float, radius: float, corner
 
 
 def regular(corners: int, radius: float) -> Outline:
-    """A regular polygon around the origin."""
+    """Return a regular polygon around the origin."""
     angles = np.arange(corners) * (2 * math.pi / corners)
     return np.column_stack([np.cos(angles), np.sin(angles)]) * radius
 
 
 def mesh(flat: Iterable[Prism | Facets]) -> tuple[Floats, NDArray[np.int64]]:
-    """Vertices (n, 3) and triangles (m, 3) of all of them. Faces share no vertices, so that edges are sharp."""
+    """Return the vertices (n, 3) and triangles (m, 3) of all solids. Faces share no vertices, to keep edges sharp."""
     vertices, triangles, count = [], [], 0
     for solid in flat:
         for face, among in solid.triangles():
@@ -186,7 +186,7 @@ def mesh(flat: Iterable[Prism | Facets]) -> tuple[Floats, NDArray[np.int64]]:
 
 
 def triangulate(outline: Outline) -> NDArray[np.int64]:
-    """The triangles (n - 2, 3) of a simple polygon (n, 2), by cutting ears; all counter-clockwise as the polygon is."""
+    """Return the triangles (n - 2, 3) of a simple polygon (n, 2), found by ear clipping; all are counter-clockwise."""
     left = list(range(len(outline)))
     triangles = []
     while len(left) > 3:
@@ -205,7 +205,7 @@ def _is_ear(outline: Outline, left: list[int], at: int) -> bool:
 
 
 def _side(a: Floats, b: Floats, c: Floats) -> float:
-    """Positive where c is to the left of the way from a to b."""
+    """Return a positive number if c is to the left of the line from a to b."""
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 

@@ -1,8 +1,8 @@
-"""Commands of a scene in fewer bytes: they repeat one another, and those of a second run in the same world do wholly.
+"""Compress the commands of a scene: they repeat one another, and a second run in the same world repeats all of them.
 
-What repeats is replaced by where it was before (J. Ziv, A. Lempel, "A universal algorithm for sequential data
-compression", 1977). A library would do it better, and another release of it would write other bytes: pages are compared
-to the byte.
+A repetition is replaced by a reference to its earlier occurrence (J. Ziv, A. Lempel, "A universal algorithm for
+sequential data compression", 1977). A library would compress better, but its next release might write other bytes,
+and pages are compared byte by byte.
 """
 
 from __future__ import annotations
@@ -10,17 +10,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 LEAST = 4
-"""Bytes that are worth being looked for."""
+"""Minimum match length [bytes]."""
 TRIES = 24
-"""Places where they were before, the last ones, of which the longest match counts."""
+"""Number of most recent earlier occurrences that are tried."""
 LEAP = 64
 
 
 def squeezed(commands: Iterable[bytes]) -> bytes:
-    """Commands, each with its length before it, as `commandsOf` of `rosmini-meshcat.js` reads them.
+    """Return the commands compressed, each preceded by its length, as `commandsOf` of `rosmini-meshcat.js` reads them.
 
-    Numbers are in bytes of seven bits, the lowest first. Again and again there is a count of bytes, these bytes, and
-    how far back is what follows them, with its length, which may reach into what it makes; 0 back at the end.
+    Numbers are written in bytes of seven bits, the lowest first. The result is a sequence of: a number of literal
+    bytes, these bytes, the distance back to a match, and its length (it may overlap its copy). Distance 0 is the end.
     """
     data = b"".join(bytes(_number(len(command))) + command for command in commands)
     found = bytearray()
@@ -39,7 +39,7 @@ def _number(value: int) -> Iterator[int]:
 
 
 def _repeats(data: bytes) -> Iterator[tuple[int, int, int]]:
-    """What was there before: where it is again, how far back, and its length, in order and without overlaps."""
+    """Find earlier occurrences: yield (position, distance, length) of each match, in order and without overlaps."""
     known: dict[bytes, list[int]] = {}
     at = 0
     while at + LEAST <= len(data):
@@ -54,7 +54,7 @@ def _repeats(data: bytes) -> Iterator[tuple[int, int, int]]:
 
 
 def _length(data: bytes, place: int, at: int) -> int:
-    """The number of bytes from `at` on that are those from `place` on; the first are known to be."""
+    """Return the length of the match between `place` and `at`; the first bytes are known to be equal."""
     length = LEAST
     while at + length + LEAP <= len(data):
         if data[place + length : place + length + LEAP] != data[at + length : at + length + LEAP]:

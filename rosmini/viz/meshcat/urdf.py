@@ -1,4 +1,4 @@
-"""A robot as its URDF describes it, in three dimensions: any robot, with its joints where one wants them."""
+"""A robot in three dimensions from its URDF: any robot, with joint positions of your choice."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def urdf_3d(
     robot: Robot, *, joints: Mapping[str, float] | None = None, collisions: bool = False, distance: float | None = None,
     azimuth: float | None = None, elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
-    """A robot with its joints at these positions [rad or m]; the others as `Robot.positions` has them.
+    """Show a robot with its joints at these positions [rad or m]; the others have the defaults of `Robot.positions`.
 
-    With `collisions` it shows the shapes that touch others in place of those that one sees.
+    With `collisions` it shows the collision shapes instead of the visual ones.
 
     Raises:
-        UnknownJoint: it has no such joint, or one that no number moves.
+        UnknownJoint: it has no such joint, or the joint cannot be set.
         MeshError: a mesh cannot be read.
         ViewError: there is nothing to see, or the distance is not positive.
 

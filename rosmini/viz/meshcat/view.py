@@ -1,4 +1,4 @@
-"""Scenes as views: a simulator at this moment, a world, a recorded run."""
+"""Views of scenes in three dimensions: a simulator at this moment, a world, a recorded run."""
 
 from __future__ import annotations
 
@@ -30,25 +30,25 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Focus = Literal["robot", "world"]
-"""What the camera looks at."""
+"""Target of the camera."""
 
 HEIGHT = 420
-"""Of the viewer [CSS px]."""
+"""Default height of the viewer [CSS px]."""
 
 ELEVATION = 25.0
-"""How high the camera looks down on a robot [deg]."""
+"""Default elevation of the camera above a robot [deg]."""
 
 NEAR = 0.1
-"""So far [m] the camera stays away from what is behind it."""
+"""Minimum distance of the camera from things behind it [m]."""
 
 
 class MeshcatView(MovingView):
     """A scene that can be turned, and played if something in it moves; its image is a drawing of the same scene.
 
-    `title` is a caption under it and the first line of its text form; `label` names it for those who do not see it.
+    `title` is a caption below it and the first line of its text form; `label` names it for screen readers.
 
-    In the book, the page's one copy of meshcat's viewer shows the recorded commands, with no server. A page should hold
-    at most six: browsers draw no more than some eight three-dimensional pictures at a time.
+    In the book, the page's one copy of meshcat's viewer shows the recorded commands, without a server. A page should
+    contain at most six: browsers support about eight three-dimensional pictures at a time.
     """
 
     scripts: Sequence[str] = ("rosmini-meshcat.js",)
@@ -71,27 +71,27 @@ class MeshcatView(MovingView):
 
     @property
     def text(self) -> str:
-        """What is in the scene and where."""
+        """The contents of the scene and their positions."""
         return self._text
 
     @property
     def alt(self) -> str:
-        """The scene in a sentence or two."""
+        """The scene in one or two sentences."""
         return self._alt
 
     @cached_property
     def svg(self) -> str:
-        """The drawing: the scene as the viewer shows it first."""
+        """The drawing: the scene as the viewer first shows it."""
         return draw(self.scene, title=self.label, alt=self.alt)
 
     @property
     def data(self) -> dict[str, Any]:
-        """What the script of the viewer takes."""
+        """The data for the viewer's script."""
         return {"commands": squeezed(self.scene.commands), **self.parts}
 
     @property
     def parts(self) -> dict[str, Any]:
-        """What the script takes beside the commands that build the scene."""
+        """The data for the script apart from the commands that build the scene."""
         return {
             "themes": self.scene.themes,
             "duration": self.scene.duration,
@@ -104,7 +104,7 @@ class MeshcatView(MovingView):
 
     @property
     def name(self) -> str:
-        """What is in the scene, in a few words."""
+        """The contents of the scene, in a few words."""
         return self.label
 
 
@@ -112,7 +112,7 @@ def camera_for(
     world: World, pose: Pose | None, *, focus: Focus, distance: float | None, azimuth: float | None,
     elevation: float | None,
 ) -> Camera:  # fmt: skip
-    """A three-quarter view of the robot from ahead, or of the whole world from the south; what is given overrides it.
+    """Return a three-quarter view of the robot from ahead, or of the whole world from the south; arguments override it.
 
     Raises:
         ViewError: the focus is neither "robot" nor "world", or the distance is not positive.
@@ -139,7 +139,7 @@ def camera_for(
 
 
 def free_sight(world: World, pose: Pose, distance: float) -> tuple[float, float]:
-    """The azimuth and elevation [deg] to see a robot from: ahead at an angle, or where nothing stands between."""
+    """Return the azimuth and elevation [deg] to see a robot from: ahead at an angle, or another free direction."""
     x, y, heading = (float(part) for part in snap(np.array(pose)))
     ahead = float(snap(math.degrees(heading), 1.0))
     for aside in (-38.0, 38.0, -142.0, 142.0):
@@ -155,7 +155,7 @@ def world_3d(
     world: World, *, distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
     title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
-    """A world in three dimensions: what stands in it, as high as it is."""
+    """Show a world in three dimensions: everything in it, with its height."""
     camera = camera_for(world, None, focus="world", distance=distance, azimuth=azimuth, elevation=elevation)
     scene = Scene3D(camera)
     scene.add_world(world)
@@ -169,11 +169,11 @@ def simulation_3d(
     simulator: Simulator, *, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
     elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
-    """A simulator at this moment: its world, its robot where it truly is, and the last scan from where it was taken.
+    """Show a simulator at this moment: its world, the true pose of its robot, and the last scan from its own pose.
 
     Raises:
         RobotGone: the robot was removed, or the node shut down.
-        ViewError: the focus or the distance is impossible.
+        ViewError: the focus or the distance is invalid.
 
     """
     fixed_ones = [obstacle for obstacle in simulator.world.obstacles if obstacle.fixed]
@@ -197,13 +197,13 @@ def robot_3d(
     focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
     elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
-    """A robot in a world at a pose, with what its laser saw: ranges (beams,) [m], not finite where nothing was hit.
+    """Show a robot in a world at a pose, with a scan of its laser: ranges (beams,) [m], not finite without a hit.
 
-    It saw that from the pose `scan_from`, or at each beam from one of them (beams, 3); by default from the pose of the
-    robot. `others` are more robots: name, model and pose.
+    The scan was taken at the pose `scan_from`, or each beam at one of several poses (beams, 3); by default at the
+    pose of the robot. `others` are further robots: name, model and pose.
 
     Raises:
-        ViewError: the focus or the distance is impossible, or there is a wrong number of ranges.
+        ViewError: the focus or the distance is invalid, or the number of ranges is wrong.
 
     """
     camera = camera_for(world, pose, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation)
@@ -230,7 +230,7 @@ def robot_3d(
 
 
 def title_of(world: World) -> str:
-    """A world in the middle of a sentence."""
+    """Return a world's title as it appears in the middle of a sentence."""
     return world.title[:1].lower() + world.title[1:] if world.title else f"the world {world.name!r}"
 
 
@@ -240,5 +240,5 @@ def _contents(world: World) -> str:
 
 
 def node_of(name: str) -> str:
-    """Where in the scene another robot is."""
+    """Return the path of another robot in the scene."""
     return "others/" + name.replace("/", " ")

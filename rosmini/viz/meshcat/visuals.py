@@ -1,4 +1,4 @@
-"""The visuals or the collisions of the links of a Gazebo model, as surfaces."""
+"""The visuals or the collision shapes of the links of a Gazebo model, as surfaces."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from .links import hex_colour, merged, surfaces_of, upright
 from .solids import Floats
 
 SOLID = "#e69e00"
-"""The colour of what is solid, as Gazebo's View menu shows it."""
+"""The colour of collision shapes, as in Gazebo's View menu."""
 SAME = 1e-6
 FLAT = 0.01
-"""A level plane that is no higher than this [m] is the ground."""
+"""A level plane within this height [m] of 0 counts as the ground."""
 
 
 def surfaces(
     link: ShownLink, place: Floats, *, collisions: bool = False, without: Iterable[str] = ()
 ) -> list[Surface]:
-    """What there is to see of a link at `place` (4, 4) in the world, in its own frame: one surface for each colour.
+    """Return the visible surfaces of a link at `place` (4, 4) in the world, in its own frame: one per colour.
 
-    The material of a visual comes before the colours of a mesh file, as in Gazebo. Left out are surfaces of a file in
-    one of the colours `without`, and planes that are the ground: a scene has its own. Raises `MeshError`.
+    The material of a visual overrides the colours of a mesh file, as in Gazebo. Surfaces of a file in a colour of
+    `without` are left out, and so are planes that form the ground, since a scene has its own. Raises `MeshError`.
     """
     found: dict[str, list[Surface]] = {}
     left_out = frozenset(without)
@@ -55,7 +55,7 @@ def _rgba(colour: str) -> tuple[float, float, float, float]:
 
 
 def colour_of(piece: SdfVisual | SdfCollision) -> tuple[float, float, float, float] | None:
-    """The colour of the visual's own material."""
+    """Return the colour of the visual's own material, if it has one."""
     return None if isinstance(piece, SdfCollision) or piece.colour is None else _rgba(piece.colour)
 
 
@@ -68,7 +68,7 @@ def _is_ground(piece: SdfVisual | SdfCollision, place: Floats) -> bool:
 
 
 def _equal(one: SdfGeometry, other: SdfGeometry) -> bool:
-    """Whether two shapes are equal, on whichever line of the file they are written."""
+    """Return True if two shapes are equal, whatever line of the file they come from."""
     return replace(one, line=0) == replace(other, line=0)
 
 
@@ -93,7 +93,7 @@ def _shape(shape: SdfGeometry) -> list[Surface]:
 
 
 def _plane(normal: Floats, length: float, width: float) -> Surface:
-    """A rectangle around the origin, seen from the side that its normal points to."""
+    """Return a rectangle around the origin, visible from the side that its normal points to."""
     up = normal / norm(normal)
     aside = np.cross(up, (1.0, 0.0, 0.0) if abs(up[0]) < 0.9 else (0.0, 1.0, 0.0))
     aside /= norm(aside)
@@ -103,13 +103,13 @@ def _plane(normal: Floats, length: float, width: float) -> Surface:
     return Surface(np.array(corners), np.array([(0, 1, 2), (0, 2, 3)]))
 
 
-# ---- what is drawn by its solids ----
+# ---- models drawn by their collision shapes ----
 
 
 def is_plain(model: ShownModel) -> bool:
-    """Whether a model looks as solid as it is, upright and of one colour, and so is drawn as in other worlds.
+    """Return True if a model's visuals equal its collision shapes, upright and in one colour, so that these are drawn.
 
-    True also without visuals, where Gazebo would show nothing at all.
+    Also true without visuals, where Gazebo would show nothing at all.
     """
     visuals = [(link, visual) for link in model.links for visual in link.visuals]
     if not visuals:
