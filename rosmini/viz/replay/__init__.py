@@ -1,7 +1,7 @@
 """A recorded run as a player that needs no server: `replay(recording)`, or `recording.replay()`.
 
-A bag is played by `replay("demo.bag")`; what no messages have is a `Run`, of bodies and layers.
-`rosmini.viz.replay.time_travel.what_if` makes a run again with something changed at an instant of it.
+`replay("demo.bag")` plays a bag; a `Run` of bodies and layers plays data that is not in messages.
+`rosmini.viz.replay.time_travel.what_if` repeats a run with a change at one instant.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the scripts in a page need to know of a world and a robot, as JSON: the replay player and the pad draw it."""
+"""A world and a robot as JSON for the scripts in a page: the replay player and the pad draw them."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from rosmini.viz.rounding import MILLIMETRE, snap
 from rosmini.viz.style import dark_of
 
 UNBOUNDED = 1e6
-"""Stands for an acceleration, a speed or a range without a bound [m/s2, m/s, rad/s, m]: JSON has no infinity."""
+"""Replaces an infinite acceleration, speed or range [m/s2, m/s, rad/s, m]: JSON has no infinity."""
 
 
 def scene_data(world: World, model: RobotModel | None = None) -> dict[str, Any]:
-    """A world, and the robot in it if there is one, in the terms of `rosmini/viz/static/rosmini-canvas.js`.
+    """Return a world, and the robot in it if there is one, as `rosmini/viz/static/rosmini-canvas.js` expects them.
 
     Lengths are metres rounded to the millimetre, in the frame `map`; the robot's are in `base_footprint`. Polygons
-    are counter-clockwise. `segments` are the walls that have no outline of their own: what a shape's sides are is left
-    to who reads them. The same world gives the same data on every machine.
+    are counter-clockwise. `segments` are the walls without an outline; the reader derives the sides of shapes from
+    the shapes. The same world gives the same data on every machine.
     """
     shapes = [shape for obstacle in world.obstacles for shape in shapes_of(obstacle)]
     data: dict[str, Any] = {
@@ -39,7 +39,7 @@ def scene_data(world: World, model: RobotModel | None = None) -> dict[str, Any]:
 
 
 def robot_data(model: RobotModel) -> dict[str, Any]:
-    """A robot as a script draws and drives it: speeds in m/s and rad/s, accelerations in m/s2."""
+    """Return the data with which a script draws and drives a robot: speeds in m/s and rad/s, accelerations in m/s2."""
     lidar = model.lidar
     return {
         "name": model.name,
@@ -62,7 +62,7 @@ def robot_data(model: RobotModel) -> dict[str, Any]:
 
 
 def _fan(lidar: LidarModel) -> dict[str, float]:
-    """`y`, `start` and `step` of a laser that is off centre, or does not look all around from straight ahead."""
+    """Return `y`, `start` and `step` of a laser that is off centre or is not a full circle starting straight ahead."""
     if lidar.angle_max is None and lidar.angle_min == lidar.yaw == lidar.mount[1] == 0:
         return {}
     start, step = round(lidar.angle_min + lidar.yaw, 8), round(lidar.increment, 8)
@@ -70,9 +70,9 @@ def _fan(lidar: LidarModel) -> dict[str, float]:
 
 
 def shapes_of(obstacle: Obstacle, pose: Pose | None = None) -> list[dict[str, Any]]:
-    """The simple shapes that a thing is made of, where it stands, or where it would at `pose`.
+    """Return the simple shapes of an obstacle at its own pose, or at `pose`.
 
-    What a robot may pass under has its `bottom` [m]; a colour beside the palette has its twin for dark pages, `dark`.
+    Shapes above the ground have a `bottom` [m]; a colour outside the palette has a variant for dark pages, `dark`.
     """
     more: dict[str, Any] = {"colour": obstacle.colour}
     if obstacle.bottom > 0:
@@ -91,11 +91,11 @@ def shapes_of(obstacle: Obstacle, pose: Pose | None = None) -> list[dict[str, An
 
 
 def _counter_clockwise(corners: ArrayLike) -> ArrayLike:
-    """The vertices (n, 2) of a simple polygon, reversed if they go clockwise."""
+    """Return the vertices (n, 2) of a simple polygon in counter-clockwise order."""
     points = np.asarray(corners, dtype=float)
     return points[::-1] if area(points) < 0 else points
 
 
 def _metres(values: ArrayLike) -> Any:
-    """Plain numbers in the shape of `values`, rounded; never a negative zero."""
+    """Return plain numbers in the shape of `values`, rounded; never a negative zero."""
     return np.round(snap(np.asarray(values, dtype=float), MILLIMETRE), 3).tolist()

@@ -32,9 +32,9 @@ TRANSFORMS = ("tf2_msgs/TFMessage", "tf/tfMessage")
 
 
 class Collector(ABC):
-    """What came on a topic. `take` gets what the driver does not leave out: at most one message each `period` [s].
+    """Collects the messages of a topic. `take` gets a selection of them: at most one message per `period` [s].
 
-    Those that remember (`every`) get all of them, and are asked for a `snapshot` each period.
+    Collectors that accumulate (`every`) get all messages, and `snapshot` is called once per period.
     """
 
     types: ClassVar[tuple[str, ...]] = ()
@@ -54,21 +54,21 @@ class Collector(ABC):
         self.colour = COLOURS[number % len(COLOURS)]
         self.found = 0
         self.lost: dict[str, int] = {}
-        """How often it left something out, by the reason."""
+        """Number of messages left out, by reason."""
 
     @abstractmethod
     def take(self, time: float, message: Any) -> None:
-        """Take a message that was recorded at `time` [s]. Raises `ViewError` for what cannot be shown."""
+        """Process a message that was recorded at `time` [s]. Raises `ViewError` if it cannot be shown."""
 
-    def snapshot(self, time: float) -> None:  # noqa: B027 - only those that remember have one
-        """Keep how it is at a time."""
+    def snapshot(self, time: float) -> None:  # noqa: B027 - only collectors that accumulate have one
+        """Store the current state for this time."""
 
     @abstractmethod
     def result(self) -> Frames | Body | None:
-        """What it came to; None if nothing can be shown."""
+        """Return the layer or body; None if nothing can be shown."""
 
     def place(self, header: Any) -> Pose:
-        """Where a header's frame was at its time. Raises `ViewError` if that is not known."""
+        """Return the pose of a header's frame at its time. Raises `ViewError` if it is unknown."""
         found = self.standing.pose(header.frame_id, header.stamp.to_nsec())
         if found is None:
             raise ViewError(
@@ -78,7 +78,7 @@ class Collector(ABC):
 
 
 class ShapeCollector(Collector):
-    """Something drawn from points."""
+    """Something drawn as shapes of points."""
 
     def __init__(self, topic: str, standing: Standing, number: int) -> None:
         super().__init__(topic, standing, number)
@@ -86,21 +86,21 @@ class ShapeCollector(Collector):
         self._items: list[tuple[Shape, ...]] = []
 
     def take(self, time: float, message: Any) -> None:
-        """Keep its shapes."""
+        """Store the shapes of a message."""
         self.keep(time, tuple(self.shapes(message)))
 
     def keep(self, time: float, shapes: tuple[Shape, ...]) -> None:
-        """Keep shapes, unless they are empty as those before."""
+        """Store shapes, unless both these and the last ones are empty."""
         if shapes or (self._items and self._items[-1]):
             self._times.append(time)
             self._items.append(shapes)
 
     def shapes(self, message: Any) -> list[Shape]:
-        """What a message shows."""
+        """Return the shapes of a message."""
         raise NotImplementedError
 
     def shape(self, header: Any, points: Any, mode: Mode, colour: str | None = None) -> Shape:
-        """A shape of points (n, 2) or arrows (n, 3) in a header's frame, without those that are no numbers."""
+        """Return a shape of points (n, 2) or arrows (n, 3) in a header's frame, without those that are not finite."""
         array = np.asarray(points, dtype=float).reshape(-1, 3 if mode == "arrows" else 2)
         good = np.isfinite(array).all(axis=1)
         if len(array) and not good.any():
@@ -110,7 +110,7 @@ class ShapeCollector(Collector):
         return Shape(mode, np.asarray(moved), colour or self.colour)
 
     def result(self) -> Frames | None:
-        """The layer."""
+        """Return the layer."""
         if not any(self._items):
             return None
         return Shapes(self.topic, np.array(self._times), tuple(self._items), found=self.found)
@@ -122,7 +122,7 @@ class PathCollector(ShapeCollector):
     types = ("nav_msgs/Path",)
 
     def shapes(self, message: Any) -> list[Shape]:
-        """A line."""
+        """Return a line."""
         points = [(each.pose.position.x, each.pose.position.y) for each in message.poses]
         return [self.shape(message.header, points, "line")] if points else []
 
@@ -133,7 +133,7 @@ class PosesCollector(ShapeCollector):
     types = ("geometry_msgs/PoseArray",)
 
     def shapes(self, message: Any) -> list[Shape]:
-        """Arrows."""
+        """Return arrows."""
         every = max(1, len(message.poses) // 300)
         arrows = [flat(pose) for pose in message.poses[::every]]
         return [self.shape(message.header, arrows, "arrows")] if arrows else []
@@ -145,7 +145,7 @@ class PoseCollector(ShapeCollector):
     types = ("geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped")
 
     def shapes(self, message: Any) -> list[Shape]:
-        """An arrow."""
+        """Return an arrow."""
         pose = getattr(message.pose, "pose", message.pose)
         return [self.shape(message.header, [flat(pose)], "arrows")]
 
@@ -156,18 +156,18 @@ class PolygonCollector(ShapeCollector):
     types = ("geometry_msgs/PolygonStamped",)
 
     def shapes(self, message: Any) -> list[Shape]:
-        """A closed line."""
+        """Return a closed line."""
         points = [(point.x, point.y) for point in message.polygon.points]
         return [self.shape(message.header, points, "closed")] if points else []
 
 
 class PointCollector(ShapeCollector):
-    """`geometry_msgs/PointStamped`: a point that somebody clicked."""
+    """`geometry_msgs/PointStamped`: a point that a user clicked."""
 
     types = ("geometry_msgs/PointStamped",)
 
     def shapes(self, message: Any) -> list[Shape]:
-        """A point."""
+        """Return a point."""
         return [self.shape(message.header, [(message.point.x, message.point.y)], "points")]
 
 
@@ -177,7 +177,7 @@ class CellsCollector(ShapeCollector):
     types = ("nav_msgs/GridCells",)
 
     def shapes(self, message: Any) -> list[Shape]:
-        """Points."""
+        """Return points."""
         points = [(point.x, point.y) for point in message.cells]
         return [self.shape(message.header, points, "points")] if points else []
 
@@ -207,12 +207,12 @@ class MarkerCollector(ShapeCollector):
                 self._there[marker.ns, marker.id] = (until, tuple(self.shapes(marker)))
 
     def snapshot(self, time: float) -> None:
-        """Keep the markers that are there."""
+        """Store the markers that exist now."""
         self._there = {key: each for key, each in self._there.items() if each[0] >= time}
         self.keep(time, tuple(shape for _, shapes in self._there.values() for shape in shapes))
 
     def shapes(self, message: Any) -> list[Shape]:
-        """What a marker looks like from above, simply."""
+        """Return a simple form of a marker, seen from above."""
         colour = _hex(message.color)
         pose = flat(message.pose)
         inner = [(point.x, point.y) for point in message.points]
@@ -253,7 +253,7 @@ class GridCollector(Collector):
         self._is_new = False
 
     def take(self, time: float, message: Any) -> None:
-        """Keep a map, or change the one that is there."""
+        """Store a map, or update the current one."""
         if hasattr(message, "info"):
             info = message.info
             cells = _cells(message.data, int(info.width), int(info.height))
@@ -276,7 +276,7 @@ class GridCollector(Collector):
             self.snapshot(time)
 
     def snapshot(self, time: float) -> None:
-        """Keep the map as it is, if it changed."""
+        """Store the map as it is, if it has changed."""
         if self._now is None or not self._is_new:
             return
         self._is_new = False
@@ -287,7 +287,7 @@ class GridCollector(Collector):
             self._grids.append(Grid(new.cells.copy(), new.resolution, new.origin))
 
     def result(self) -> Frames | None:
-        """The layer."""
+        """Return the layer."""
         if not self._grids:
             return None
         return Grids(self.topic, np.array(self._times), tuple(self._grids), found=self.found)
@@ -314,7 +314,7 @@ class ScanCollector(Collector):
         self._fan: tuple[int, float, float, float] | None = None
 
     def take(self, time: float, message: Any) -> None:
-        """Keep its ranges, and where the laser was."""
+        """Store its ranges and the pose of the laser."""
         ranges = np.asarray(message.ranges, dtype=float)
         every = -(-len(ranges) // MOST_BEAMS) or 1
         fan = (
@@ -333,7 +333,7 @@ class ScanCollector(Collector):
         self._rows.append((time, self.place(message.header), np.where(seen, ranges, np.inf)[::every]))
 
     def result(self) -> Frames | None:
-        """The layer."""
+        """Return the layer."""
         if not self._rows or self._fan is None:
             return None
         times, poses, ranges = zip(*self._rows, strict=True)
@@ -345,7 +345,7 @@ class ScanCollector(Collector):
 
 
 class ImageCollector(Collector):
-    """`sensor_msgs/Image`: small, and one a second."""
+    """`sensor_msgs/Image`: reduced in size, one per second."""
 
     types = ("sensor_msgs/Image",)
     period = 1.0
@@ -356,7 +356,7 @@ class ImageCollector(Collector):
         self._images: list[NDArray[np.uint8]] = []
 
     def take(self, time: float, message: Any) -> None:
-        """Keep a small copy."""
+        """Store a small copy."""
         image = small(pixels_of(message))
         if self._images and image.shape != self._images[0].shape:
             raise ViewError("an image has another size than the first one")
@@ -364,14 +364,14 @@ class ImageCollector(Collector):
         self._images.append(image)
 
     def result(self) -> Frames | None:
-        """The layer."""
+        """Return the layer."""
         if not self._images:
             return None
         return Images(self.topic, np.array(self._times), tuple(self._images), found=self.found)
 
 
 class TrackCollector(Collector):
-    """`nav_msgs/Odometry` and `turtlesim/Pose`: where something was."""
+    """`nav_msgs/Odometry` and `turtlesim/Pose`: the trajectory of something."""
 
     types = ("nav_msgs/Odometry", "turtlesim/Pose")
     of_robot = True
@@ -382,10 +382,10 @@ class TrackCollector(Collector):
         self._rows: list[tuple[float, float, float, float]] = []
         self._loose: list[tuple[float, float, float, float]] = []
         self.frame = ""
-        """The frame of the poses, if no transform connects it with what is drawn."""
+        """The frame of the poses if no transform connects it with the fixed frame."""
 
     def take(self, time: float, message: Any) -> None:
-        """Keep a pose; one whose frame is not connected at that time, as odometry's before amcl speaks, in its own."""
+        """Store a pose; if its frame is not connected at that time (odom before amcl starts), in its own frame."""
         rows = self._rows
         if hasattr(message, "theta"):
             pose = (float(message.x), float(message.y), float(message.theta))
@@ -403,7 +403,7 @@ class TrackCollector(Collector):
         rows.append((time, *pose))
 
     def result(self) -> Body | None:
-        """Where it was; if its frame was connected at some times, where it was then."""
+        """Return the trajectory; if the frame was connected only at some times, the poses at those times."""
         if self._rows:
             self.frame = ""
         rows = np.array(self._rows or self._loose)
@@ -414,7 +414,7 @@ class TrackCollector(Collector):
 
 
 def laid_on(body: Body, start: Pose) -> Body:
-    """A body whose frame is not connected with the others, moved so that it begins at `start`."""
+    """Move a body whose frame is not connected with the others, so that it begins at `start`."""
     x, y, heading = body.poses[0].tolist()
     poses = compose(compose(start, inverse((x, y, heading))), body.poses)
     return Body(body.name, body.times, np.asarray(poses), colour=body.colour)

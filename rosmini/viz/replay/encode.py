@@ -1,10 +1,10 @@
-"""A recorded run as a few ten kilobytes of text, the same on every machine, for the player in a page.
+"""Encode a recorded run in some ten kilobytes of text, the same on every machine, for the player in a page.
 
-Numbers become whole ones (millimetres, tenths of a milliradian, milliseconds), see `packing`. A run of a minute with
-five scans of 360 beams a second takes about 170 kB; of longer runs, scans are rounded to 2 cm, and 2 Hz are kept of two
+Numbers become integers (millimetres, tenths of a milliradian, milliseconds), see `packing`. A run of a minute with
+five scans of 360 beams a second takes about 170 kB; in longer runs, scans are rounded to 2 cm, with 2 Hz for two
 minutes.
 
-The player draws each beam of a scan from where the robot was when it was measured.
+The player draws each beam of a scan from the robot's pose at the time of its measurement.
 """
 
 from __future__ import annotations
@@ -22,34 +22,34 @@ from rosmini.viz.replay.packing import ANGLE, LENGTH, NANOSECOND, TIME, pack, wh
 from rosmini.viz.world_pictures import colour_of
 
 RATE = 30.0
-"""Poses a second, at most."""
+"""Maximum number of poses per second."""
 MOST_POSES = 1800
-"""A run of more than a minute has fewer of them a second."""
+"""Maximum number of poses, so runs of more than a minute have fewer per second."""
 MOST_SCANS = 300
-"""A run of more than a minute has more of them than are needed: it keeps so many at most as `FEW_SCANS` says, each
+"""Number of scans above which a run is thinned: it then keeps at most `FEW_SCANS`, each
 rounded to `RANGE`."""
 FEW_SCANS = 240
-"""2 Hz for two minutes."""
+"""Maximum number of scans after thinning: 2 Hz for two minutes."""
 
 
 def replay_data(recording: Recording) -> dict[str, Any]:
-    """What `rosmini/viz/static/rosmini-replay-data.js` decodes: the scene, and the run in packed numbers.
+    """Return the data that `rosmini/viz/static/rosmini-replay-data.js` decodes: the scene, and the run in packed form.
 
     | key | numbers |
     |---|---|
     | `start`, `duration` | [ms] |
-    | `truth`, `odom` | as many x [mm], then y [mm], then headings [0.1 mrad], at even times from start to end |
+    | `truth`, `odom` | all x [mm], then all y [mm], then all headings [0.1 mrad], at even times from start to end |
     | `commands` | times [ms], then linear [mm/s], then angular velocities [0.1 mrad/s], whenever these change |
     | `scan_times` | [ms] |
-    | `scans` | ranges, scan by scan; 0 where a beam hit nothing, -1 where it hit what was too near |
-    | `scan_unit` | of the ranges [m]; a millimetre if it is not there |
+    | `scans` | ranges, scan by scan; 0 where a beam hit nothing, -1 where the object hit was too near |
+    | `scan_unit` | unit of the ranges [m]; by default a millimetre |
     | `time_increment` | [ns] from one beam of a scan to the next, if a laser sweeps |
-    | `things` | of each thing that moved its name, its shapes in its own frame, and its `track`, as `truth` |
-    | `others` | of each other robot its name, colour and numbers, and its `track`; `name` is the first one's |
+    | `things` | of each object that moved: its name, its shapes in its own frame, and its `track`, like `truth` |
+    | `others` | of each other robot: its name, colour and robot data, and its `track`; `name` is that of the first |
 
     All but `start`, `duration`, `scan_unit` and `time_increment` are packed. Both tracks are in the frame `map`:
-    odometry starts at the robot's true pose. Poses are resampled at even times; between them the player goes in
-    straight lines.
+    odometry starts at the robot's true pose. Poses are resampled at even times; the player interpolates linearly
+    between them.
     """
     start, duration = float(recording.times[0]), recording.duration
     samples = 1 + min(int(np.ceil(duration * RATE)), MOST_POSES)
@@ -113,7 +113,7 @@ def replay_data(recording: Recording) -> dict[str, Any]:
 def _track(
     times: NDArray[np.float64], poses: NDArray[np.float64], at: NDArray[np.float64]
 ) -> NDArray[np.int64]:
-    """Poses (n, 3), resampled: all x, all y, all headings."""
+    """Resample poses (n, 3) and return all x, all y, all headings."""
     return np.concatenate(
         [
             whole(np.interp(at, times, column), quantum)
@@ -123,7 +123,7 @@ def _track(
 
 
 def _changes(commands: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The commands (m, 3) that ask for another velocity than the one before."""
+    """Return the commands (m, 3) that request another velocity than the previous one."""
     if not len(commands):
         return commands
     differs = np.ones(len(commands), dtype=bool)

@@ -1,4 +1,4 @@
-"""Maps that grow and costmaps that follow the robot: each as its difference to the last, in runs of equal cells."""
+"""Growing maps and costmaps that follow the robot: each as its difference to the last, in runs of equal cells."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from rosmini.viz.view import ViewError
 Cells = NDArray[np.uint8]
 
 MOST_CELLS = 512
-"""Cells a side, at most: of larger maps 2 x 2, 3 x 3, ... are drawn as one."""
+"""Maximum number of cells per side; in larger maps 2 x 2, 3 x 3, ... cells are combined."""
 COSTS = 8
-"""Costs of 1 to 98 are rounded to multiples of it: nobody sees the difference, and runs become longer."""
+"""Costs of 1 to 98 are rounded to multiples of this: the difference is invisible, and runs become longer."""
 MICROMETRE = 1e-6
 TURNED = 0.02
-"""A map that is turned by more [rad] is not written as a difference to the one before."""
+"""A map that is rotated by more than this [rad] is not encoded as a difference to the previous one."""
 
 
 class Grid(NamedTuple):
@@ -33,12 +33,12 @@ class Grid(NamedTuple):
 
     cells: Cells
     resolution: float
-    """[m]"""
+    """Side of a cell [m]."""
     origin: Pose
 
 
 def grid(cells: NDArray[Any], resolution: float, origin: Pose) -> Grid:
-    """A grid of at most `MOST_CELLS` a side. Raises `ViewError` if it has no cells, or they have no size."""
+    """Return a grid of at most `MOST_CELLS` a side. Raises `ViewError` if it has no cells or an invalid resolution."""
     if cells.ndim != 2 or not cells.size:
         raise ViewError(f"a map of {' x '.join(str(n) for n in cells.shape[::-1])} cells shows nothing")
     if not (np.isfinite([resolution, *origin]).all() and resolution > 0):
@@ -50,7 +50,7 @@ def grid(cells: NDArray[Any], resolution: float, origin: Pose) -> Grid:
 
 
 def coarse(cells: NDArray[Any], factor: int) -> Cells:
-    """Cells (h, w) with blocks of `factor` x `factor` as one: the highest that is known in it."""
+    """Return cells (h, w) with each block of `factor` x `factor` combined into its highest known value."""
     height, width = (-(-n // factor) for n in cells.shape)
     known = np.full((height * factor, width * factor), -1, dtype=np.int16)
     known[: cells.shape[0], : cells.shape[1]] = cells.astype(np.uint8).astype(np.int16)
@@ -69,7 +69,7 @@ class Grids(Frames):
 
     grids: tuple[Grid, ...]
     scheme: str = ""
-    """The colours, see `rosmini.viz.map_colours`; empty: as the topic's name suggests."""
+    """The colour scheme, see `rosmini.viz.map_colours`; if empty, chosen by the topic's name."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -77,11 +77,11 @@ class Grids(Frames):
             raise ViewError(f"the layer {self.name!r} has {len(self.times)} times but {len(self.grids)} maps")
 
     def at(self, which: NDArray[np.intp]) -> Self:
-        """The same with these moments alone."""
+        """Return the layer with only these moments."""
         return replace(self, times=self.times[which], grids=tuple(self.grids[i] for i in which))
 
     def thinner(self) -> Self | None:
-        """Half of the moments, or, if there is but one, cells twice as wide."""
+        """Return half of the moments, or, if there is only one, cells twice as wide."""
         if self.count > 1:
             return super().thinner()
         one = self.grids[0]
@@ -92,20 +92,20 @@ class Grids(Frames):
 
     @cached_property
     def colours(self) -> NDArray[np.uint8]:
-        """The table of colours (256, 4)."""
+        """The colour table (256, 4)."""
         return colours_of(self.scheme or scheme_of(self.name))
 
     def data(self) -> dict[str, Any]:
-        """The maps, one after the other, in runs.
+        """Return the maps, one after the other, in runs.
 
         | key | numbers |
         |---|---|
-        | `colours` | as `#rrggbbaa`; a cell's number is an index into them, 0 is unknown |
-        | `places` | of each its width, height, resolution [um], x, y [mm], heading [0.1 mrad]; where the last lies |
-        | `counts` | the runs of each map |
-        | `runs` | of each run: how many cells as before precede it, its length, its cells' number |
+        | `colours` | as `#rrggbbaa`; the value of a cell is an index into them, 0 is unknown |
+        | `places` | of each map: width, height, resolution [um], x, y [mm], heading [0.1 mrad]; offset of the last |
+        | `counts` | the number of runs of each map |
+        | `runs` | of each run: the number of unchanged cells before it, its length, the value of its cells |
 
-        The map before is laid where it was; what it does not cover is unknown.
+        The previous map is placed at its offset; cells that it does not cover are unknown.
         """
         shown = [_rounded(each.cells) if self._is_costmap else each.cells for each in self.grids]
         used = np.unique(
@@ -141,7 +141,7 @@ class Grids(Frames):
         return (self.scheme or scheme_of(self.name)) in ("costmap", "safe")
 
     def text(self) -> str:
-        """How many, how large, and what is known at the end."""
+        """Report the number of maps, their size, and the known part at the end."""
         if not self.grids:
             return self._counted()
         cells, resolution, _ = self.grids[-1]
@@ -152,7 +152,7 @@ class Grids(Frames):
 
     @property
     def bounds(self) -> Bounds | None:
-        """Around what is known in the last one."""
+        """Bounds of the known cells of the last map."""
         if not self.grids:
             return None
         cells, resolution, (x, y, heading) = self.grids[-1]
@@ -167,14 +167,14 @@ class Grids(Frames):
 
 
 def _rounded(cells: Cells) -> Cells:
-    """Costs without their last differences; free, inscribed, lethal and unknown stay what they are."""
+    """Return costs in steps of `COSTS`; free, inscribed, lethal and unknown cells keep their values."""
     return np.where((cells > 0) & (cells < 99), np.clip(cells // COSTS * COSTS, 1, 98), cells).astype(
         np.uint8
     )
 
 
 def _shift(before: Grid, after: Grid) -> tuple[int, int]:
-    """Where the first cell of a grid lies in another, in cells; for one that lies otherwise, beside it."""
+    """Return the offset of one grid in another, in cells; if their cells do not align, an offset outside the other."""
     if before.resolution != after.resolution or abs(before.origin[2] - after.origin[2]) > TURNED:
         return (after.cells.shape[1], after.cells.shape[0])
     x, y = before.origin[0] - after.origin[0], before.origin[1] - after.origin[1]
@@ -186,7 +186,7 @@ def _shift(before: Grid, after: Grid) -> tuple[int, int]:
 
 
 def laid(before: Cells | None, shape: tuple[int, ...], dx: int, dy: int) -> Cells:
-    """Cells of a shape (h, w) with others laid into them, the first at column `dx` and row `dy`; the rest is 0."""
+    """Return cells of a shape (h, w) that contain others, the first at column `dx` and row `dy`; the rest is 0."""
     cells = np.zeros(shape, dtype=np.uint8)
     if before is None:
         return cells
@@ -199,7 +199,7 @@ def laid(before: Cells | None, shape: tuple[int, ...], dx: int, dy: int) -> Cell
 
 
 def runs_of(before: Cells, after: Cells) -> NDArray[np.int64]:
-    """What differs between two rows (n,) as runs (m, 3): cells that are as before, then the run's length and number."""
+    """Return the differences between two rows (n,) as runs (m, 3): number of unchanged cells, run length, value."""
     changed = before != after
     starts = np.flatnonzero(
         np.diff(changed, prepend=False) | (changed & (np.diff(after, prepend=after[:1]) != 0))

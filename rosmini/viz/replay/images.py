@@ -1,4 +1,4 @@
-"""What a camera saw, small and slow: 64 colours, at most 96 pixels wide, each picture as its difference to the last."""
+"""Camera images, small and slow: 64 colours, at most 96 pixels wide, each encoded as its difference to the last."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from rosmini.viz.view import ViewError
 Pixels = NDArray[np.uint8]
 
 MOST_PIXELS = 96
-"""A picture is no wider and no higher."""
+"""Maximum width and height of an image."""
 LEAST_PIXELS = 24
 LEVELS = 4
-"""Of red, green and blue each."""
+"""Number of levels of red, green and blue."""
 
 
 def small(pixels: NDArray[Any], most: int = MOST_PIXELS) -> Pixels:
-    """An image as numbers of colours (h, w), 0 to 63: red x 16 + green x 4 + blue; depths [m] as grey, near is light.
+    """Return an image as colour indices (h, w), 0 to 63: 16 red + 4 green + blue; depths [m] as grey, near is light.
 
     Raises:
         ViewError: it has no pixels.
@@ -43,7 +43,7 @@ def small(pixels: NDArray[Any], most: int = MOST_PIXELS) -> Pixels:
 
 @dataclass(frozen=True, eq=False)
 class Images(Frames):
-    """Pictures (h, w), all of one size, made by `small`."""
+    """Images (h, w), all of the same size, made by `small`."""
 
     kind: ClassVar[str] = "images"
     depth: ClassVar[int] = 1
@@ -56,11 +56,11 @@ class Images(Frames):
             raise ViewError(f"the pictures of {self.name!r} must be as many as times, and all of one size")
 
     def at(self, which: NDArray[np.intp]) -> Self:
-        """The same with these moments alone."""
+        """Return the layer with only these moments."""
         return replace(self, times=self.times[which], images=tuple(self.images[i] for i in which))
 
     def thinner(self) -> Self | None:
-        """Half of the moments, then half of the pixels' width."""
+        """Return half of the moments, later half of the width in pixels."""
         if self.count > 8:
             return super().thinner()
         if not self.images or max(self.images[0].shape) < 2 * LEAST_PIXELS:
@@ -68,7 +68,7 @@ class Images(Frames):
         return replace(self, images=tuple(image[::2, ::2] for image in self.images))
 
     def data(self) -> dict[str, Any]:
-        """Width and height, and the runs, as those of grids: the picture before the first is black."""
+        """Return width, height and the runs, encoded like those of grids: the image before the first is black."""
         height, width = self.images[0].shape if self.images else (0, 0)
         before = np.zeros(height * width, dtype=np.uint8)
         runs = []
@@ -86,6 +86,6 @@ class Images(Frames):
         }
 
     def text(self) -> str:
-        """How many, and how large."""
+        """Report the number and size of the images."""
         height, width = self.images[0].shape if self.images else (0, 0)
         return f"{self._counted()}, drawn with {width} x {height} pixels"

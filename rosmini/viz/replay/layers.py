@@ -1,7 +1,7 @@
-"""What a player shows beside the robots: things that are there from one moment to the next, and strokes that grow.
+"""The layers that a player shows beside the robots: things that change from moment to moment, and strokes that grow.
 
-Times are seconds by the clock of the run, lengths metres in the run's frame. A layer knows how to become less
-(`thinner`), which a player of bounded size asks of the heaviest one.
+Times are seconds by the clock of the run, lengths metres in the run's frame. A layer can reduce itself (`thinner`);
+a player of bounded size asks the largest one to do so.
 """
 
 from __future__ import annotations
@@ -25,55 +25,55 @@ Bounds = tuple[float, float, float, float]
 Mode = Literal["points", "line", "closed", "arrows"]
 
 COARSE = 0.01
-"""[m] to which what messages show is rounded"""
+"""Resolution to which the content of messages is rounded [m]."""
 COARSE_ANGLE = 0.02
-"""[rad]"""
+"""Resolution to which their headings are rounded [rad]."""
 RANGE = 0.02
-"""[m] to which scans are rounded"""
+"""Resolution to which scans are rounded [m]."""
 MOST_POINTS = 400
-"""Points of one moment of a layer, at most; of more, every second, third, ... is kept."""
+"""Maximum number of points of one moment of a layer; of more, every second, third, ... is used."""
 
 
 @dataclass(frozen=True, eq=False)
 class Layer(ABC):
-    """Something over time, under a name (mostly a topic). Raises `ViewError` where its parts do not fit together."""
+    """Something over time, with a name (mostly a topic). Raises `ViewError` if its parts do not match."""
 
     kind: ClassVar[str]
     depth: ClassVar[int]
     """Layers of a larger depth are drawn over others."""
     worth: ClassVar[float] = 1.0
-    """How much heavier than others it may be before it is thinned."""
+    """Factor by which it may be larger than other layers before it is thinned."""
 
     name: str
 
     @property
     @abstractmethod
     def count(self) -> int:
-        """How many moments it has."""
+        """Number of moments."""
 
     @abstractmethod
     def thinner(self) -> Self | None:
-        """The same with about half of its data; None if less would be nothing."""
+        """Return the layer with about half of its data; None if it cannot be reduced further."""
 
     @abstractmethod
     def data(self) -> dict[str, Any]:
-        """What the script `rosmini-replay-layers.js` draws, with `kind` and `name`."""
+        """Return the data for the script `rosmini-replay-layers.js`, with `kind` and `name`."""
 
     @abstractmethod
     def text(self) -> str:
-        """What there is, in a few words, without the name."""
+        """Describe the content in a few words, without the name."""
 
     @property
     def bounds(self) -> Bounds | None:
-        """The smallest and largest x and y that it ever covers; None if it never covers anything."""
+        """The smallest and largest x and y that it ever covers; None if it covers nothing."""
         return None
 
 
 @dataclass(frozen=True, eq=False)
 class Frames(Layer):
-    """A layer that shows one thing at a time: what came last.
+    """A layer that shows one thing at a time: the latest.
 
-    `found` is how many messages there were, of which some are left out.
+    `found` is the number of messages, including those that are left out.
     """
 
     times: Floats
@@ -85,11 +85,11 @@ class Frames(Layer):
 
     @property
     def count(self) -> int:
-        """How many moments it has."""
+        """Number of moments."""
         return len(self.times)
 
     def thinner(self) -> Self | None:
-        """Every second moment, and the last."""
+        """Return every second moment, and the last."""
         if self.count < 2:
             return None
         return (
@@ -100,7 +100,7 @@ class Frames(Layer):
 
     @abstractmethod
     def at(self, which: NDArray[np.intp]) -> Self:
-        """The same with these moments alone."""
+        """Return the layer with only these moments."""
 
     def _head(self) -> dict[str, Any]:
         return {"kind": self.kind, "name": self.name, "times": pack(whole(self.times, TIME))}
@@ -121,7 +121,7 @@ class Shape:
 
 @dataclass(frozen=True, eq=False)
 class Shapes(Frames):
-    """Plans, particles, markers, polygons: at each moment some shapes, which replace those before."""
+    """Plans, particles, markers, polygons: the shapes of each moment replace the previous ones."""
 
     kind: ClassVar[str] = "shapes"
     depth: ClassVar[int] = 3
@@ -136,11 +136,11 @@ class Shapes(Frames):
             )
 
     def at(self, which: NDArray[np.intp]) -> Self:
-        """The same with these moments alone."""
+        """Return the layer with only these moments."""
         return replace(self, times=self.times[which], items=tuple(self.items[i] for i in which))
 
     def data(self) -> dict[str, Any]:
-        """Groups of points: how many at each moment; of each mode, colour and length; then all x, y and headings."""
+        """Return the number of shapes of each moment; of each, mode, colour and length; then all x, y and headings."""
         shapes = [_lean(shape) for item in self.items for shape in item]
         colours = sorted({shape.colour for shape in shapes})
         modes = ("points", "line", "closed", "arrows")
@@ -157,18 +157,18 @@ class Shapes(Frames):
         }
 
     def text(self) -> str:
-        """How many messages, and what the last one has."""
+        """Report the number of messages, and the size of the last one."""
         last = sum(len(shape.points) for shape in self.items[-1]) if self.items else 0
         return f"{self._counted()}, the last with {plural(last, 'point')}"
 
     @property
     def bounds(self) -> Bounds | None:
-        """Around all points."""
+        """Bounds of all points."""
         return around([shape.points[:, :2] for item in self.items for shape in item])
 
 
 def _lean(shape: Shape) -> Shape:
-    """Not more points than one can tell apart."""
+    """Return a shape without points that would not be visible."""
     points = shape.points
     if shape.mode in ("line", "closed") and len(points) > 2:
         points = points[kept(points[:, :2], COARSE / 2)]
@@ -179,7 +179,7 @@ def _lean(shape: Shape) -> Shape:
 
 @dataclass(frozen=True, eq=False)
 class Scans(Frames):
-    """What a laser measured, and from where: poses (k, 3) and ranges (k, beams), inf where nothing was hit."""
+    """The scans of a laser with its poses: poses (k, 3) and ranges (k, beams), inf where nothing was hit."""
 
     kind: ClassVar[str] = "scans"
     depth: ClassVar[int] = 2
@@ -201,11 +201,11 @@ class Scans(Frames):
             )
 
     def at(self, which: NDArray[np.intp]) -> Self:
-        """The same with these moments alone."""
+        """Return the layer with only these moments."""
         return replace(self, times=self.times[which], poses=self.poses[which], ranges=self.ranges[which])
 
     def data(self) -> dict[str, Any]:
-        """Ranges in units of `RANGE`, 0 where nothing was hit."""
+        """Return ranges in units of `RANGE`, 0 where nothing was hit."""
         seen = np.isfinite(self.ranges) & (self.ranges > 0)
         return {
             **self._head(),
@@ -219,12 +219,12 @@ class Scans(Frames):
         }
 
     def text(self) -> str:
-        """How many, and of how many beams."""
+        """Report the number of scans and of beams."""
         return f"{self._counted()}, {plural(self.ranges.shape[1], 'beam')}"
 
     @property
     def bounds(self) -> Bounds | None:
-        """Around what was hit."""
+        """Bounds of all hits."""
         seen = np.isfinite(self.ranges) & (self.ranges > 0)
         angles = self.poses[:, 2:] + self.start + self.step * np.arange(self.ranges.shape[1])
         ranges = np.where(seen, self.ranges, 0.0)
@@ -234,7 +234,7 @@ class Scans(Frames):
 
 @dataclass(frozen=True, eq=False)
 class Stroke:
-    """A line that is drawn from its first time to its last, and wiped at `until`; `width` is in CSS pixels."""
+    """A line that is drawn from its first time to its last, and erased at `until`; `width` is in CSS pixels."""
 
     times: Floats
     points: Floats
@@ -258,26 +258,26 @@ class Stroke:
 
 @dataclass(frozen=True, eq=False)
 class Strokes(Layer):
-    """Coloured lines that grow, as a turtle's pen leaves them."""
+    """Coloured lines that grow, like those of a turtle's pen."""
 
     kind: ClassVar[str] = "strokes"
     depth: ClassVar[int] = 4
 
     strokes: tuple[Stroke, ...]
     tolerance: float = 0.002
-    """By how much a line may be drawn too straight [m]."""
+    """Maximum deviation of a drawn line from its points [m]."""
 
     @property
     def count(self) -> int:
-        """How many strokes there are."""
+        """Number of strokes."""
         return len(self.strokes)
 
     def thinner(self) -> Self | None:
-        """With twice the tolerance."""
+        """Return the layer with twice the tolerance."""
         return None if self.tolerance > 0.5 else replace(self, tolerance=2 * self.tolerance)
 
     def data(self) -> dict[str, Any]:
-        """Of each stroke colour, width, end and length; then all times, x and y."""
+        """Return colour, width, end and length of each stroke; then all times, x and y."""
         lean = [self._lean(stroke) for stroke in self.strokes]
         times = np.concatenate([np.empty(0), *(stroke.times for stroke in lean)])
         points = np.vstack([np.empty((0, 2)), *(stroke.points for stroke in lean)])
@@ -297,7 +297,7 @@ class Strokes(Layer):
         }
 
     def _lean(self, stroke: Stroke) -> Stroke:
-        """The points that matter, in place and in time: at even speed along a straight line the ends are enough."""
+        """Return the points that matter, in space and time: a straight line at constant speed needs only its ends."""
         if len(stroke.times) < 3:
             return stroke
         spatial = set(kept(stroke.points, self.tolerance))
@@ -307,18 +307,18 @@ class Strokes(Layer):
         return replace(stroke, times=stroke.times[which], points=stroke.points[which])
 
     def text(self) -> str:
-        """How many strokes, how long together."""
+        """Report the number of strokes and their total length."""
         length = sum(float(norms(np.diff(s.points, axis=0)).sum()) for s in self.strokes)
         return f"{plural(self.count, 'stroke')}, {fixed(length, 2)} m"
 
     @property
     def bounds(self) -> Bounds | None:
-        """Around all of them."""
+        """Bounds of all strokes."""
         return around([stroke.points for stroke in self.strokes])
 
 
 def around(parts: list[Floats]) -> Bounds | None:
-    """The smallest and largest x and y of points (n, 2)."""
+    """Return the smallest and largest x and y of points (n, 2)."""
     points = np.vstack([np.empty((0, 2)), *parts])
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):

@@ -1,4 +1,4 @@
-"""A run from messages: of a bag, or of what a recorder kept. What is shown is found by the type of the messages."""
+"""A run from the messages of a bag or of a recorder. The type of the messages decides how they are shown."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
 
 MOST_MOMENTS = 240
-"""A layer keeps no more: 2 Hz for two minutes."""
+"""Maximum number of moments of a layer: 2 Hz for two minutes."""
 SAME = 1e-6
 """[m, rad]"""
 
 
 class NothingToSee(ViewError):
-    """No message shows anything from above."""
+    """No message contains anything that can be seen from above."""
 
 
 class Entry(NamedTuple):
-    """A message: when it was recorded [s], on which topic, and what reads it when it is wanted."""
+    """A message: its recording time [s], its topic, and a function that reads it on demand."""
 
     time: float
     topic: str
@@ -37,7 +37,7 @@ class Entry(NamedTuple):
 
 
 class Log(Protocol):
-    """Messages in the order of their times."""
+    """Messages in order of time."""
 
     name: str
     topics: dict[str, str]
@@ -46,11 +46,11 @@ class Log(Protocol):
     end: float
 
     def entries(self, topics: Collection[str]) -> Iterator[Entry]:
-        """Return the messages on some topics."""
+        """Return the messages on these topics."""
 
 
 class BagLog:
-    """The messages of a bag. Raises `ViewError` if there is none."""
+    """The messages of a bag. Raises `ViewError` if it has none."""
 
     def __init__(self, bag: Bag) -> None:
         index = bag.index
@@ -62,7 +62,7 @@ class BagLog:
         self._bag = bag
 
     def entries(self, topics: Collection[str]) -> Iterator[Entry]:
-        """Return the messages on some topics."""
+        """Return the messages on these topics."""
         if not topics:
             return
         for topic, (_, data, _, _, cls), time in self._bag.read_messages(sorted(topics), raw=True):
@@ -80,7 +80,7 @@ class KeptLog:
         self._messages = messages
 
     def entries(self, topics: Collection[str]) -> Iterator[Entry]:
-        """Return the messages on some topics."""
+        """Return the messages on these topics."""
         for time, topic, message in self._messages:
             if topic in topics:
                 yield Entry(time, topic, partial(_itself, message))
@@ -94,18 +94,18 @@ def run_of(
     log: Log, *, topics: Collection[str] | None = None, frame: str | None = None,
     outline: tuple[tuple[float, float], ...] | None = None, start_at: Pose | None = None,
 ) -> Run:  # fmt: skip
-    """Return what a log shows.
+    """Return a run with everything in a log that can be shown.
 
     Args:
         log: the messages.
-        topics: only these, the updates of grids among them, and transforms; None: all that can be shown.
-        frame: what everything is drawn in; None: map, odom or world, whichever there is first.
-        outline: of the robots, in their frames [m].
-        start_at: where a robot is known to have been at the start, in what is drawn: a fixed frame in which it stood
-            elsewhere, as SLAM's map, which begins where the robot does, is laid there.
+        topics: only these, with the updates of their grids, and transforms; None for everything that can be shown.
+        frame: the fixed frame; None for the first of map, odom and world that exists.
+        outline: outline of the robots, in their frames [m].
+        start_at: the known pose of the robot at the start: a fixed frame in which it started elsewhere, such as that of
+            SLAM, whose map begins at the robot, is moved to match.
 
     Raises:
-        ViewError: a topic or a frame is not there, or nothing can be shown (`NothingToSee`).
+        ViewError: a topic or a frame does not exist, or nothing can be shown (`NothingToSee`).
 
     """
     shown = _shown(log, topics)
@@ -144,7 +144,7 @@ def run_of(
 
 
 def _shown(log: Log, topics: Collection[str] | None) -> list[str]:
-    """The topics that can be shown, those of transforms left out."""
+    """Return the topics that can be shown, without those of transforms."""
     for topic in topics or ():
         if topic not in log.topics:
             raise ViewError(f"{log.name} has no topic {topic!r}. {nearest(topic, log.topics) or ''}".rstrip())
@@ -193,9 +193,9 @@ def _standing(log: Log, frame: str | None, shown: list[str]) -> Standing:
 
 
 def _lay(standing: Standing, times: Any, start: Pose) -> None:
-    """Lay a map that begins where the robot does, as SLAM's, on where the robot was; others stay where they are.
+    """Move a map that begins at the robot, such as that of SLAM, to the robot's true pose; leave other maps in place.
 
-    That is so if the first transform from the map to odometry is none at all, or if there is no map.
+    A map begins at the robot if its first transform to odometry is the identity, or if there is no map.
     """
     bases = standing.bases()
     if not bases or standing.fixed not in standing.tree:
@@ -224,7 +224,7 @@ def _collectors(log: Log, shown: list[str], standing: Standing) -> dict[str, Col
 
 
 def _collect(log: Log, collectors: dict[str, Collector]) -> None:
-    """Give each collector what it wants: not more than can be seen, but always what came last."""
+    """Give each collector its messages: not more than can be seen, but always the last one."""
     due: dict[str, float] = {}
     skipped: dict[str, Entry] = {}
     for entry in log.entries(collectors):
@@ -250,7 +250,7 @@ def _collect(log: Log, collectors: dict[str, Collector]) -> None:
 
 def _period(log: Log, collector: Collector) -> float:
     most = MOST_POSES if isinstance(collector, TrackCollector) else MOST_MOMENTS
-    # a message that comes a little early is not left out for it
+    # a message that arrives slightly early is still used
     return max(collector.period, (log.end - log.start) / most) * 0.9
 
 

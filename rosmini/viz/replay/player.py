@@ -1,4 +1,4 @@
-"""Recorded runs to play: a player in a page, with a still picture of the run where no script runs."""
+"""Recorded runs to play: a player in a page, with a still picture of the run for pages without scripts."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ from rosmini.viz.view import Picture, ViewError
 SCRIPTS = ("rosmini-canvas.js", "rosmini-replay-data.js", "rosmini-replay.js")
 LAYER_SCRIPT = "rosmini-replay-layers.js"
 HEIGHT = 320
-"""The least that a player takes [CSS px]: a phone's width of world, and the controls."""
+"""Minimum height of a player [CSS px]: the world at the width of a phone, and the controls."""
 
 Source = Recording | Run | Bag | str | os.PathLike[str]
 
 
 class Shown:
-    """One run of a player: its data, its still picture and its words."""
+    """One run of a player: its data, its still picture and its description."""
 
     def __init__(
         self, source: Recording | Run, layers: Run | None = None, *, name: str | None = None
@@ -47,7 +47,7 @@ class Shown:
         return source.name if isinstance(source, Run) else f"{source.model.name} in {source.world.name}"
 
     def data(self, budget: int) -> dict[str, Any]:
-        """What the script plays, in about so many bytes."""
+        """Return the data for the script, in about this number of bytes."""
         source = self.source
         if isinstance(source, Run):
             return source.data(budget)
@@ -62,7 +62,7 @@ class Shown:
         return data
 
     def text(self, title: str) -> str:
-        """What happened, in numbers."""
+        """The run in numbers."""
         source = self.source
         if isinstance(source, Run):
             return source.text(title)
@@ -83,7 +83,7 @@ class Shown:
         )
 
     def still(self, title: str) -> Picture:
-        """The run in one picture."""
+        """Return the run in one picture."""
         source = self.source
         if isinstance(source, Run):
             return still_of(source, title=title, alt=self.alt)
@@ -91,12 +91,12 @@ class Shown:
 
     @property
     def needs_layers(self) -> bool:
-        """Whether the page needs the script of the layers."""
+        """True if the page needs the script of the layers."""
         return isinstance(self.source, Run) or self.layers is not None
 
 
 class ReplayView(MovingView):
-    """The player. As text it says how the runs went; as an image it is the first run's picture."""
+    """A player of runs. Its text form reports how the runs went; its image is the first run's picture."""
 
     call = "rosminiReplay.mount"
     height = HEIGHT
@@ -109,7 +109,7 @@ class ReplayView(MovingView):
 
     @cached_property
     def text(self) -> str:
-        """What happened, in numbers, as the pictures of the runs say it."""
+        """The runs in numbers, with the same text as their pictures."""
         if len(self.runs) == 1:
             return self.runs[0].text(self.name)
         return "\n".join([self.name, *(run.text(run.name) for run in self.runs)])
@@ -122,7 +122,7 @@ class ReplayView(MovingView):
 
     @cached_property
     def still(self) -> Picture:
-        """The first run in one picture: an SVG.
+        """An SVG of the first run.
 
         Raises:
             ViewError: matplotlib, which draws it, is not installed.
@@ -132,7 +132,7 @@ class ReplayView(MovingView):
 
     @cached_property
     def fallback(self) -> str:
-        """The runs in pictures, side by side."""
+        """Pictures of the runs, side by side."""
         if len(self.runs) == 1:
             return self.svg
         drawn = [
@@ -148,7 +148,7 @@ class ReplayView(MovingView):
 
     @cached_property
     def data(self) -> dict[str, Any]:
-        """What the script plays; layers are thinned until the page is small."""
+        """The data for the script; layers are thinned until the page is small enough."""
         if len(self.runs) == 1:
             return self.runs[0].data(BUDGET)
         each = BUDGET // len(self.runs)
@@ -156,21 +156,21 @@ class ReplayView(MovingView):
 
     @property
     def name(self) -> str:
-        """Its title, or what is played."""
+        """The title, or a short description."""
         if self.title or len(self.runs) > 1:
             return self.title or f"Replay of {len(self.runs)} runs"
         return f"Replay of {self.runs[0].name}"
 
 
 def beside(run: Recording) -> str:
-    """A sentence about the other robots of a run; empty if there are none."""
+    """Return a sentence about the other robots of a run; empty if there are none."""
     others = ", ".join(each.name for each in run.others[:6])
     more = f" and {len(run.others) - 6} more" if len(run.others) > 6 else ""
     return f" Beside it drive {others}{more}." if others else ""
 
 
 def switched(run: Run | None) -> str:
-    """A sentence about the layers of a run; empty if there are none."""
+    """Return a sentence about the layers of a run; empty if there are none."""
     names = [] if run is None else [layer.name for layer in run.layers]
     return f" Layers that can be switched: {', '.join(names)}." if names else ""
 
@@ -183,21 +183,21 @@ def replay(
     frame: str | None = None,
     robot: str | RobotModel | None = None,
 ) -> ReplayView:
-    """A player for a recorded run, or for several side by side by one clock.
+    """Return a player for a recorded run, or for several side by side with one clock.
 
-    It has play, pause, scrub, speeds from a quarter to eight times, zoom, a view that follows the robot, a switch for
-    each layer, and keys for all of it.
+    It has play, pause, a slider, speeds from a quarter to eight times, zoom, a view that follows the robot, a switch
+    for each layer, and keys for all of these.
 
     Args:
-        sources: runs: recordings of robots, bags, paths of bags and of MCAP files, runs made from layers.
+        sources: runs: recordings of robots, bags, paths of bags and MCAP files, runs made from layers.
         title: a caption, and the first words of the text form.
-        names: of the runs, shown above each if there are several.
-        topics: show only these topics of a bag, and of what a recorder kept beside the robots; None: all that can be.
-        frame: what the messages are drawn in; None: map, odom or world, whichever there is first.
-        robot: what the robots of a bag look like from above: a model or its name; None: an arrow head.
+        names: names of the runs, shown above each if there are several.
+        topics: show only these topics of a bag or of a recorder; None for all that can be shown.
+        frame: the frame in which messages are drawn; None for the first of map, odom and world that exists.
+        robot: how the robots of a bag look from above: a model or its name; None for an arrowhead.
 
     Raises:
-        ViewError: it is nothing that can be played, or there is nothing to see in it.
+        ViewError: a source cannot be played, or contains nothing to show.
         ROSBagException: a bag cannot be read.
 
     """
@@ -223,10 +223,10 @@ def _shown(source: Source, name: str | None, robot: RobotModel | None, options: 
 def run_in(
     source: Run | Bag | str | os.PathLike[str], *, robot: RobotModel | None = None, **options: Any
 ) -> Run:
-    """The run in a bag or in an MCAP file, or a run as it is; `options` are those of `run_of`.
+    """Return the run in a bag or in an MCAP file; a `Run` is returned as it is. `options` are those of `run_of`.
 
     Raises:
-        ViewError: it is nothing that can be played, or there is nothing to see in it.
+        ViewError: the source cannot be played, or contains nothing to show.
         ROSBagException: a bag cannot be read.
 
     """
@@ -252,7 +252,7 @@ def run_in(
 
 
 def kept_run(recording: Recording, **options: Any) -> Run | None:
-    """What a recorder kept beside the robot, laid on where the robot really was; None if that is nothing."""
+    """Return the messages of a recorder as a run that starts at the robot's true pose; None if they show nothing."""
     messages = recording.messages
     if not messages:
         return None

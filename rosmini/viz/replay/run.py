@@ -1,4 +1,4 @@
-"""A run as the player shows it: bodies that move, and layers, in one frame and by one clock."""
+"""A run as the player shows it: moving bodies, and layers, in one frame and with one clock."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ from rosmini.viz.world_pictures import length_of, pose_text
 Floats = NDArray[np.float64]
 
 BUDGET = 205_000
-"""The data of a run take at most so many bytes: with the still picture and the page around it, less than 300 kB."""
+"""Maximum size of the data of a run [bytes]: with the still picture and its page, it stays below 300 kB."""
 MOST_POSES = 1200
 LEAST_EXTENT = 0.5
-"""What a player shows is at least so wide [m]."""
+"""Minimum width and height of the area that a player shows [m]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A robot or a turtle, and where it was: times (n,) [s] and poses (n, 3), x and y [m] and headings [rad].
+    """A robot or a turtle and its trajectory: times (n,) [s] and poses (n, 3), x and y [m] and headings [rad].
 
     Args:
-        name: as it is called in the legend.
-        times: when, in order.
-        poses: where; headings are not wrapped.
+        name: its name in the legend.
+        times: the times of the poses, in order.
+        poses: the poses; headings are not wrapped.
         colour: a name of the palette, or `#rrggbb`.
-        outline: its vertices (x, y) [m] in its own frame, x ahead; an arrow head if there is none.
-        shown_from: when it came [s].
-        shown_until: when it went [s].
-        trail: whether the path behind it is drawn.
+        outline: its vertices (x, y) [m] in its own frame, x ahead; None for an arrowhead.
+        shown_from: when it appears [s].
+        shown_until: when it disappears [s].
+        trail: True to draw the path behind it.
 
-    Raises `ViewError` if the arrays do not fit together.
+    Raises `ViewError` if the arrays do not match.
 
     """
 
@@ -68,7 +68,7 @@ class Body:
             raise ViewError(f"the times of {self.name!r} must be in order, and its poses be finite")
 
     def data(self) -> dict[str, Any]:
-        """What the script draws: `track` has times, x, y and headings."""
+        """Return the data for the script: `track` has times, x, y and headings."""
         every = -(-len(self.times) // MOST_POSES)
         keep = np.unique(np.append(np.arange(0, len(self.times), every), len(self.times) - 1))
         rows = np.column_stack([self.times, self.poses])[keep]
@@ -87,26 +87,26 @@ class Body:
         return data
 
     def text(self) -> str:
-        """Where it began and ended."""
+        """Report where it began and ended."""
         way = fixed(length_of(self.poses[:, :2]), 2)
         return f"start {pose_text(self.poses[0])}, end {pose_text(self.poses[-1])}, {way} m"
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What a player plays. Raises `ViewError` if there is nothing to see, or if it ends before it starts.
+    """A run for a player. Raises `ViewError` if there is nothing to see, or if it ends before it starts.
 
     Args:
-        name: of the run, for titles.
-        start: the time of its start [s]; the player counts from there.
+        name: the name of the run, for titles.
+        start: the time of its start [s], which is 0 in the player.
         end: the time of its end [s].
-        bodies: what moves; the first is what the view follows.
-        layers: what else is seen, drawn in this order.
-        frame: the frame that everything is given in, in a word for the reader.
-        bounds: what is shown, x0, y0, x1, y1 [m]; if not given, all that there is.
-        background: a colour `#rrggbb`; the page's own with a grid of metres, if not given.
-        notes: what was left out or thinned, in sentences.
-        opens_at_end: whether the player shows the end until it is played, as for a drawing.
+        bodies: the moving bodies; the view follows the first.
+        layers: everything else, drawn in this order.
+        frame: the name of the frame of all data, for the reader.
+        bounds: the area shown, x0, y0, x1, y1 [m]; None for everything.
+        background: a colour `#rrggbb`; None for the page's own, with a grid of metres.
+        notes: sentences about what was left out or thinned.
+        opens_at_end: True to show the end until the run is played, as for a drawing.
 
     """
 
@@ -133,11 +133,11 @@ class Run:
 
     @property
     def duration(self) -> float:
-        """How long it takes [s]."""
+        """Duration [s]."""
         return self.end - self.start
 
     def extent(self) -> Bounds:
-        """What is shown: `bounds`, or around everything, with a little room."""
+        """Return the area shown: `bounds`, or everything with a small margin."""
         if self.bounds is not None:
             return self.bounds
         found = [layer.bounds for layer in self.layers]
@@ -149,7 +149,7 @@ class Run:
         return (x0 - more[0], y0 - more[1], x1 + more[0], y1 + more[1])
 
     def data(self, budget: int = BUDGET) -> dict[str, Any]:
-        """What `rosmini-replay-data.js` decodes; layers are thinned until they fit into `budget` bytes."""
+        """Return the data that `rosmini-replay-data.js` decodes; layers are thinned to fit into `budget` bytes."""
         data: dict[str, Any] = {
             "name": self.name,
             "start": whole(self.start, TIME).item(),
@@ -168,7 +168,7 @@ class Run:
         return data
 
     def text(self, title: str | None = None) -> str:
-        """What there is, in lines."""
+        """Describe the contents, line by line."""
         named = f", in the frame {self.frame}" if self.frame else ""
         lines = [f"{title or self.name}: {fixed(self.duration, 1)} s{named}"]
         lines += [f"{body.name}: {body.text()}" for body in self.bodies]
@@ -176,7 +176,7 @@ class Run:
         return "\n".join([*lines, *self.notes])
 
     def alt(self) -> str:
-        """The same in sentences."""
+        """Describe the contents in sentences."""
         where = f" in the frame {self.frame}" if self.frame else ""
         said = [
             f"Player of the run {self.name}, {fixed(self.duration, 1)} seconds long, seen from above{where}."
@@ -190,12 +190,12 @@ class Run:
 
 
 def size(data: Any) -> int:
-    """How many bytes data take in a page, about."""
+    """Return the approximate size of data in a page [bytes]."""
     return len(json.dumps(data, separators=(",", ":")))
 
 
 def thinned(layers: Sequence[Layer], budget: int) -> tuple[list[dict[str, Any]], list[str]]:
-    """The data of layers, the heaviest ones thinned until all take `budget` bytes; and what was thinned, in words."""
+    """Return the data of layers, thinned, the largest first, until they fit `budget` [bytes], and notes about it."""
     kept = list(layers)
     data = [layer.data() for layer in kept]
     sizes = [size(each) for each in data]

@@ -1,4 +1,4 @@
-"""Where frames are in the one that a run is drawn in, from the transforms that were recorded."""
+"""Poses of frames in the fixed frame of a run, from recorded transforms."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from rosmini.viz.view import ViewError
 Floats = NDArray[np.float64]
 
 FOR_EVER = 2**62
-"""[ns]"""
+"""Time that recorded transforms are stored [ns]."""
 USUAL = ("map", "odom", "world")
-"""Frames in which a run is drawn, the first that there is."""
+"""Fixed frames to draw a run in, in order of preference."""
 BASES = ("base_footprint", "base_link")
-"""What the frame of a robot is called, REP 105 and 120."""
+"""Names of a robot's base frame (REP 105 and 120)."""
 HOME: Pose = (0.0, 0.0, 0.0)
 
 
 class Standing:
-    """Recorded transforms, from above.
+    """Recorded transforms, seen from above.
 
-    `fixed` is the frame that everything is given in; `offset` is where that is in what is drawn.
+    `fixed` is the fixed frame; `offset` is its pose in the drawing.
     """
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class Standing:
         self._late: list[float] = []
 
     def take(self, message: Any, time: float, *, static: bool) -> None:
-        """Keep the transforms of a `tf2_msgs/TFMessage` that was recorded at `time` [s]."""
+        """Store the transforms of a `tf2_msgs/TFMessage` that was recorded at `time` [s]."""
         for each in message.transforms:
             stamp = each.header.stamp.to_nsec()
             self.tree.set(
@@ -51,10 +51,10 @@ class Standing:
                 self._late.append(time - stamp / 1e9)
 
     def settle(self, frame: str | None, others: Iterable[str]) -> None:
-        """Choose the fixed frame: `frame` if it is given, else map, odom or world, else a root or one of `others`.
+        """Choose the fixed frame: `frame` if given, otherwise map, odom or world, otherwise a root or one of `others`.
 
         Raises:
-            ViewError: no message has the frame that was asked for.
+            ViewError: no message contains the requested frame.
 
         """
         there = [*self.tree, *(name.lstrip("/") for name in others if name)]
@@ -66,12 +66,12 @@ class Standing:
 
     @property
     def lag(self) -> float:
-        """How much later than their stamps transforms were recorded [s]; 0 where both come from one clock."""
+        """Typical delay between stamps of transforms and their recording [s]; 0 if both come from the same clock."""
         typical = float(np.median(self._late)) if self._late else 0.0
         return typical if abs(typical) > 1.0 else 0.0
 
     def pose(self, frame: str, stamp_ns: int) -> Pose | None:
-        """Where a frame was at a time in what is drawn; None where that is not known."""
+        """Return the pose of a frame at a time in the drawing; None if it is unknown."""
         name = frame.lstrip("/")
         if name in ("", self.fixed):
             return self.offset
@@ -82,7 +82,7 @@ class Standing:
         return compose(self.offset, (x, y, yaw_from_quaternion(qx, qy, qz, qw)))
 
     def bases(self) -> list[str]:
-        """The frames of robots: one for each prefix."""
+        """Return the base frames of robots: one for each prefix."""
         chosen: dict[str, str] = {}
         for base in BASES:
             for frame in sorted(self.tree):
@@ -92,7 +92,7 @@ class Standing:
         return [chosen[prefix] for prefix in sorted(chosen)]
 
     def track(self, frame: str, times: Floats) -> tuple[Floats, Floats]:
-        """Where a frame was at those of `times` (n,) [s] for which that is known: times (m,), poses (m, 3)."""
+        """Return the trajectory of a frame at those of `times` (n,) [s] where it is known: times (m,), poses (m, 3)."""
         lag = self.lag
         found = [(time, self.pose(frame, max(1, round((time - lag) * 1e9)))) for time in times.tolist()]
         known = [(time, *pose) for time, pose in found if pose is not None]
@@ -102,9 +102,9 @@ class Standing:
 
 
 def flat(pose: Any) -> Pose:
-    """A `geometry_msgs/Pose` from above; one with a quaternion of zeros looks along x, as in RViz.
+    """Return a `geometry_msgs/Pose` seen from above; with a quaternion of zeros it points along x, as in RViz.
 
-    Raises `ViewError` if it is no number.
+    Raises `ViewError` if it is not finite.
     """
     q = pose.orientation
     turn = (float(q.x), float(q.y), float(q.z), float(q.w))

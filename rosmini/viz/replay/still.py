@@ -1,4 +1,4 @@
-"""The last moment of a run as an SVG: what a page shows before its script runs, and where none does."""
+"""The last moment of a run as an SVG: pages show it until their script runs, or if no script can run."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from rosmini.viz.view import Picture
 Floats = NDArray[np.float64]
 
 HIGHEST = 480.0
-"""[px]"""
+"""Maximum height of the picture [px]."""
 MOST_CELLS = 110
-"""Cells a side of a map: what is drawn is a still, and a map is a path around each run of cells."""
+"""Maximum number of cells per side of a map, which is drawn as a path around each run of cells."""
 TOLERANCE = 0.3
-"""By how much a line may be drawn too straight [px]."""
+"""Maximum deviation of a drawn line from its points [px]."""
 MOST_SEEN = 180
-"""Points of a scan that are drawn."""
+"""Maximum number of points of a scan that are drawn."""
 HEAD = ((13.0, 0.0), (-9.0, 8.0), (-5.0, 0.0), (-9.0, -8.0))
-"""An arrow head [px], as the player draws it."""
+"""An arrowhead [px], as the player draws it."""
 
 
 class Sheet:
-    """Metres to pixels."""
+    """Converts metres to pixels."""
 
     def __init__(self, run: Run) -> None:
         self.x0, self.y0, self.x1, self.y1 = run.extent()
@@ -39,12 +39,12 @@ class Sheet:
         self.width, self.height = wide * self.scale, high * self.scale
 
     def px(self, points: Floats) -> Floats:
-        """Points (n, 2) [m] in pixels, y down."""
+        """Convert points (n, 2) [m] to pixels, y down."""
         flipped = (points[:, :2] - (self.x0, self.y1)) * (self.scale, -self.scale)
         return snap(flipped, 0.1)
 
     def line(self, points: Floats, *, closed: bool = False) -> str:
-        """Path data of a line, without the points that nobody misses."""
+        """Return the path data of a line without points that make no visible difference."""
         pixels = self.px(points)
         pixels = pixels[kept(pixels, TOLERANCE)] if len(pixels) > 2 else pixels
         return (
@@ -100,7 +100,7 @@ def _path(data: str, colour: str, *, width: float = 2.0, fill: bool = False) -> 
 
 
 def _grid(grid: Grid, scheme: str, sheet: Sheet) -> str:
-    """A path for each colour, around its runs of cells."""
+    """Return a path for each colour, around its runs of cells."""
     cells, resolution, (x, y, heading) = grid
     factor = -(-max(cells.shape) // MOST_CELLS)
     cells, resolution = (coarse(cells, factor), resolution * factor) if factor > 1 else (cells, resolution)
@@ -178,5 +178,5 @@ def _body(body: Body, sheet: Sheet, end: float) -> str:
 
 
 def _turned(points: Floats, c: float, s: float) -> Floats:
-    """Points (n, 2), x ahead and y left, turned, with y down."""
+    """Rotate points (n, 2), x ahead and y left, and turn y down."""
     return np.column_stack([points[:, 0] * c - points[:, 1] * s, -(points[:, 0] * s + points[:, 1] * c)])

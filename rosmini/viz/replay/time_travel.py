@@ -1,9 +1,9 @@
-"""Time travel: a run as it was, and as it would have been if something had been changed at an instant of it.
+"""Time travel: a run as it was, and as it would have been with a change at one instant.
 
-A world could be saved at that instant (`Simulation.save`), but not what its nodes were doing: a script is somewhere in
-the middle of its code, with messages on their way to it. So the run is made again from its start, with the change at
-that instant. Simulated time makes that honest, and it is proven each time: all messages of both runs up to the instant
-are compared byte by byte.
+A world could be saved at that instant (`Simulation.save`), but its nodes could not: a script is somewhere in the
+middle of its code, with messages on their way to it. So the run is repeated from its start, with the change at that
+instant. In simulated time this is valid, and each call verifies it: all messages of both runs up to the instant are
+compared byte by byte.
 """
 
 from __future__ import annotations
@@ -37,12 +37,12 @@ Change = Mapping[str, Any] | Callable[[Graph], object]
 
 
 class TimeTravelError(RosminiError):
-    """A run cannot be changed at the instant asked for, or is not the same when it is made again."""
+    """A run cannot be changed at the requested instant, or a repetition of it differs."""
 
 
 @dataclass(frozen=True)
 class Heard:
-    """A message: when [ns of the graph's time], on which topic, of which type, and its bytes."""
+    """A message: its time [ns of the graph's time], topic, type and bytes."""
 
     time: int
     topic: str
@@ -52,18 +52,18 @@ class Heard:
 
 @dataclass(frozen=True)
 class Made:
-    """A run: all its messages, as a bag and in order, and what its robot did, if a simulation ran."""
+    """A run: all its messages, as a bag and in order, and the recording of its robot, if a simulation ran."""
 
     bag: bytes
     messages: tuple[Heard, ...]
     start: int
     """The time of the start [ns]."""
     until_change: int
-    """How many of the messages were there before the instant."""
+    """Number of messages before the instant of the change."""
     recording: Recording | None
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write all messages into a bag, and return its path."""
+        """Write all messages to a bag, and return its path."""
         target = Path(path)
         target.write_bytes(self.bag)
         return target
@@ -71,7 +71,7 @@ class Made:
 
 @dataclass(frozen=True)
 class Fork:
-    """A run as it was, and as it is with the change, which came `at` seconds after its start."""
+    """A run without and with the change, which was made `at` seconds after its start."""
 
     at: float
     what: str
@@ -81,7 +81,7 @@ class Fork:
 
     @property
     def differs_after(self) -> float | None:
-        """When the first message was another one [s after the start]; None if the change had no effect."""
+        """Time of the first message that differs [s after the start]; None if the change had no effect."""
         for one, other in zip_longest(self.before.messages, self.after.messages):
             if one != other and not (_is_own(one) or _is_own(other)):
                 return min((each.time - self.before.start) / 1e9 for each in (one, other) if each is not None)
@@ -94,15 +94,15 @@ class Fork:
         return f"{same}; then {self.what}, {effect}"
 
     def replay(self, *, title: str | None = None, topics: Sequence[str] | None = None) -> ReplayView:
-        """Return a player of both runs, side by side by one clock.
+        """Return a player of both runs, side by side with one clock.
 
-        `title` is a caption, `topics` are the only ones that are shown beside the robot. Raises ``ViewError`` if
-        nothing can be shown.
+        `title` is a caption; `topics` limits the topics shown beside the robot. Raises ``ViewError`` if nothing can be
+        shown.
         """
         return replay(*self._runs(), title=title, names=self._names, topics=topics)
 
     def replay3d(self, **options: Any) -> View:
-        """Return the same in three dimensions; the options are those of `replay_3d`."""
+        """Return both runs in three dimensions; the options are those of `replay_3d`."""
         view: View = find_extension(GROUP, "replay_3d")(*self._runs(), names=self._names, **options)
         return view
 
@@ -118,19 +118,19 @@ class Fork:
 
 
 def what_if(setup: Setup, change: Change, *, at: float, seconds: float, seed: int = 0) -> Fork:
-    """Make a run twice, in simulated time: as it is, and with a change at an instant of it.
+    """Run something twice, in simulated time: unchanged, and with a change at one instant.
 
     Args:
-        setup: starts everything in a new graph: the words of `roslaunch`, such as `("my_pkg", "drive.launch")`, or a
-            function of the graph. What it returns, if that is a simulator, is what is recorded; else the one that runs.
-        change: parameters and their new values (`{"/driver/speed": 0.1}`), which nodes with dynamic_reconfigure hear
-            of; or a function of the graph, for any other change.
-        at: when it comes [s after the start].
-        seconds: how long both runs are [s].
-        seed: of the graph's random numbers.
+        setup: starts everything in a new graph: the arguments of `roslaunch`, such as `("my_pkg", "drive.launch")`, or
+            a function of the graph. The simulator that the function returns is recorded; otherwise the one that runs.
+        change: parameters and their new values (`{"/driver/speed": 0.1}`), of which nodes with dynamic_reconfigure are
+            notified; or a function of the graph, for any other change.
+        at: the instant of the change [s after the start].
+        seconds: the duration of both runs [s].
+        seed: the seed of the graph's random numbers.
 
     Raises:
-        TimeTravelError: the instant is not within the run; or the two runs differ before it, since something in them
+        TimeTravelError: the instant is not within the run; or the two runs differ before it, because something in them
             depends on more than simulated time.
 
     """
@@ -148,7 +148,7 @@ def _made(setup: Setup, change: Change | None, at: float, seconds: float, seed: 
         start = graph.now().to_nsec()
         log = BagRecorder(graph.node(NAME), options)
         simulator = setup(graph) if callable(setup) else roslaunch(*setup, graph=graph)
-        graph.run(0.0)  # what was launched is there only then
+        graph.run(0.0)  # launched nodes exist only after this
         robot = None
         with suppress(RecordingError):
             found: Any = simulator if hasattr(simulator, "world") else None
@@ -194,7 +194,7 @@ def _words(change: Change) -> str:
 
 
 def _is_own(heard: Heard | None) -> bool:
-    """Whether a message is about the change itself: the log of the node that makes it."""
+    """Return True if a message is a log message, which may come from the node that makes the change."""
     return heard is not None and heard.topic in ("/rosout", "/rosout_agg")
 
 
@@ -204,7 +204,7 @@ def _check(before: Made, after: Made) -> None:
     for number, (one, other) in enumerate(pairs):
         if one != other:
             shown = one or other
-            assert shown is not None  # noqa: S101 - one of the two is there
+            assert shown is not None  # noqa: S101 - one of the two exists
             raise TimeTravelError(
                 f"the run is not the same when it is made again: message {number + 1}, on {shown.topic} at "
                 f"{shown.time / 1e9:.3f} s, differs before the change. Something in it depends on more than simulated "
