@@ -25,7 +25,7 @@ class Axes(Display, plugin="rviz/Axes"):
     )
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """The axes, if the frame is known."""
+        """Yield the axes, if the frame is known."""
         frame = self["Reference Frame"] or FIXED_FRAME
         try:
             place = context.place(frame)

@@ -1,4 +1,4 @@
-"""Camera: what a camera sees, with the scene drawn over it as the camera would see it."""
+"""Camera: a camera image, with the scene drawn over it as the camera would see it."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ from rosmini.viz.rviz.properties import Property, Tree
 
 BACKGROUND, OVERLAY, BOTH = "background", "overlay", "background and overlay"
 EMPTY = 48
-"""How bright it is behind the scene without an image there."""
+"""Brightness behind the scene if there is no image [0 to 255]."""
 
 
 class Camera(ImageDisplay, plugin="rviz/Camera"):
-    """A `sensor_msgs/Image` and the `sensor_msgs/CameraInfo` beside it, whose projection the scene is drawn with."""
+    """A `sensor_msgs/Image` and the `sensor_msgs/CameraInfo` beside it, which defines the projection of the scene."""
 
     properties = (
         Property("Image Rendering", BOTH, "where the image is", choices=(BACKGROUND, OVERLAY, BOTH)),
@@ -60,12 +60,12 @@ class Camera(ImageDisplay, plugin="rviz/Camera"):
         self._info = info
 
     def reset(self) -> None:
-        """Forget image and calibration."""
+        """Discard image and calibration."""
         super().reset()
         self._info = None
 
     def pane(self, image: Any, context: Context, shown: Sequence[Shown]) -> Pane | None:
-        """The image, and the scene over it."""
+        """Return the image with the scene over it."""
         if self._info is None:
             return None
         try:

@@ -1,4 +1,4 @@
-"""DepthCloud: the points that a depth camera sees, in the colours of another image."""
+"""DepthCloud: the points of a depth camera, in the colours of another image."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from rosmini.viz.rviz.properties import Property
 from rosmini.viz.rviz.topic_display import Heard
 
 NEAR_NS = 500_000_000
-"""How far apart the stamps of depths and colours may be [ns]."""
+"""Maximum difference between the stamps of depths and colours [ns]."""
 INFO = "sensor_msgs/CameraInfo"
 
 
 class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
-    """A `sensor_msgs/Image` of depths with the `CameraInfo` beside it, and an image of colours of the same size."""
+    """A `sensor_msgs/Image` of depths with the `CameraInfo` beside it, and a colour image of the same size."""
 
     message = "sensor_msgs/Image"
     topic_property = "Depth Map Topic"
@@ -62,13 +62,13 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
         self.set_status(Level.WARN, "CameraInfo", f"No CameraInfo received on [{self._topic}]")
 
     def changed(self, name: str) -> None:
-        """Subscribe to another topic."""
+        """Subscribe again if the topic of colours changes."""
         super().changed(name)
         if name == "Color Image Topic":
             self.restart()
 
     def reset(self) -> None:
-        """Forget all images."""
+        """Discard all images."""
         super().reset()
         self._info = None
         self._colours.clear()
@@ -82,12 +82,12 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
         self._again()
 
     def _again(self) -> None:
-        """Draw the last depths again, with what came for them."""
+        """Draw the last depths again, with the calibration or colours that just arrived."""
         if self.kept:
             self.kept[-1].drawn = None
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """A point for each pixel with a depth."""
+        """Yield a point for each pixel with a depth."""
         del context
         info, image = self._info, heard.message
         if info is None:
@@ -117,7 +117,7 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
         yield points
 
     def _colours_of(self, heard: Heard) -> Any:
-        """The colours (h, w, 3) that came nearest to depths; None if none did."""
+        """Return the colours (h, w, 3) closest in time to the depths; None if there are none."""
         near = [
             each for each in self._colours if abs(each.header.stamp.to_nsec() - heard.stamp_ns) <= NEAR_NS
         ]
@@ -138,7 +138,7 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
 
 
 class _RGB8:
-    """The properties of a display, but that colours are those that came with the points."""
+    """The properties of a display, but with colours from the points' RGB channel."""
 
     def __init__(self, display: DepthCloud) -> None:
         self._display = display

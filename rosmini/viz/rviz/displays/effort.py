@@ -1,4 +1,4 @@
-"""Effort: how hard the joints of a robot work, as circles around their axes."""
+"""Effort: the efforts in a robot's joints, as circles around their axes."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from rosmini.viz.rviz.shapes import arrow
 from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
 
 INNER = 0.05
-"""The radius of a circle without effort [m]."""
+"""Radius of a circle without effort [m]."""
 TURNING = ("revolute", "continuous")
 
 
 class Effort(TopicDisplay, plugin="rviz/Effort"):
-    """A circle for each joint of a `sensor_msgs/JointState` that turns; wide and red near its limit."""
+    """A circle for each rotating joint of a `sensor_msgs/JointState`; wide and red near its limit."""
 
     message = "sensor_msgs/JointState"
     history = "History Length"
@@ -49,19 +49,19 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
         self._robot: Robot | None = None
 
     def reset(self) -> None:
-        """Forget messages and robot."""
+        """Discard messages and robot."""
         super().reset()
         self._read, self._robot = "", None
 
     def update(self, context: Context) -> None:
-        """Read the robot if it is another one, and look where its links are now."""
+        """Reload the robot if its description changed, and draw again with the current poses of its links."""
         super().update(context)
         self._load(context)
         for heard in self.kept:
             heard.drawn = None
 
     def _load(self, context: Context) -> None:
-        """Read the robot if it is another one."""
+        """Load the robot if its description changed."""
         name = self["Robot Description"]
         key = context.node.search_param(name)
         text = "" if key is None else str(context.node.get_param(key))
@@ -79,7 +79,7 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
             self.set_status(Level.ERROR, "URDF", str(error).partition("\n")[0])
 
     def accept(self, heard: Heard, context: Context) -> bool:
-        """Take a message with as many efforts as joints."""
+        """Accept a message with the same number of efforts and joints."""
         del context
         if len(heard.message.name) != len(heard.message.effort):
             raise DisplayError("Received a joint state msg with different joint names and efforts size!")
@@ -88,7 +88,7 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
         return True
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The circles."""
+        """Yield the circles."""
         joints = {} if self._robot is None else self._robot.joints
         for name, effort in zip(heard.message.name, heard.message.effort, strict=True):
             joint = joints.get(name)

@@ -1,4 +1,4 @@
-"""FluidPressure: the pressure, by default in the range of the air at sea level."""
+"""FluidPressure: the pressure, by default in the range of air at sea level."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from rosmini.viz.rviz.properties import Colour, Property, Vector
 MOST_CELLS = 1000
 
 _AXES = {"XY": (0, 1, 2), "XZ": (0, 2, 1), "YZ": (1, 2, 0)}
-"""For each plane, the axes along it and across."""
+"""For each plane, the two axes in it and the axis across it."""
 
 
 class Grid(Display, plugin="rviz/Grid"):
@@ -36,7 +36,7 @@ class Grid(Display, plugin="rviz/Grid"):
     )
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """All lines as one primitive."""
+        """Yield all lines as one primitive."""
         frame = self["Reference Frame"] or FIXED_FRAME
         try:
             place = context.place(frame)

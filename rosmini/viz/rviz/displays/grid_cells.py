@@ -1,4 +1,4 @@
-"""GridCells: cells of a grid that are somehow alike, such as obstacles."""
+"""GridCells: cells of a grid that share a property, such as obstacles."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class GridCells(TopicDisplay, plugin="rviz/GridCells"):
     )
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The cells that have a place."""
+        """Yield the cells whose positions are finite."""
         del context
         found = heard.message
         for name, side in (("width", found.cell_width), ("height", found.cell_height)):

@@ -12,7 +12,7 @@ from rosmini.viz.rviz.primitives import Primitive
 
 
 class Group(Display, plugin="rviz/Group"):
-    """Displays in order; what is drawn is drawn by them."""
+    """Displays in order; they draw, the group itself does not."""
 
     def __init__(self, name: str = "", tree: Mapping[str, Any] | None = None) -> None:
         super().__init__(name, tree)
@@ -21,49 +21,49 @@ class Group(Display, plugin="rviz/Group"):
         self.displays: list[Display] = [display_from(each) for each in parts if isinstance(each, dict)]
 
     def walk(self) -> Iterator[Display]:
-        """All displays in it, in order, groups before what is in them."""
+        """Yield all displays in it, in order, groups before their members."""
         for display in self.displays:
             yield display
             if isinstance(display, Group):
                 yield from display.walk()
 
     def start(self, context: Context) -> None:
-        """Begin, and all in it."""
+        """Start all displays in it."""
         for display in self.displays:
             display.attach(context)
 
     def detach(self) -> None:
-        """Leave the graph, and all in it."""
+        """Remove all displays in it from the graph."""
         for display in self.displays:
             display.detach()
         super().detach()
 
     def reset(self) -> None:
-        """Forget what was received."""
+        """Discard received messages."""
         for display in self.displays:
             display.reset()
 
     @property
     def level(self) -> Level:
-        """The worst of all in it that are switched on."""
+        """The worst level of the enabled displays in it."""
         return max((each.level for each in self.displays if each.enabled), default=Level.OK)
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """Nothing of its own."""
+        """Return nothing: the group itself draws nothing."""
         del context
         return ()
 
     def unknown(self) -> list[str]:
-        """What its part of a file has beside the displays."""
+        """Return the unknown properties of its part of a file, without the displays."""
         return [each for each in super().unknown() if each != "Displays"]
 
     def tree(self) -> dict[str, Any]:
-        """Its part of a file, with those of its displays."""
+        """Return its part of a file, with those of its displays."""
         return {**super().tree(), "Displays": [each.tree() for each in self.displays]}
 
 
 def display_from(tree: Mapping[str, Any]) -> Display:
-    """A display by its part of a file; one of a class that is not known here is kept as it is."""
+    """Return the display for a part of a file; one of an unknown class is preserved as it is."""
     kind = str(tree.get("Class", ""))
     try:
         return Display.named(kind)(tree=tree)

@@ -1,4 +1,4 @@
-"""Illuminance: how bright it is."""
+"""Illuminance: the light level."""
 
 from __future__ import annotations
 

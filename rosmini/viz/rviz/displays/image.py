@@ -1,4 +1,4 @@
-"""Image: what a camera sees, in a pane of its own."""
+"""Image: a camera image, in a separate pane."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rosmini.viz.rviz.properties import Property
 
 
 class Image(ImageDisplay, plugin="rviz/Image"):
-    """A `sensor_msgs/Image`; one of ranges goes from black to white."""
+    """A `sensor_msgs/Image`; ranges are shown from black to white."""
 
     properties = (
         Property("Normalize Range", True, "of an image of ranges: from its least value to its greatest"),
@@ -24,7 +24,7 @@ class Image(ImageDisplay, plugin="rviz/Image"):
     )
 
     def pane(self, image: Any, context: Context, shown: Sequence[Shown]) -> Pane | None:
-        """The image."""
+        """Return the image."""
         del context, shown
         normalised = self["Normalize Range"]
         bounds = self.bounds(self["Median window"]) if normalised else (self["Min Value"], self["Max Value"])

@@ -1,4 +1,4 @@
-"""InteractiveMarkers: markers with handles, which can be dragged, clicked, and have menus."""
+"""InteractiveMarkers: markers with handles that can be dragged and clicked, and with menus."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MOST_MARKERS = 1000
 
 
 class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
-    """The markers of servers on a topic; `drag`, `click` and `choose` publish what RViz does for a hand."""
+    """The markers of servers on a topic; `drag`, `click` and `choose` publish the same feedback as RViz's mouse."""
 
     properties = (
         Property("Update Topic", "", "the topic of updates, /NAME/update"),
@@ -47,11 +47,11 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
     def __init__(self, name: str = "", tree: Any = None) -> None:
         super().__init__(name, tree)
         self.handles: dict[tuple[str, str], Handle] = {}
-        """The markers that are shown, by the ids of their servers and their names."""
+        """The markers that are shown, by server id and name."""
         self.shows_controls = True
-        """Whether all controls are seen, as with RViz's tool Interact, or only those that are always visible."""
+        """True if all controls are shown, as with RViz's tool Interact; False if only those that are always visible."""
         self.hides_inactive = False
-        """Whether a drag hides the controls of other markers."""
+        """True if a drag hides the controls of other markers."""
         self._client = InteractiveMarkerClient()
         self._changed: set[tuple[str, str]] = set()
         self._publisher: Publisher | None = None
@@ -88,17 +88,17 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         self._changed |= {(message.server_id, name) for name in names}
 
     def changed(self, name: str) -> None:
-        """Subscribe to another topic, or look at all markers again."""
+        """Subscribe to another topic, or rebuild all markers."""
         if name in ("Update Topic", "Enable Transparency"):
             self.restart()
 
     def reset(self) -> None:
-        """Forget all markers."""
+        """Discard all markers."""
         self._client = InteractiveMarkerClient()
         self.handles, self._changed, self._grip = {}, set(), None
 
     def update(self, context: Context) -> None:
-        """Take over what changed, and see where frames are; a marker that is held stays in the hand."""
+        """Apply updates and refresh the poses of frames; a marker that is being dragged is not replaced."""
         for key in sorted(self._changed):
             if self._grip is None or self.handles.get(key) is not self._grip.handle:
                 self._changed.discard(key)
@@ -133,7 +133,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
                 self.handles[key] = handle
 
     def _settle(self, name: str, handle: Handle, context: Context) -> None:
-        """See where the marker's frame is: now if it is locked to it, else once."""
+        """Look up the pose of the marker's frame: always if the marker is locked to it, otherwise once."""
         heard = handle.heard
         if not handle.is_locked and handle.is_placed:
             return
@@ -149,7 +149,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
     # -- drawing -------------------------------------------------------------------------------------------------
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """The controls, descriptions and axes of all markers."""
+        """Return the controls, descriptions and axes of all markers."""
         found: list[Primitive] = []
         for (_, name), handle in sorted(self.handles.items()):
             if not handle.is_placed:
@@ -174,10 +174,10 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
             found += handle.axes()
         return found
 
-    # -- a hand --------------------------------------------------------------------------------------------------
+    # -- pointer --------------------------------------------------------------------------------------------------
 
     def handle(self, name: str) -> Handle:
-        """The marker of a name. Raises `DisplayError` if none is shown."""
+        """Return the marker with this name. Raises `DisplayError` if it is not shown."""
         for (_, each), handle in self.handles.items():
             if each == name:
                 return handle
@@ -186,7 +186,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         raise DisplayError(f"no interactive marker {name!r:.60} is shown; {hint}")
 
     def under(self, gaze: Gaze, context: Context) -> tuple[Handle, Any] | None:
-        """The marker and its control that a line of sight of the fixed frame meets first, or None."""
+        """Return the marker and its control that a line of sight in the fixed frame meets first, or None."""
         found: list[tuple[float, Handle, Any]] = []
         for handle in self.handles.values():
             if handle.is_placed:
@@ -194,13 +194,13 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         return min(found, key=lambda each: each[0])[1:] if found else None
 
     def press(self, handle: Handle, control: Any, at: Floats, gaze: Gaze | None = None) -> str:
-        """Take hold of a control at a point (3,) of the fixed frame or where it is seen; return a hint."""
+        """Press the mouse on a control, at a point (3,) of the fixed frame or along a line of sight; return a hint."""
         self._grip = Grip(handle, control, at, gaze)
         self._say(Feedback.MOUSE_DOWN, handle, control, self._grip.cursor(at, gaze))
         return str(control.description or _hint(control.interaction_mode))
 
     def move(self, at: Floats, gaze: Gaze | None = None) -> str:
-        """Move the hand to a point (3,) of the fixed frame or where it is seen; the marker follows."""
+        """Move the mouse to a point (3,) of the fixed frame or along a line of sight; the marker follows."""
         grip = self._grip
         if grip is None:
             return ""
@@ -209,7 +209,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         return _where(grip.handle)
 
     def release(self, at: Floats) -> str:
-        """Let go, and return what the status bar says: the entries of the menu, if the control opens it."""
+        """Release the mouse, and return the text for the status bar: the menu's entries if a menu opens."""
         grip, self._grip = self._grip, None
         if grip is None:
             return ""
@@ -224,10 +224,10 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
     def drag(
         self, marker: str, to: Sequence[float], control: str = "", start: Sequence[float] | None = None
     ) -> str:
-        """Drag a control of a marker to a point (3) of the fixed frame, from its origin if no other start is given.
+        """Drag a control of a marker to a point (3) of the fixed frame, by default from the marker's origin.
 
-        Without a name it is the first control that does something. Raises `DisplayError` if there is none, and for
-        what is no point.
+        Without a name, drag the first control that reacts. Raises `DisplayError` if there is none, or if a point is
+        invalid.
         """
         handle = self.handle(marker)
         origin = matrix_product(handle.frame, handle.pose)[:3, 3]
@@ -239,14 +239,14 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         return self.release(last)
 
     def click(self, marker: str, control: str = "") -> str:
-        """Click a control of a marker. Raises `DisplayError` if there is none."""
+        """Click a control of a marker. Raises `DisplayError` if it does not exist."""
         handle = self.handle(marker)
         return self.drag(marker, matrix_product(handle.frame, handle.pose)[:3, 3].tolist(), control)
 
     def choose(self, marker: str, entry: int | str) -> None:
         """Choose an entry of a marker's menu, by its number or by its titles, `Mode/Fast`.
 
-        Raises `DisplayError` if there is none, and for one that would run a program, which only the real RViz does.
+        Raises `DisplayError` if it does not exist, or would run a program, which only the real RViz does.
         """
         handle = self.handle(marker)
         entries = {one.id: one for one in handle.message.menu_entries}
@@ -269,7 +269,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
     def _say(
         self, event: int, handle: Handle, control: Any, at: Floats | None = None, menu_entry_id: int = 0
     ) -> None:
-        """Publish feedback: in the marker's frame if it is locked to that, else in the fixed frame."""
+        """Publish feedback: in the marker's frame if it is locked to it, otherwise in the fixed frame."""
         if self._publisher is None or self._context is None:
             return
         context = self._context
@@ -307,7 +307,7 @@ def _where(handle: Handle) -> str:
 
 
 def _hint(mode: int) -> str:
-    """What a control is for, by its mode."""
+    """Return the hint for a control, by its mode."""
     hints = {
         Control.MENU: "Click to open the menu.",
         Control.BUTTON: "Click.",
@@ -321,7 +321,7 @@ def _hint(mode: int) -> str:
 
 
 def _titles(entries: Sequence[Any]) -> dict[int, str]:
-    """The titles of a menu's entries, without boxes, each with those above it: `Mode/Fast`."""
+    """Return the titles of a menu's entries, without checkboxes, each with its parents: `Mode/Fast`."""
     found: dict[int, str] = {}
     for entry in entries:
         title = entry.title.removeprefix("[x] ").removeprefix("[ ] ")

@@ -16,12 +16,12 @@ MOST_BEAMS = 1_000_000
 
 
 class LaserScan(PointsDisplay, plugin="rviz/LaserScan"):
-    """A point for each range between `range_min` and `range_max`, from where the laser was at the stamp."""
+    """A point for each range between `range_min` and `range_max`, from the laser's pose at the time of the stamp."""
 
     message = "sensor_msgs/LaserScan"
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The points."""
+        """Yield the points."""
         del context
         scan = heard.message
         ranges = np.asarray(scan.ranges, dtype=float)

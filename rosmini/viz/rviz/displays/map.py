@@ -44,7 +44,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
                 self.fail("Update Topic", error)
 
     def accept(self, heard: Heard, context: Context) -> bool:
-        """Take a map; its cells are copied, since updates change them."""
+        """Accept a map; its cells are copied, because updates change them."""
         del context
         info, count = heard.message.info, len(heard.message.data)
         width, height = int(info.width), int(info.height)
@@ -64,7 +64,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
         return True
 
     def _change(self, update: Any) -> None:
-        """Take an update: a rectangle of new cells."""
+        """Apply an update: a rectangle of new cells."""
         if not self.kept:
             return
         rows, columns = int(update.height), int(update.width)
@@ -82,7 +82,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
         self.set_status(Level.OK, "Update", "Update OK")
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The cells as a texture, thinned to what can be seen."""
+        """Yield the cells as a texture, thinned to a visible resolution."""
         del context
         info = heard.message.info
         origin = heard.local(info.origin)
@@ -97,5 +97,5 @@ class Map(TopicDisplay, plugin="rviz/Map"):
         yield Texture(pixels, size, place, behind=self["Draw Behind"])
 
     def moment(self, heard: Heard) -> int:
-        """Now, unless the stamp is to be used."""
+        """Return the stamp if it is to be used, otherwise 0 for now."""
         return heard.stamp_ns if self["Use Timestamp"] else 0

@@ -1,4 +1,4 @@
-"""Marker and MarkerArray: shapes that programs ask for, by their namespaces and numbers."""
+"""Marker and MarkerArray: shapes that programs request, identified by namespace and id."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
 MOST_MARKERS = 10_000
 MOST_NAMESPACES = 500
 MOST_STATUSES = 30
-"""How many markers have lines of their own in the status."""
+"""Maximum number of markers with a separate status line."""
 ARRAY = "visualization_msgs/MarkerArray"
 
 
 class Marker(TopicDisplay, plugin="rviz/Marker"):
-    """Markers of a topic, and those of the topic's name with `_array`.
+    """Markers of a topic, and of the topic whose name has `_array` appended.
 
-    A marker stands where its frame was when it came, or goes with it if it is `frame_locked`. It goes after its
-    `lifetime`, with DELETE, or when another one of its namespace and id comes.
+    A marker stays where its frame was when it arrived, or moves with it if it is `frame_locked`. It disappears after
+    its `lifetime`, on DELETE, or when another one with its namespace and id arrives.
     """
 
     message = "visualization_msgs/Marker"
@@ -44,7 +44,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         self.markers: dict[tuple[str, int], Heard] = {}
         """The markers by namespace and id."""
         self._silent: set[tuple[str, int]] = set()
-        self["Namespaces"] = self["Namespaces"]  # a copy: namespaces that come are added
+        self["Namespaces"] = self["Namespaces"]  # a copy, because new namespaces are added to it
 
     # -- hearing -------------------------------------------------------------------------------------------------
 
@@ -62,7 +62,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
             self.fail("Topic", error)
 
     def hear_array(self, array: Any, context: Context) -> None:
-        """Take the markers of an array, one after another."""
+        """Process the markers of an array, one after another."""
         before = self.received
         for marker in array.markers[:MOST_MARKERS]:
             self.hear(marker, context)
@@ -70,7 +70,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         self.count()
 
     def hear(self, message: Any, context: Context) -> None:
-        """Take a marker; what deletes needs no transform."""
+        """Process a marker; deleting needs no transform."""
         if message.action in (MarkerMessage.DELETE, MarkerMessage.DELETEALL):
             self.count()
             if message.action == MarkerMessage.DELETE:
@@ -82,11 +82,11 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         super().hear(message, context)
 
     def transform_status(self, heard: Heard) -> str:
-        """Each marker has a line of its own."""
+        """Return the marker's name: each marker has a separate status line."""
         return _named(heard.message.ns, heard.message.id)
 
     def accept(self, heard: Heard, context: Context) -> bool:
-        """Take a marker whose place is known."""
+        """Accept a marker whose pose is known."""
         del context
         marker = heard.message
         name = (marker.ns, marker.id)
@@ -109,7 +109,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         return False
 
     def reset(self) -> None:
-        """Forget all markers."""
+        """Discard all markers."""
         super().reset()
         self.markers = {}
         self._silent = set()
@@ -120,7 +120,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         self._silent.discard(name)
 
     def _say(self, name: tuple[str, int], level: Level, text: str) -> None:
-        """Give a marker a line in the status, unless there are many already."""
+        """Give a marker a status line, unless there are too many already."""
         own = _named(*name)
         if own in self._statuses or len(self._statuses) < MOST_STATUSES:
             self.set_status(level, own, text)
@@ -130,7 +130,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
     # -- drawing -------------------------------------------------------------------------------------------------
 
     def update(self, context: Context) -> None:
-        """Take away what has lived long enough, and move what is locked to its frame."""
+        """Remove markers whose lifetime has ended, and move locked ones with their frames."""
         super().update(context)
         for name, heard in list(self.markers.items()):
             lifetime = heard.message.lifetime.to_nsec()
@@ -149,7 +149,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
             heard.place, heard.drawn = place, None
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """What was drawn for the markers of namespaces that are shown, in the order of namespaces and ids."""
+        """Return the primitives of the markers in visible namespaces, in the order of namespaces and ids."""
         found: list[Primitive] = []
         shown = 0
         namespaces = self["Namespaces"]
@@ -177,7 +177,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         return found
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """A marker."""
+        """Return the primitives of a marker."""
         del context
         return marker_primitives(heard.message, heard.pose(heard.message.pose))
 

@@ -1,4 +1,4 @@
-"""MarkerArray: markers that come many at a time."""
+"""MarkerArray: markers that arrive in arrays."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ class MarkerArray(Marker, plugin="rviz/MarkerArray"):
     properties = (Property("Marker Topic", "visualization_marker_array", "the topic to subscribe to"),)
 
     def listen_besides(self, context: Context) -> None:
-        """Nothing: the topic itself has arrays."""
+        """Do nothing: the topic itself has arrays."""
 
     def hear(self, message: Any, context: Context) -> None:
-        """Take an array, or one of its markers."""
+        """Process an array, or one of its markers."""
         if hasattr(message, "markers"):
             self.hear_array(message, context)
         else:

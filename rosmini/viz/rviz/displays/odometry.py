@@ -1,4 +1,4 @@
-"""Odometry: arrows along the way that a robot believes to have gone."""
+"""Odometry: arrows along the path that a robot estimates from odometry."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
 
 
 class Odometry(TopicDisplay, plugin="rviz/Odometry"):
-    """A `nav_msgs/Odometry` for each step of some length; the last ones are kept."""
+    """Arrows of a `nav_msgs/Odometry`, one per step of some length; the latest ones are kept."""
 
     message = "nav_msgs/Odometry"
     history = "Keep"
@@ -29,7 +29,7 @@ class Odometry(TopicDisplay, plugin="rviz/Odometry"):
     )
 
     def accept(self, heard: Heard, context: Context) -> bool:
-        """Whether it is far enough from the last one."""
+        """Return True if the pose is far enough from the last one."""
         del context
         found = heard.message
         if not np.isfinite(np.asarray(found.pose.covariance, dtype=float)).all():
@@ -43,7 +43,7 @@ class Odometry(TopicDisplay, plugin="rviz/Odometry"):
         return True
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """One arrow, and how uncertain it is."""
+        """Yield an arrow and its uncertainty."""
         del context
         found = heard.message.pose
         pose = heard.pose(found.pose)
@@ -52,6 +52,6 @@ class Odometry(TopicDisplay, plugin="rviz/Odometry"):
 
 
 def _turned(a: Rigid, b: Rigid) -> float:
-    """The angle between two orientations [rad]."""
+    """Return the angle between two orientations [rad]."""
     cosine = abs(sum(x * y for x, y in zip(a[3:], b[3:], strict=True)))
     return 2.0 * math.acos(min(cosine, 1.0))

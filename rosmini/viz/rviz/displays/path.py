@@ -1,4 +1,4 @@
-"""Path: the way that a planner chose, or that a robot went."""
+"""Path: the path that a planner chose or that a robot followed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _length(name: str, default: float) -> Property:
 
 
 class Path(TopicDisplay, plugin="rviz/Path"):
-    """A `nav_msgs/Path` as a line, with its poses if one wants them."""
+    """A `nav_msgs/Path` as a line, optionally with its poses."""
 
     message = "nav_msgs/Path"
     history = "Buffer Length"
@@ -39,7 +39,7 @@ class Path(TopicDisplay, plugin="rviz/Path"):
     )  # fmt: skip
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The line and the poses."""
+        """Yield the line and the poses."""
         del context
         poses = heard.message.poses
         if len(poses) > MOST_POSES:

@@ -1,4 +1,4 @@
-"""PointCloud: the older message, with a list of channels."""
+"""PointCloud: points in the older message, with a list of channels."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from rosmini.viz.rviz.topic_display import Heard
 
 
 class PointCloud(PointsDisplay, plugin="rviz/PointCloud"):
-    """A `sensor_msgs/PointCloud`; what is not finite is left out."""
+    """A `sensor_msgs/PointCloud`; points that are not finite are left out."""
 
     message = "sensor_msgs/PointCloud"
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The points."""
+        """Yield the points."""
         del context
         points, every = heard.message.points, -(-len(heard.message.points) // MOST_SHOWN) or 1
         xyz = np.array([(each.x, each.y, each.z) for each in points[::every]], dtype=float).reshape(-1, 3)

@@ -13,12 +13,12 @@ from rosmini.viz.rviz.topic_display import Heard
 
 
 class PointCloud2(PointsDisplay, plugin="rviz/PointCloud2"):
-    """A `sensor_msgs/PointCloud2`; what is not finite is left out."""
+    """A `sensor_msgs/PointCloud2`; points that are not finite are left out."""
 
     message = "sensor_msgs/PointCloud2"
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The points."""
+        """Yield the points."""
         del context
         local, channels = channels_of(read_cloud(heard.message))
         yield styled(heard.points(local), self, channels, local)

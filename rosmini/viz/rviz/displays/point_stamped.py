@@ -1,4 +1,4 @@
-"""PointStamped: a point, such as one that was clicked."""
+"""PointStamped: a point, such as one that a user clicked."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class PointStamped(TopicDisplay, plugin="rviz/PointStamped"):
     )
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """A ball."""
+        """Yield a ball."""
         del context
         pose = np.eye(4)
         pose[:3, 3] = heard.points([heard.message.point])[0]

@@ -21,6 +21,6 @@ class Polygon(TopicDisplay, plugin="rviz/Polygon"):
     )
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The line."""
+        """Yield the line."""
         del context
         yield outline(heard.points(heard.message.polygon.points), self["Color"].rgba(self["Alpha"]))

@@ -1,4 +1,4 @@
-"""Pose: one pose, such as the goal of the navigation."""
+"""Pose: a single pose, such as a navigation goal."""
 
 from __future__ import annotations
 
@@ -17,6 +17,6 @@ class Pose(TopicDisplay, plugin="rviz/Pose"):
     properties = pose_properties()
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The pose."""
+        """Yield the pose."""
         del context
         yield from pose_shape(heard.pose(heard.message.pose), self)

@@ -17,7 +17,7 @@ from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
 
 SHAPES = ("Arrow (Flat)", "Arrow (3D)", "Axes", "Arrow")
 MOST_FLAT, MOST_SOLID = 20_000, 500
-"""Poses drawn at most; of more, evenly many."""
+"""Maximum numbers of poses drawn; of more, an evenly spaced selection is drawn."""
 
 
 def _length(name: str, default: float) -> Property:
@@ -25,7 +25,7 @@ def _length(name: str, default: float) -> Property:
 
 
 class PoseArray(TopicDisplay, plugin="rviz/PoseArray"):
-    """A `geometry_msgs/PoseArray` as flat arrows, which are one primitive, or as arrows or axes."""
+    """A `geometry_msgs/PoseArray` as flat arrows, which form one primitive, or as 3D arrows or axes."""
 
     message = "geometry_msgs/PoseArray"
     properties = (
@@ -38,7 +38,7 @@ class PoseArray(TopicDisplay, plugin="rviz/PoseArray"):
     )  # fmt: skip
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The poses."""
+        """Yield the poses."""
         del context
         poses = heard.message.poses
         is_flat = self["Shape"] == "Arrow (Flat)"

@@ -1,4 +1,4 @@
-"""PoseWithCovariance: a pose and how uncertain it is, such as that of amcl."""
+"""PoseWithCovariance: a pose with its uncertainty, such as that of amcl."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class PoseWithCovariance(TopicDisplay, plugin="rviz/PoseWithCovariance"):
     properties = (*pose_properties(), *COVARIANCE_PROPERTIES)
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The pose, its ellipsoid, and the sector of its yaw."""
+        """Yield the pose, its ellipsoid, and the sector of its yaw."""
         del context
         found = heard.message.pose
         pose = heard.pose(found.pose)

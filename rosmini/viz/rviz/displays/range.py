@@ -1,4 +1,4 @@
-"""Range: what a distance sensor sees, as a cone (sonar, infrared)."""
+"""Range: the reading of a distance sensor (sonar, infrared), as a cone."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
 
 
 class Range(TopicDisplay, plugin="rviz/Range"):
-    """A `sensor_msgs/Range`: a cone from the sensor along its x, as long as the range is; without an echo none."""
+    """A `sensor_msgs/Range`: a cone from the sensor along its x axis, as long as the range; no cone without an echo."""
 
     message = "sensor_msgs/Range"
     history = "Buffer Length"
@@ -28,7 +28,7 @@ class Range(TopicDisplay, plugin="rviz/Range"):
     )
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The cone. A sensor that only detects (its least range is its greatest) says -inf where something is near."""
+        """Yield the cone. A sensor that only detects (minimum range = maximum range) reports -inf for a near object."""
         del context
         found = heard.message
         low, high, reach = float(found.min_range), float(found.max_range), float(found.range)

@@ -1,4 +1,4 @@
-"""RelativeHumidity: how humid it is: from 0 to 1."""
+"""RelativeHumidity: the relative humidity, from 0 to 1."""
 
 from __future__ import annotations
 

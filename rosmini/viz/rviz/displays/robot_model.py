@@ -1,4 +1,4 @@
-"""RobotModel: the robot as its URDF describes it, each link where tf says that it is."""
+"""RobotModel: the robot from its URDF, each link at its pose in tf."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ GREY = (0.6, 0.6, 0.6, 1.0)
 
 
 class RobotModel(Display, plugin="rviz/RobotModel"):
-    """The links of the robot in a parameter; it is read again when the parameter changed."""
+    """The links of the robot in a parameter; it is loaded again when the parameter changes."""
 
     properties = (
         Property("Robot Description", "robot_description", "the parameter with the URDF"),
@@ -42,11 +42,11 @@ class RobotModel(Display, plugin="rviz/RobotModel"):
         self._surfaces: dict[str, list[Surface]] = {}
 
     def reset(self) -> None:
-        """Read the robot again."""
+        """Load the robot again before the next drawing."""
         self._read = None
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """A mesh for each colour of each link."""
+        """Return a mesh for each colour of each link."""
         if not self._load(context):
             return []
         found: list[Primitive] = []
@@ -72,7 +72,7 @@ class RobotModel(Display, plugin="rviz/RobotModel"):
         return found
 
     def _load(self, context: Context) -> bool:
-        """Read the robot if it is another one; whether there is one."""
+        """Load the robot if its description changed; return True if there is something to draw."""
         name = self["Robot Description"]
         key = context.node.search_param(name)
         text = "" if key is None else str(context.node.get_param(key))

@@ -1,4 +1,4 @@
-"""Temperature: how warm it is: from 0 °C, where water freezes, to 100 °C."""
+"""Temperature: the temperature, from 0 °C, where water freezes, to 100 °C."""
 
 from __future__ import annotations
 

@@ -16,9 +16,9 @@ from rosmini.viz.rviz.properties import Property, Tree
 from rosmini.viz.rviz.shapes import axes
 
 LENGTH, RADIUS, LETTER = 0.2, 0.02, 0.1
-"""Of the axes, and of the letters of names [m], at scale 1."""
+"""Dimensions of the axes, and height of the letters of names [m], at scale 1."""
 SHAFT, HEAD = np.array([0.8, 0.8, 0.3, 1.0]), np.array([1.0, 0.1, 0.6, 1.0])
-"""The arrows' colours: yellow, with a pink end at the parent."""
+"""Colours of the arrows: yellow, with a pink end at the parent."""
 MOST_FRAMES = 2000
 
 
@@ -48,7 +48,7 @@ class TF(Display, plugin="rviz/TF"):
     )
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """The frames that can be brought to the fixed one; of the others the status says why."""
+        """Return the frames that have a transform to the fixed one; statuses explain why others are missing."""
         for each in self.statuses:
             self.clear_status(each.name)
         shown = [frame for frame in sorted(context.tree) if self._is_shown(frame)]
@@ -77,7 +77,7 @@ class TF(Display, plugin="rviz/TF"):
         return bool(frames.get("All Enabled", True) if value is None else value)
 
     def _is_dead(self, frame: str, context: Context) -> bool:
-        """Whether a frame is silent for too long; static frames and roots never are."""
+        """Return True if a frame has not been updated for too long; static frames and roots never time out."""
         edge = context.tree.edges.get(frame)
         if edge is None or edge.static:
             return False

@@ -37,7 +37,7 @@ class WrenchStamped(TopicDisplay, plugin="rviz/WrenchStamped"):
     )
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The two arrows."""
+        """Yield the two arrows."""
         del context
         wrench, place = heard.message.wrench, matrix(heard.place)
         for vector, name in ((wrench.force, "Force"), (wrench.torque, "Torque")):
@@ -54,7 +54,7 @@ class WrenchStamped(TopicDisplay, plugin="rviz/WrenchStamped"):
 
 
 def _turning(pose: Floats, length: float, width: float, colour: Any) -> Iterator[Primitive]:
-    """Seven eighths of a circle around the middle of an arrow along x of `pose`, and its head."""
+    """Yield seven eighths of a circle around the middle of an arrow along x of `pose`, with its arrowhead."""
     angles = np.arange(4, 33) * (math.tau / 32)
     radius = length / 4
     circle = np.column_stack(
