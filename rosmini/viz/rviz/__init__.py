@@ -1,6 +1,6 @@
 """RViz: a scene of displays, configured by a `.rviz` file, drawn in two and in three dimensions (http://wiki.ros.org/rviz).
 
-`Scene` holds displays and listens; `rviz` listens for some time and shows what there is.
+`Scene` contains displays and subscribes to topics; `rviz` listens for some time and shows the result.
 """
 
 from __future__ import annotations

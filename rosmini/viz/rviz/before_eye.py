@@ -1,4 +1,4 @@
-"""What an eye sees of primitives: with perspective, lines end where they pass it, and a map is drawn in rectangles."""
+"""Clip primitives to the region in front of the eye, for perspective drawing, and turn maps into rectangles."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from .primitives import Floats, Lines, Mesh, Pixels, Points, Primitive, Texture
 from .projection import Perspective
 
 NEAR = 0.05
-"""What is nearer to the eye is not drawn [m]."""
+"""Minimum distance from the eye at which things are drawn [m]."""
 STEPS = (16, 32, 64)
-"""Of colour channels, where a map has too many colours."""
+"""Steps to which colour channels are rounded if a map has too many colours."""
 
 
 def seen(primitive: Primitive, look: Perspective) -> Primitive:
-    """A primitive without what is behind the eye."""
+    """Return a primitive without the parts behind the eye."""
     if isinstance(primitive, Points):
         ahead = _away(primitive.points, look) > NEAR
         colours = primitive.colours if primitive.colours.ndim == 1 else primitive.colours[ahead]
@@ -36,12 +36,12 @@ def seen(primitive: Primitive, look: Perspective) -> Primitive:
 
 
 def _away(points: Floats, look: Perspective) -> Floats:
-    """How far ahead of the eye points (n, 3) are (n,) [m]."""
+    """Return the distance (n,) of points (n, 3) ahead of the eye [m]."""
     return -look.nearness(points)
 
 
 def _cut(lines: Lines, look: Perspective) -> Lines:
-    """Segments that end where they pass the eye."""
+    """Clip segments in front of the eye."""
     away = _away(lines.points, look)
     if not len(away) or away.min() > NEAR:
         return lines
@@ -60,7 +60,7 @@ def _cut(lines: Lines, look: Perspective) -> Lines:
 
 
 def rectangles(texture: Texture, look: Perspective, most: int) -> Iterator[tuple[Floats, list[Floats]]]:
-    """Each colour (4,) of a map, 0 to 1 and opaque, with the outlines (n, 2) [px] of where it is: at most so many."""
+    """Yield each colour (4,) of a map, 0 to 1 and opaque, with its outlines (n, 2) [px]: at most `most` of them."""
     outlines: dict[bytes, list[Floats]] = {}
     for pixels in _coarser(texture.pixels):
         outlines = _outlines(pixels, texture, look)
@@ -71,7 +71,7 @@ def rectangles(texture: Texture, look: Perspective, most: int) -> Iterator[tuple
 
 
 def _coarser(pixels: Pixels) -> Iterator[Pixels]:
-    """A map as it is, in fewer colours, and then with larger and larger cells."""
+    """Yield a map as it is, in fewer colours, and then with larger and larger cells."""
     yield pixels
     for step in STEPS:
         reduced = pixels.copy()
@@ -83,7 +83,7 @@ def _coarser(pixels: Pixels) -> Iterator[Pixels]:
 
 
 def _outlines(pixels: Pixels, texture: Texture, look: Perspective) -> dict[bytes, list[Floats]]:
-    """Where each colour is in the picture; what is out of it is left out."""
+    """Return the outlines of each colour within the picture."""
     cell = np.array(texture.size) / (pixels.shape[1], pixels.shape[0])
     outlines: dict[bytes, list[Floats]] = {}
     for x0, y0, x1, y1 in _rectangles(pixels):
@@ -101,7 +101,7 @@ def _outlines(pixels: Pixels, texture: Texture, look: Perspective) -> dict[bytes
 
 
 def _rectangles(pixels: Pixels) -> list[tuple[int, int, int, int]]:
-    """Rectangles of one colour (x0, y0, x1, y1) that cover what is seen: equal runs of rows that follow one another."""
+    """Return rectangles of one colour (x0, y0, x1, y1) that cover the visible cells, by joining equal runs of rows."""
     packed = np.ascontiguousarray(pixels).view(np.uint32)[..., 0]
     found: list[tuple[int, int, int, int]] = []
     growing: dict[tuple[int, int, int], int] = {}
@@ -115,13 +115,13 @@ def _rectangles(pixels: Pixels) -> list[tuple[int, int, int, int]]:
 
 
 def _runs(row: NDArray[np.uint32], alphas: NDArray[np.uint8]) -> list[tuple[int, int, int]]:
-    """Where cells of one colour begin and end, and the colour, but for clear ones."""
+    """Return start, end and colour of the runs of equal cells, without transparent ones."""
     edges = [0, *(np.flatnonzero(np.diff(row)) + 1).tolist(), len(row)]
     return [(x0, x1, int(row[x0])) for x0, x1 in pairwise(edges) if alphas[x0]]
 
 
 def _clipped(corners: Floats, away: Floats) -> Floats:
-    """A polygon (n, 3) cut where it passes the eye."""
+    """Clip a polygon (n, 3) in front of the eye."""
     if (away > NEAR).all():
         return corners
     kept: list[Floats] = []

@@ -1,4 +1,4 @@
-"""Images of cameras as RViz shows them: colours as they are, ranges from black to white."""
+"""Camera images as RViz shows them: colours unchanged, ranges from black to white."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from rosmini.viz.view import ViewError
 from .primitives import DisplayError, Floats, Pixels
 
 RANGED = ("32FC1", "16UC1", "16SC1", "mono16")
-"""Encodings whose least and greatest values are shown as black and white."""
+"""Encodings whose minimum and maximum are shown as black and white."""
 MOST_SIDE = 10_000
 MOST_PIXELS = 25_000_000
 MOST_SHOWN = 320 * 240
-"""Pixels of an image in a page; a larger one is made smaller by whole factors."""
+"""Maximum number of pixels of an image in a page; a larger one is reduced by an integer factor."""
 
 
 class PinHole(NamedTuple):
-    """A camera's projection: focal lengths and principal point [px], of an image of a size [px]."""
+    """The projection of a camera: focal lengths and principal point [px], and the size of the image [px]."""
 
     fx: float
     fy: float
@@ -31,10 +31,10 @@ class PinHole(NamedTuple):
     height: int
     tx: float = 0.0
     ty: float = 0.0
-    """The camera's place in its frame [m]: of a right camera beside the left one."""
+    """The camera's position in its frame [m]: not 0 for the right camera of a stereo pair."""
 
     def zoomed(self, factor: float) -> PinHole:
-        """The projection magnified around the middle of the image."""
+        """Return the projection magnified around the centre of the image."""
         middle = (
             (self.cx - self.width / 2) * factor + self.width / 2,
             (self.cy - self.height / 2) * factor + self.height / 2,
@@ -43,10 +43,10 @@ class PinHole(NamedTuple):
 
 
 def pin_hole(info: Any, width: int, height: int) -> PinHole:
-    """The projection of a `sensor_msgs/CameraInfo`, by its P; its size is the image's where it has none.
+    """Return the projection of a `sensor_msgs/CameraInfo` from its P; its size is that of the image if it has none.
 
     Raises:
-        DisplayError: it has numbers that are not finite, or no focal length.
+        DisplayError: it contains numbers that are not finite, or no focal length.
 
     """
     p = np.asarray(info.P, dtype=float).reshape(-1)
@@ -69,13 +69,13 @@ def pin_hole(info: Any, width: int, height: int) -> PinHole:
 
 
 def info_topic(image_topic: str) -> str:
-    """The topic of the `sensor_msgs/CameraInfo` that belongs to an image: `camera_info` beside it."""
+    """Return the topic of the `sensor_msgs/CameraInfo` of an image: `camera_info` in the same namespace."""
     above, slash, _ = image_topic.rpartition("/")
     return f"{above}{slash}camera_info"
 
 
 def check_image(message: Any) -> None:
-    """Raise `DisplayError` for an encoding that is not known, and for a size that no image has."""
+    """Raise `DisplayError` for an unknown encoding or an invalid size."""
     if message.encoding not in ENCODINGS:
         raise DisplayError(f"Unsupported image encoding [{message.encoding:.50}]")
     size = int(message.width) * int(message.height)
@@ -84,9 +84,9 @@ def check_image(message: Any) -> None:
 
 
 def image_range(message: Any) -> tuple[float, float] | None:
-    """The least and the greatest value of an image of ranges, 0 and 1 if it has none; None for one of colours.
+    """Return the minimum and maximum of an image of ranges (0 and 1 if it has none); None for an image of colours.
 
-    Raises `DisplayError` if its data do not fit its size.
+    Raises `DisplayError` if its data do not match its size.
     """
     if message.encoding not in RANGED:
         return None
@@ -96,9 +96,9 @@ def image_range(message: Any) -> tuple[float, float] | None:
 
 
 def image_pixels(message: Any, bounds: tuple[float, float] = (0.0, 1.0)) -> Pixels:
-    """The pixels (h, w, 3) of a `sensor_msgs/Image`; values of one of ranges go from black to white between `bounds`.
+    """Return the pixels (h, w, 3) of a `sensor_msgs/Image`; ranges go from black to white between `bounds`.
 
-    Raises `DisplayError` if its data do not fit its size.
+    Raises `DisplayError` if its data do not match its size.
     """
     check_image(message)
     if message.encoding not in RANGED:
@@ -113,7 +113,7 @@ def image_pixels(message: Any, bounds: tuple[float, float] = (0.0, 1.0)) -> Pixe
 
 
 def depths(message: Any) -> Floats:
-    """The depths (h, w) [m] of a `sensor_msgs/Image`, nan for none. Raises `DisplayError` if it has none."""
+    """Return the depths (h, w) [m] of a `sensor_msgs/Image`, nan for none. Raises `DisplayError` if it has none."""
     check_image(message)
     if ENCODINGS[message.encoding].order:
         raise DisplayError(
@@ -126,7 +126,7 @@ def depths(message: Any) -> Floats:
 
 
 def thinned_image(pixels: Pixels) -> Pixels:
-    """Pixels (h, w, 3) as means of squares of them, so that there are at most `MOST_SHOWN`."""
+    """Return the means of square blocks of pixels (h, w, 3), so that there are at most `MOST_SHOWN` pixels."""
     height, width = pixels.shape[:2]
     factor = max(1, math.ceil(math.sqrt(height * width / MOST_SHOWN)))
     while factor > 1 and (height // factor) * (width // factor) == 0:
@@ -140,7 +140,7 @@ def thinned_image(pixels: Pixels) -> Pixels:
 
 
 def resized(pixels: Pixels, width: int, height: int, zoom: float = 1.0) -> Pixels:
-    """Pixels (h, w, 3) in another size, magnified around the middle; black beyond the image."""
+    """Return pixels (h, w, 3) in another size, magnified around the centre; black outside the image."""
     rows = np.floor(((np.arange(height) + 0.5) / height - 0.5) / zoom * len(pixels) + len(pixels) / 2)
     columns = np.floor(
         ((np.arange(width) + 0.5) / width - 0.5) / zoom * pixels.shape[1] + pixels.shape[1] / 2

@@ -1,4 +1,4 @@
-"""Point clouds as arrays: what `sensor_msgs/PointCloud2` and `PointCloud` have of each point, by name."""
+"""Point clouds as arrays: the fields of `sensor_msgs/PointCloud2` and `PointCloud` for each point, by name."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .primitives import DisplayError, Floats
 
 MOST_BYTES = 1 << 30
 MOST_SHOWN = 1_000_000
-"""Of a cloud with more points only every second, third ... is shown."""
+"""Maximum number of points; of larger clouds only every second, third ... point is shown."""
 
 _TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 _FLOAT, _INTS = "f4", ("i4", "u4")
@@ -19,10 +19,10 @@ _PACKED = ("rgb", "rgba")
 
 
 def read_cloud(cloud: Any) -> dict[str, NDArray[Any]]:
-    """The fields of a `sensor_msgs/PointCloud2`, each (n,) in its own type; points are row by row.
+    """Return the fields of a `sensor_msgs/PointCloud2`, each (n,) in its own type; points are row by row.
 
     Raises:
-        DisplayError: the sizes do not fit the data, a field is outside of its point or of an unknown type.
+        DisplayError: the sizes do not match the data, or a field lies outside its point or has an unknown type.
 
     """
     width, height, step = int(cloud.width), int(cloud.height), int(cloud.point_step)
@@ -52,9 +52,9 @@ def read_cloud(cloud: Any) -> dict[str, NDArray[Any]]:
 
 
 def channels_of(fields: dict[str, NDArray[Any]]) -> tuple[Floats, dict[str, Floats]]:
-    """Points (n, 3) and their channels (n,) by name, `rgb` (n, 3) from 0 to 1, of what `read_cloud` found.
+    """Return points (n, 3) and their channels (n,) by name, with `rgb` (n, 3) from 0 to 1, from `read_cloud`'s result.
 
-    Points that are not finite are left out. Raises `DisplayError` if there are no x, y and z.
+    Points that are not finite are left out. Raises `DisplayError` if x, y or z is missing.
     """
     if not {"x", "y", "z"} <= fields.keys():
         raise DisplayError(f"No position transformer available for cloud: its fields are {_listed(fields)}")
@@ -73,7 +73,7 @@ def channels_of(fields: dict[str, NDArray[Any]]) -> tuple[Floats, dict[str, Floa
 
 
 def unpacked(values: NDArray[Any]) -> Floats:
-    """Red, green and blue (n, 3) from 0 to 1 of packed colours (n,): the bytes of a float or of an integer."""
+    """Unpack colours (n,), the bytes of a float or an integer, to red, green and blue (n, 3) from 0 to 1."""
     native = values.astype(values.dtype.newbyteorder("="))
     if native.dtype.str[1:] not in (_FLOAT, *_INTS):
         raise DisplayError(f"packed colours are 4 bytes, a float or an integer, not {native.dtype}")

@@ -1,7 +1,7 @@
-"""Files of the real RViz, `.rviz`: read with care, and written so that the real one loads them.
+"""Configuration files of the real RViz, `.rviz`: validated when read, and written so that RViz can load them.
 
-A file is YAML with three parts, `Panels`, `Visualization Manager` and `Window Geometry`. What is not known here
-(displays of other packages, panels, properties) is named in one warning and kept for when the file is written again.
+A file is YAML with three parts, `Panels`, `Visualization Manager` and `Window Geometry`. Unknown content (displays of
+other packages, panels, properties) is listed in one warning and preserved when the file is written again.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .properties import Colour, Properties, Property
 
 MOST_BYTES = 4_000_000
 DEEPEST = 40
-"""How deep mappings and lists may be nested."""
+"""Maximum nesting depth of mappings and lists."""
 
 MANAGER = "Visualization Manager"
 
@@ -72,22 +72,22 @@ _NEW: dict[str, Any] = {
 
 
 class ConfigError(ViewError):
-    """A file is no configuration of RViz."""
+    """A file is not a configuration of RViz."""
 
 
 @dataclass
 class Config:
-    """What a file has, as plain data: `tree` is all of it."""
+    """The contents of a file as plain data: `tree` is all of it."""
 
     tree: dict[str, Any] = field(default_factory=lambda: deepcopy(_NEW))
     source: str = "a new configuration"
 
     @classmethod
     def read(cls, path: str | Path) -> Config:
-        """Read a file, given by its path or its address ``package://NAME/PATH``.
+        """Read a file, given by its path or a URL ``package://NAME/PATH``.
 
         Raises:
-            ConfigError: it cannot be read, is no YAML, is too large, or is no configuration of RViz.
+            ConfigError: it cannot be read, is not YAML, is too large, or is not a configuration of RViz.
 
         """
         try:
@@ -114,12 +114,12 @@ class Config:
 
     @property
     def manager(self) -> dict[str, Any]:
-        """The part about displays, options, tools and views."""
+        """The part with displays, options, tools and views."""
         found: dict[str, Any] = self.tree[MANAGER]
         return found
 
     def mappings(self, part: str) -> list[dict[str, Any]]:
-        """The mappings in a list of the manager: its `Displays` or `Tools`. What is none is left out."""
+        """Return the mappings in a list of the manager, its `Displays` or `Tools`; other items are left out."""
         return _mappings(self.manager.get(part))
 
     @property
@@ -128,7 +128,7 @@ class Config:
         return _mappings(self.tree.get("Panels"))
 
     def mapping(self, *path: str) -> dict[str, Any]:
-        """A mapping inside the manager; empty where there is none."""
+        """Return a mapping inside the manager; empty if it does not exist."""
         node: Any = self.manager
         for part in path:
             node = node.get(part) if isinstance(node, dict) else None
@@ -139,7 +139,7 @@ class Config:
         return Properties(OPTIONS, self.mapping("Global Options"))
 
     def strangers(self) -> list[str]:
-        """The classes of panels and tools that are not known here."""
+        """Return the classes of panels and tools that are unknown here."""
         kinds: list[tuple[str, tuple[str, ...], str]] = [
             (kind_of(each), PANELS, "panel") for each in self.panels
         ]
@@ -153,7 +153,7 @@ class Config:
     def with_parts(
         self, displays: Iterable[dict[str, Any]], options: Properties, view: dict[str, Any] | None
     ) -> Config:
-        """The same with other displays, options and, if there is one, view."""
+        """Return a copy with other displays, options and, if given, another view."""
         tree = deepcopy(self.tree)
         manager = tree[MANAGER]
         manager["Displays"] = list(displays)
@@ -164,7 +164,7 @@ class Config:
         return Config(tree, self.source)
 
     def text(self) -> str:
-        """The file: keys in alphabetical order, as the real RViz writes them."""
+        """Return the text of the file: keys in alphabetical order, as the real RViz writes them."""
         import yaml
 
         return str(yaml.safe_dump(_plain(self.tree), sort_keys=True, width=10_000, allow_unicode=True))
@@ -179,7 +179,7 @@ class Config:
 
 
 def kind_of(tree: dict[str, Any]) -> str:
-    """The class that a part of a file names."""
+    """Return the class that a part of a file names."""
     return str(tree.get("Class", ""))
 
 
@@ -204,7 +204,7 @@ def _depth(value: Any) -> int:
 
 
 def _plain(value: Any) -> Any:
-    """Data that YAML writes without tags; keys are text, so that they can be sorted."""
+    """Return data that YAML writes without tags; keys are text, so that they can be sorted."""
     if isinstance(value, dict):
         return {str(key): _plain(each) for key, each in value.items()}
     if isinstance(value, list | tuple):

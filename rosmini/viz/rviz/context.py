@@ -1,4 +1,4 @@
-"""What displays are given of the graph: time, frames, the fixed frame, and a node that only listens."""
+"""The graph as displays see it: time, frames, the fixed frame, and a node that only subscribes."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ if TYPE_CHECKING:
     from rosmini.core.tf import FrameTree
 
 TF_CACHE_S = 600.0
-"""How much of the past RViz keeps of tf [s]."""
+"""Duration of tf's past that RViz stores [s]."""
 FIXED_FRAME = "<Fixed Frame>"
-"""What properties that name a frame have for the fixed one."""
+"""The fixed frame, as the value of a property that names a frame."""
 
 
 class Silence(NamedTuple):
-    """Why nothing comes on a topic: words, and whether waiting would help."""
+    """The reason why no message arrives on a topic, and whether waiting would be pointless."""
 
     text: str
     hopeless: bool = False
 
 
 class Context:
-    """The graph as displays see it; `fixed_frame` is the frame in which all is drawn."""
+    """The graph as displays see it; `fixed_frame` is the frame in which everything is drawn."""
 
     def __init__(self, node: Node, fixed_frame: str) -> None:
         self.node = node
@@ -38,7 +38,7 @@ class Context:
 
     @property
     def tree(self) -> FrameTree:
-        """The frames that tf told of."""
+        """The frames known from tf."""
         return self.buffer.tree
 
     @property
@@ -47,13 +47,13 @@ class Context:
         return self.node.clock.now_ns()
 
     def refresh(self) -> None:
-        """Forget what the Master said: the next question asks again."""
+        """Discard the Master's answers, so that the next question asks again."""
         self._types = None
 
     def place(self, frame: str, stamp_ns: int = 0) -> Rigid:
-        """Where a frame is in the fixed frame at a time [ns]; 0 is the latest that is known.
+        """Return the pose of a frame in the fixed frame at a time [ns]; 0 means the latest known.
 
-        Raises `TransformException` if that is not known.
+        Raises `TransformException` if it is unknown.
         """
         frame = self.fixed_frame if frame == FIXED_FRAME else frame.lstrip("/")
         if frame == self.fixed_frame:
@@ -61,7 +61,7 @@ class Context:
         return self.tree.lookup(self.fixed_frame, frame, stamp_ns).transform
 
     def knows(self, frame: str) -> bool:
-        """Whether tf told of a frame and of the fixed one; where it did not, to look a way up would be in vain."""
+        """Return True if tf has a frame and the fixed frame; otherwise a lookup would fail."""
         name = frame.lstrip("/")
         return (
             frame == FIXED_FRAME
@@ -70,14 +70,14 @@ class Context:
         )
 
     def is_past(self, frame: str, stamp_ns: int) -> bool:
-        """Whether a transform is missing because it is too long ago to come any more."""
+        """Return True if a transform is missing because its time is too long ago for it to arrive any more."""
         try:
             return 0 < stamp_ns < self.tree.latest_common_time(self.fixed_frame, frame.lstrip("/"))
         except TransformException:
             return False
 
     def problem(self, frame: str, error: TransformException | None = None) -> str:
-        """What RViz says where a frame cannot be brought to the fixed one."""
+        """Return RViz's message for a frame that cannot be transformed to the fixed frame."""
         name = frame.lstrip("/")
         if self.fixed_frame not in self.tree:
             reason = f"Fixed Frame [{self.fixed_frame}] does not exist"
@@ -93,7 +93,7 @@ class Context:
         return f"For frame [{name}]: {reason}"
 
     def silence(self, topic: str, kind: str) -> Silence:
-        """Why no message of a type came on a topic, as far as the Master knows."""
+        """Return the reason why no message of a type arrived on a topic, as far as the Master knows."""
         if self._types is None:
             try:
                 master = self.node.graph.ask_as(self.node.name)
@@ -114,9 +114,9 @@ class Context:
     def subscribe(
         self, topic: str, kind: str, callback: Callable[[Any], object], queue_size: int | None
     ) -> Callable[[], None]:
-        """Call `callback` for each message on a topic; what is returned ends that.
+        """Call `callback` for each message on a topic, until the returned function is called.
 
-        Raises as `Node.subscriber` does.
+        Raises the errors of `Node.subscriber`.
         """
         from rosmini.msgs import message_class
 

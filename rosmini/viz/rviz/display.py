@@ -1,4 +1,4 @@
-"""Displays: each turns messages and frames into primitives, and says how it is doing (http://wiki.ros.org/rviz/DisplayTypes).
+"""Displays: each turns messages into primitives and reports its status (http://wiki.ros.org/rviz/DisplayTypes).
 
 A display of a topic names its message class, declares its properties, and draws a message:
 
@@ -9,7 +9,7 @@ A display of a topic names its message class, declares its properties, and draws
         def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
             yield sphere(heard.points([heard.message.point]), self["Radius"], self["Color"].rgba(self["Alpha"]))
 
-What it raises becomes its status; the scene goes on. Displays are plugins by the names of RViz (`rosmini.plugins`).
+An exception becomes its status, and the scene continues. Displays are plugins under RViz's names (`rosmini.plugins`).
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from .properties import Properties, Property
 __all__ = ["Context", "Display", "DisplayError", "Level", "Status"]
 
 Shown = tuple[str, tuple[Primitive, ...]]
-"""The name of a display, and what it draws."""
+"""The name of a display, and its primitives."""
 RESERVED = ("Class", "Name", "Enabled", "Value")
-"""What a file has of each display beside its properties."""
+"""Keys of each display in a file that are not properties."""
 
 
 class Level(enum.IntEnum):
-    """How bad a status is; the value is RViz's."""
+    """Severity of a status; the values are RViz's."""
 
     OK = 0
     WARN = 1
@@ -63,13 +63,13 @@ class Display(Plugin, ABC):
     """The base of all displays.
 
     Args:
-        name: what the list of displays calls it; its class's name by default.
+        name: its name in the list of displays; the name of its class by default.
         tree: its part of a `.rviz` file.
 
     """
 
     properties: ClassVar[tuple[Property, ...]] = ()
-    """What can be set. Those of the base classes come first, unless a class declares one of that name itself."""
+    """Properties that can be set, after those of base classes; declaring a property again overrides it."""
 
     def __init__(self, name: str = "", tree: Mapping[str, Any] | None = None) -> None:
         tree = tree or {}
@@ -80,7 +80,7 @@ class Display(Plugin, ABC):
         self._running: Context | None = None
         self._subscriptions: list[Callable[[], None]] = []
         self.version = 0
-        """Counts the changes of properties: what was drawn before is obsolete."""
+        """Incremented when a property changes, because earlier drawings are then obsolete."""
 
     @classmethod
     def declared(cls) -> tuple[Property, ...]:
@@ -90,33 +90,33 @@ class Display(Plugin, ABC):
             found.update({each.name: each for each in base.__dict__.get("properties", ())})
         return tuple(found.values())
 
-    # -- what a display says and does: to be overridden ----------------------------------------------------------
+    # -- to be overridden ----------------------------------------------------------------------------------------
 
     @abstractmethod
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """What there is to draw now, in the fixed frame. May raise `DisplayError`, which becomes a status."""
+        """Return the primitives to draw now, in the fixed frame. May raise `DisplayError`, which becomes a status."""
 
     def panes(self, _context: Context, _shown: Sequence[Shown] = ()) -> Iterable[Pane]:
-        """Pictures beside the scene: images of cameras, plots; `_shown` is what the other displays draw."""
+        """Return pictures beside the scene, such as camera images; `_shown` contains the other displays' primitives."""
         return ()
 
     def start(self, context: Context) -> None:
-        """Begin: the display was switched on. Subscribe here, through `listen`."""
+        """Start, when the display is switched on. Subscribe here, through `listen`."""
 
     def reset(self) -> None:
-        """Forget what was received: time jumped back, or the fixed frame is another."""
+        """Discard received messages: time jumped back, or the fixed frame changed."""
 
     def update(self, context: Context) -> None:
-        """Do what is to be done before drawing, for instance with messages that waited for a transform."""
+        """Do work before drawing, for instance on messages that waited for a transform."""
 
     # -- properties ----------------------------------------------------------------------------------------------
 
     def __getitem__(self, name: str) -> Any:
-        """The value of a property, by its name as in RViz or its path, `Line Style/Line Width`."""
+        """Return the value of a property, by its name in RViz or its path, `Line Style/Line Width`."""
         return self._values[name]
 
     def __setitem__(self, name: str, value: Any) -> None:
-        """Set a property. Raises `DisplayError` if there is none of that name, or the value is of another type."""
+        """Set a property. Raises `DisplayError` if it does not exist, or the value has another type."""
         self._values[name] = value
         self.version += 1
         self.changed(name)
@@ -125,19 +125,19 @@ class Display(Plugin, ABC):
         return name in self._values
 
     def changed(self, name: str) -> None:
-        """Learn that a property was set; what was drawn before is obsolete anyhow."""
+        """React to a change of a property; earlier drawings are obsolete in any case."""
 
     @property
     def wrong(self) -> list[str]:
-        """What its part of a file had and could not be taken, in words."""
+        """Errors in its part of a file, in words."""
         return self._values.wrong
 
     def unknown(self) -> list[str]:
-        """The properties of its part of a file that nobody declares; they are kept."""
+        """Return the undeclared properties in its part of a file; they are preserved."""
         return self._values.unknown(RESERVED)
 
     def tree(self) -> dict[str, Any]:
-        """Its part of a `.rviz` file."""
+        """Return its part of a `.rviz` file."""
         kept = self._values.tree()
         return {
             **kept,
@@ -151,7 +151,7 @@ class Display(Plugin, ABC):
 
     @property
     def enabled(self) -> bool:
-        """Whether it is switched on."""
+        """True if it is switched on."""
         return self._enabled
 
     @enabled.setter
@@ -161,22 +161,22 @@ class Display(Plugin, ABC):
 
     @property
     def is_running(self) -> bool:
-        """Whether it is switched on and part of a scene that goes on."""
+        """True if it is switched on and part of a running scene."""
         return self._running is not None
 
     def attach(self, context: Context) -> None:
-        """Become a part of a scene. For the scene only."""
+        """Add the display to a scene. Only scenes call this."""
         self.detach()
         if self.enabled:
             self._running = context
             try:
                 self.start(context)
-            except Exception as error:  # the scene stands, whatever one display does
+            except Exception as error:  # an error in one display must not stop the scene
                 self.fail("Start", error)
         self._context = context
 
     def detach(self) -> None:
-        """Leave the graph: nothing is subscribed to any more, and what was received is forgotten."""
+        """Leave the graph: cancel all subscriptions and discard received messages."""
         for end in self._subscriptions:
             end()
         self._subscriptions.clear()
@@ -187,7 +187,7 @@ class Display(Plugin, ABC):
     _context: Context | None = None
 
     def restart(self) -> None:
-        """Begin again with the present properties, if the display is part of a scene."""
+        """Restart with the current properties, if the display is part of a scene."""
         if self._context is not None:
             self._context.refresh()
             self.attach(self._context)
@@ -200,14 +200,14 @@ class Display(Plugin, ABC):
         callback: Callable[[Any], object],
         queue_size: int | None = None,
     ) -> None:
-        """Subscribe for as long as the display is switched on. Raises as `Node.subscriber` does."""
+        """Subscribe while the display is switched on. Raises the errors of `Node.subscriber`."""
         self._subscriptions.append(context.subscribe(topic, kind, callback, queue_size))
 
     # -- status --------------------------------------------------------------------------------------------------
 
     @property
     def statuses(self) -> tuple[Status, ...]:
-        """How it is doing, line by line."""
+        """Its status, line by line."""
         return tuple(self._statuses.values())
 
     @property
@@ -216,15 +216,15 @@ class Display(Plugin, ABC):
         return max((each.level for each in self._statuses.values()), default=Level.OK)
 
     def set_status(self, level: Level, name: str, text: str) -> None:
-        """Say how one thing is doing."""
+        """Set the status of one item."""
         self._statuses[name] = Status(level, name, text)
 
     def clear_status(self, name: str) -> None:
-        """Say no more about one thing."""
+        """Remove the status of one item."""
         self._statuses.pop(name, None)
 
     def fail(self, name: str, error: Exception) -> None:
-        """Make an error one of the statuses."""
+        """Turn an error into a status."""
         said = str(error).partition("\n")[0]
         self.set_status(
             Level.ERROR, name, said if isinstance(error, DisplayError) else f"{type(error).__name__}: {said}"
@@ -232,7 +232,7 @@ class Display(Plugin, ABC):
 
 
 class FailedDisplay(Display):
-    """Stands in for a display of a class that is not known here: it draws nothing, and its part of a file is kept."""
+    """Replaces a display of an unknown class: it draws nothing, and its part of a file is preserved."""
 
     def __init__(self, kind: str, tree: Mapping[str, Any], reason: str = "") -> None:
         super().__init__(str(tree.get("Name", "")) or kind.rpartition("/")[2], tree)
@@ -240,18 +240,18 @@ class FailedDisplay(Display):
         self._reason = f" {reason}" if reason else ""
 
     def start(self, _context: Context) -> None:
-        """Say why nothing is shown."""
+        """Report why nothing is shown."""
         text = f"The class required for this display, '{self.kind}', could not be loaded.{self._reason}"
         self.set_status(Level.ERROR, "Class", text)
 
     def primitives(self, _context: Context) -> Iterable[Primitive]:
-        """Nothing."""
+        """Return nothing."""
         return ()
 
     def unknown(self) -> list[str]:
-        """Nothing: all of it is unknown, and its class was named."""
+        """Return nothing: all of it is unknown, and its class is reported."""
         return []
 
     def tree(self) -> dict[str, Any]:
-        """What the file had."""
+        """Return the part of the file."""
         return {**super().tree(), "Class": self.kind}

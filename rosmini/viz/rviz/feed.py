@@ -1,4 +1,4 @@
-"""What a page that shows a scene in three dimensions has to be told: the primitives that are new."""
+"""Updates for a page that shows a scene in three dimensions: only new or changed primitives are sent."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from .primitives import Lines, Mesh, Points, Primitive, Text, Texture
 from .solid import Drawing, RvizScene
 
 DISTANCE = 8.0
-"""Of a camera for which lights are set, and points drawn that have a size in pixels [m]."""
+"""Distance of the camera for which lights are set, and for which points with a size in pixels are drawn [m]."""
 
 
 class Feed:
-    """Commands for meshcat's viewer that bring a page from the scene it shows to the present one.
+    """Commands for meshcat's viewer that update a page from the scene it shows to the current one.
 
-    What only moved is sent as its pose, and what did not change not at all.
+    A primitive that only moved is sent as its pose, and an unchanged one is not sent.
     """
 
     def __init__(self) -> None:
         self._begin()
 
     def _begin(self) -> None:
-        """Have told nothing; the first commands are those for lights and stage."""
+        """Start from an empty page; the first commands set up lights and stage."""
         self._has: dict[str, Primitive] = {}
         self._drawing = Drawing(RvizScene(Camera((0.0, 0.0, 0.0), DISTANCE)))
-        # The page has a camera, which it turns by itself; another one would be out of its hands.
+        # The page has its own camera, which the user moves; commands must not override it.
         recorder = self._drawing.scene.recorder
         recorder.commands = [each for each in recorder.commands if b"/Cameras/" not in each]
 
     def news(self, drawn: Iterable[tuple[str, Iterable[Primitive]]], *, whole: bool = False) -> list[bytes]:
-        """Return the commands for what displays draw, each under a path of its own; `whole` for a page with nothing."""
+        """Return the commands for displays' primitives, each under its own path; `whole` starts with an empty page."""
         if whole:
             self._begin()
         found: dict[str, Primitive] = {}
@@ -52,7 +52,7 @@ class Feed:
         return self._drawing.scene.recorder.take()
 
     def _put(self, primitive: Primitive, path: str, maps: int) -> bool:
-        """Send what differs; return whether there is anything of it to be seen."""
+        """Send the difference; return True if any of it is visible."""
         before = self._has.get(path)
         if before is not None and same_shape(before, primitive):
             if isinstance(primitive, Mesh | Texture) and _moved(before, primitive):
@@ -65,12 +65,12 @@ class Feed:
 
 
 def texts(drawn: Iterable[Primitive]) -> list[Text]:
-    """The words among primitives, so many as a page shows."""
+    """Return the texts among primitives, as many as a page shows."""
     return [each for each in drawn if isinstance(each, Text)][:MOST]
 
 
 def same_shape(one: Primitive, other: Primitive) -> bool:
-    """Whether two primitives differ in nothing but where they are."""
+    """Return True if two primitives differ only in their pose."""
     match one, other:
         case Mesh(), Mesh():
             return one.lit == other.lit and _same(one, other, "vertices", "faces", "colours")

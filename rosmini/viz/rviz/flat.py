@@ -1,7 +1,7 @@
-"""Scenes as SVG: from above, or from the side that a view looks from.
+"""Scenes as SVG: from above, or in the perspective of a view.
 
-Colours are RViz's, on its background, on light pages and on dark ones: that is how its users know them. All numbers are
-rounded, so the same scene gives the same bytes on every machine.
+Colours are RViz's, on its background, both on light and on dark pages, because its users know them so. All numbers
+are rounded, so that the same scene gives the same bytes on every machine.
 """
 
 from __future__ import annotations
@@ -27,23 +27,23 @@ from .properties import Colour
 
 KIND = "rosmini-rviz"
 LEAST_DOT, LEAST_LINE = 1.8, 1.0
-"""Points and lines are never drawn smaller [px]."""
+"""Minimum size of points and minimum width of lines [px]."""
 MOST_DOTS = 8000
-"""Points of one display in a picture: of points on nearly the same pixel one is drawn."""
+"""Maximum number of points of a display in a picture: of several points on nearly the same pixel one is drawn."""
 MOST_RECTANGLES = 450
-"""Of a map with perspective; of one with more, colours and then cells are joined."""
+"""Maximum number of rectangles of a map in perspective; above this, colours and then cells are joined."""
 MANY_FACES = 80
-"""A mesh with more faces is drawn as its outline from this side."""
+"""A mesh with more faces than this is drawn as its outline from this side."""
 MOST_FACES = 600
-"""Faces of one mesh in a picture; smaller ones are dots."""
+"""Maximum number of faces of a mesh in a picture; smaller ones become dots."""
 GAP, HIGHEST_PANE = 12.0, 300.0
-"""Between panes, and of their pictures [px]."""
+"""Gap between panes, and maximum height of their pictures [px]."""
 OPAQUE = 0.99
 MOST_COLOURS = 300
 LEVELS = 32
-"""Steps of each colour channel."""
+"""Number of steps of each colour channel."""
 GROUND = 0.01
-"""What is no higher than this lies on the ground [m]."""
+"""Maximum height of things that lie on the ground [m]."""
 SUN = np.array([0.25, -0.42, 0.87])
 
 
@@ -56,7 +56,7 @@ def draw(
     alt: str,
     panes: Sequence[Pane] = (),
 ) -> str:
-    """Primitives as an SVG: textures first, the rest from far to near, words last; panes in rows below."""
+    """Draw primitives as an SVG: textures first, the rest from far to near, texts last; panes in rows below."""
     if isinstance(look, Perspective):
         shown = [seen(each, look) for each in shown]
     behind = [each for each in shown if isinstance(each, Texture) and each.behind]
@@ -87,7 +87,7 @@ def draw(
 
 
 def _panes(panes: Sequence[Pane], width: float, top: float) -> tuple[str, float]:
-    """Panes side by side under a picture, two in a row, each with its title above; and how high all is then."""
+    """Return panes below a picture, two in a row, each with its title above, and the total height."""
     parts: list[str] = []
     wide = (width - GAP) / 2 if len(panes) > 1 else width
     for start in range(0, len(panes), 2):
@@ -127,7 +127,7 @@ def _drawn(primitive: Primitive, look: Look) -> Iterator[str]:
 
 
 def _joined(shown: Sequence[Primitive]) -> Iterator[Primitive]:
-    """Primitives in order; points that are drawn alike and follow one another, such as old scans, as one."""
+    """Yield primitives in order; consecutive points of the same style, such as old scans, are joined."""
     for alike, group in groupby(
         shown, key=lambda each: (each.style, each.size) if isinstance(each, Points) else None
     ):
@@ -142,18 +142,18 @@ def _joined(shown: Sequence[Primitive]) -> Iterator[Primitive]:
 
 
 def _of(primitive: Primitive) -> Floats:
-    """Its points (n, 3)."""
+    """Return its points (n, 3)."""
     return primitive.placed if isinstance(primitive, Mesh) else getattr(primitive, "points", np.empty((0, 3)))
 
 
 def _is_raised(primitive: Primitive) -> bool:
-    """Whether it is not wholly on the ground, which is behind all else."""
+    """Return False if it lies entirely on the ground, behind everything else."""
     points = _of(primitive)
     return bool(len(points) and snap(points[:, 2].max()) > GROUND)
 
 
 def _nearest(primitive: Primitive, look: Look) -> float:
-    """How near its nearest point is."""
+    """Return the nearness of its nearest point."""
     points = _of(primitive)
     return float(look.nearness(points).max()) if len(points) else -np.inf
 
@@ -170,7 +170,7 @@ def _texture(texture: Texture, look: Look) -> Iterator[str]:
     data, opacity = gif(texture.pixels)
     if not opacity:
         return
-    # Smaller than a pixel, cells are mixed: of those that are left out one may be a wall.
+    # Cells smaller than a pixel are blended, because a cell that is left out may be a wall.
     is_large = np.abs(right - origin).max() >= texture.pixels.shape[1]
     rendering = "image-rendering:pixelated" if is_large else None
     a, b, c, d = (f"{value:.6g}" for value in (*(right - origin), *(up - origin)))
@@ -195,7 +195,7 @@ def _points(points: Points, look: Look) -> Iterator[str]:
 
 
 def _thinned(flat: Floats, colours: Floats, width: float) -> tuple[Floats, Floats]:
-    """One of the points that fall on the same pixel, or on the same few pixels if there are still too many.
+    """Keep one of the points on the same pixel, or on the same few pixels if there are still too many.
 
     Wide points are thinned to a third of their width.
     """
@@ -205,7 +205,7 @@ def _thinned(flat: Floats, colours: Floats, width: float) -> tuple[Floats, Float
 
 
 def _first(flat: Floats, quantum: float) -> Ints:
-    """The first of the rows (n, 2 or 4) in each cell of `quantum` pixels, or of larger ones if there are too many."""
+    """Return the first of the rows (n, 2 or 4) in each cell of `quantum` pixels; cells grow if there are too many."""
     kept = np.arange(len(flat))
     while True:
         cells = np.clip(np.floor(flat[kept] / quantum), -(2**15), 2**15 - 1).astype(np.int64)
@@ -238,7 +238,7 @@ def _lines(lines: Lines, look: Look) -> Iterator[str]:
 
 
 def _smoothed(flat: Floats) -> Floats:
-    """A line without the points that are nearly where the one before is, the last one kept."""
+    """Return a line without the points that nearly coincide with their predecessor, keeping the last one."""
     new = np.ones(len(flat), dtype=bool)
     new[1:] = (np.abs(np.diff(flat, axis=0)) >= 0.1).any(axis=1)
     flat = flat[new]
@@ -274,7 +274,7 @@ def _mesh(mesh: Mesh, look: Look) -> Iterator[str]:
     order = seen[np.argsort(look.nearness(triangles[seen].mean(axis=1)), kind="stable")]
     light = np.ones(len(order))
     see_through = mesh.colours.ndim == 1 and mesh.colours[3] < OPAQUE
-    if mesh.lit and not see_through:  # else edges would be seen where faces overlap
+    if mesh.lit and not see_through:  # otherwise edges would be visible where faces overlap
         light = 0.7 + 0.3 * np.clip(matrix_product(normals[order], SUN) / sizes[order], 0.0, 1.0)
     colours = (
         mesh.colours[order] if mesh.colours.ndim == 2 else np.tile(mesh.colours, (len(order), 1))
@@ -291,7 +291,7 @@ def _mesh(mesh: Mesh, look: Look) -> Iterator[str]:
 
 
 def _largest(triangles: Floats, seen: Ints, look: Look) -> tuple[Ints, Ints]:
-    """Of the faces `seen`, the `MOST_FACES` that are largest in the picture, and the others, both in order."""
+    """Return the `MOST_FACES` of the faces `seen` that are largest in the picture, and the others, both in order."""
     flat = look.pixels(triangles[seen].reshape(-1, 3)).reshape(-1, 3, 2)
     sizes = np.ptp(flat, axis=1).sum(axis=1)
     by_size = np.argsort(-sizes, kind="stable")
@@ -299,13 +299,13 @@ def _largest(triangles: Floats, seen: Ints, look: Look) -> tuple[Ints, Ints]:
 
 
 def _steps(colours: Floats, count: int) -> Floats:
-    """Colours (count, 4) in few steps, so that alike ones share a path."""
+    """Return colours (count, 4) in few steps, so that similar ones share a path."""
     found = np.round(snap(np.atleast_2d(colours) * LEVELS, 0.01)) / LEVELS
     return np.broadcast_to(found, (count, 4)) if len(found) == 1 else found
 
 
 def _few(colours: Floats) -> Floats:
-    """Colours (n, 4) in steps so wide that at most `MOST_COLOURS` are different, since each is a path of its own."""
+    """Reduce colours (n, 4) to at most `MOST_COLOURS` different ones, since each needs a separate path."""
     levels = LEVELS
     while levels > 4 and len(np.unique(colours, axis=0)) > MOST_COLOURS:
         levels //= 2
@@ -314,7 +314,7 @@ def _few(colours: Floats) -> Floats:
 
 
 def _alike(colours: Floats) -> Iterator[tuple[Floats, Ints]]:
-    """Each colour, and which have it (n,), sorted by colour."""
+    """Yield each colour and the indices of the items that have it, sorted by colour."""
     if not len(colours):
         return
     found, places = np.unique(colours, axis=0, return_inverse=True)
@@ -324,7 +324,7 @@ def _alike(colours: Floats) -> Iterator[tuple[Floats, Ints]]:
 
 
 def _chains(segments: Floats) -> Iterator[Floats]:
-    """Segments (n, 2, 2) as lines (m, 2): those that begin where the one before ends go on from there."""
+    """Join segments (n, 2, 2) to lines (m, 2) where one begins at the end of the previous one."""
     if len(segments):
         breaks = np.flatnonzero((segments[1:, 0] != segments[:-1, 1]).any(axis=1)) + 1
         for several in np.split(segments, breaks):
@@ -332,7 +332,7 @@ def _chains(segments: Floats) -> Iterator[Floats]:
 
 
 def _way(flat: Floats) -> str:
-    """A line (n, 2) as path data: where it begins, and steps of tenths of a pixel."""
+    """Return a line (n, 2) as path data: its start, and steps in tenths of a pixel."""
     if len(flat) < 2:
         return ""
     tenths = np.round(flat * 10)

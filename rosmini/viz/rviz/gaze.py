@@ -1,4 +1,4 @@
-"""Lines of sight: what a hand on a picture is on, and where in space it is. Metres, in the fixed frame (REP 103)."""
+"""Lines of sight: the object under the mouse, and its position in space. Metres, in the fixed frame (REP 103)."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from rosmini.core.geometry.products import matrix_product, scalar_product
 from .primitives import Floats, Mesh
 
 Gaze = tuple[Floats, Floats]
-"""A line of sight: a point (3,) where it begins, and its direction (3,), of length 1, away from the viewer."""
+"""A line of sight: its start (3,), and its direction (3,), of length 1, away from the viewer."""
 
 HIGH = 1e4
-"""Without perspective lines of sight begin so far from the ground [m]."""
+"""Height at which lines of sight begin without perspective [m]."""
 _PARALLEL = 1e-6
 
 
 def from_above(point: Floats) -> Gaze:
-    """The line of sight straight down to a point (3,)."""
+    """Return the line of sight straight down to a point (3,)."""
     return np.array([point[0], point[1], HIGH]), np.array([0.0, 0.0, -1.0])
 
 
 def depths(mesh: Mesh, gaze: Gaze, edge: float = 0.0) -> list[float]:
-    """How far away a line of sight meets faces [m]; `edge` is how far outside of one, as a share of it, counts."""
+    """Return the distances at which a line of sight meets faces [m]; `edge` extends faces by this share."""
     triangles = mesh.placed[mesh.faces]
     start, ahead = gaze
     u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
@@ -40,7 +40,7 @@ def depths(mesh: Mesh, gaze: Gaze, edge: float = 0.0) -> list[float]:
 
 
 def on_axis(gaze: Gaze, point: Floats, axis: Floats) -> Floats | None:
-    """The point (3,) of the line through `point` along `axis` that is nearest to a line of sight, or None along it."""
+    """Return the point (3,) on the line through `point` along `axis` nearest to a line of sight; None if parallel."""
     start, ahead = gaze
     slant = scalar_product(ahead, axis)
     if 1 - slant * slant < _PARALLEL:
@@ -53,7 +53,7 @@ def on_axis(gaze: Gaze, point: Floats, axis: Floats) -> Floats | None:
 
 
 def on_plane(gaze: Gaze, point: Floats, normal: Floats) -> Floats | None:
-    """Where a line of sight meets the plane through `point` across `normal`; None beside it and behind the eye."""
+    """Return where a line of sight meets the plane through `point` with this `normal`; None if it does not."""
     start, ahead = gaze
     slant = scalar_product(ahead, normal)
     if abs(slant) < _PARALLEL:

@@ -1,6 +1,6 @@
-"""Pixels as GIF: unlike PNG, whose bytes depend on a machine's zlib, the same on every machine with one Pillow.
+"""Pixels as GIF: its bytes are the same on every machine with one version of Pillow; those of PNG depend on zlib.
 
-Pages are compared to the byte, so what is in them has to be. 256 colours are all that a map has.
+Pages are compared byte by byte, so their contents must be reproducible. A map has at most 256 colours.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from .primitives import Pixels
 
 
 def gif(pixels: Pixels) -> tuple[bytes, float]:
-    """Pixels (h, w, 4) as a GIF, and how opaque (0 to 1) it is to be shown: a GIF knows only wholly clear pixels."""
+    """Return pixels (h, w, 4) as a GIF and its opacity (0 to 1), since a GIF has only fully transparent pixels."""
     from PIL import Image
 
     clear = pixels[..., 3] == 0
@@ -33,7 +33,7 @@ def gif(pixels: Pixels) -> tuple[bytes, float]:
 
 
 def _reduced(pixels: Pixels, clear: np.ndarray) -> bytes:
-    """The same in 255 colours, and one for clear."""
+    """Return the pixels in 255 colours, and one for transparent."""
     from PIL import Image
 
     image = Image.fromarray(np.ascontiguousarray(pixels[..., :3]))

@@ -1,4 +1,4 @@
-"""Interactive markers as they are seen and taken hold of: where their controls are, and how they follow a hand."""
+"""Interactive markers on the screen: the positions of their controls, and how they follow the mouse."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ Control = message_class("visualization_msgs/InteractiveMarkerControl")
 FACING_UP = np.array([[0.0, -1, 0, 0], [0, 0, -1, 0], [1, 0, 0, 0], [0, 0, 0, 1]])
 """The orientation of a control that faces the viewer, who looks down: x up, z along the fixed frame's y."""
 _EDGE = 0.05
-"""How far outside of a face a hand may be, as a share of the face."""
+"""Tolerance around a face for the mouse, as a share of the face."""
 
 
 class Handle:
-    """An interactive marker of a display: the message, completed, and where it is in its frame.
+    """An interactive marker of a display: the message, completed, and its pose in its frame.
 
-    Raises `DisplayError` for a pose that is no pose.
+    Raises `DisplayError` for an invalid pose.
     """
 
     def __init__(self, message: Any, arrived_ns: int, *, transparent: bool = True) -> None:
@@ -44,17 +44,17 @@ class Handle:
         self.pose: Floats = matrix(self.heard.local(message.pose))
         """The marker's pose (4, 4) in its frame."""
         self.is_locked = self.heard.stamp_ns == 0
-        """Whether it goes with its frame."""
+        """True if it moves with its frame."""
         self.is_placed = False
-        """Whether its frame is known."""
+        """True if its frame's pose is known."""
 
     @property
     def frame(self) -> Floats:
-        """Where the marker's frame is (4, 4) in the fixed one."""
+        """The pose (4, 4) of the marker's frame in the fixed frame."""
         return matrix(self.heard.place)
 
     def control(self, name: str) -> Any:
-        """The control of a name; the first that does something for an empty name. Raises `DisplayError`."""
+        """Return the control with this name; for an empty name, the first that reacts. Raises `DisplayError`."""
         for control in self.message.controls:
             if control.name == name or (not name and control.interaction_mode != Control.NONE):
                 return control
@@ -64,7 +64,7 @@ class Handle:
         )
 
     def control_frame(self, control: Any) -> Floats:
-        """The frame (4, 4) of a control in that of the marker's header."""
+        """Return the frame (4, 4) of a control in that of the marker's header."""
         found: Floats = self.pose.copy()
         if control.orientation_mode == Control.FIXED:
             found[:3, :3] = np.eye(3)
@@ -73,7 +73,7 @@ class Handle:
         return found
 
     def axis(self, control: Any) -> Floats:
-        """The direction (3,) of a control's x axis in the frame of the marker's header."""
+        """Return the direction (3,) of a control's x axis in the frame of the marker's header."""
         q = control.orientation
         turned: Floats = matrix(rigid((0, 0, 0), (q.x, q.y, q.z, q.w)))[:3, 0]
         found: Floats = matrix_product(self.control_frame(control)[:3, :3], turned)
@@ -82,7 +82,7 @@ class Handle:
     # -- seen ----------------------------------------------------------------------------------------------------
 
     def shapes(self, control: Any, context: Context) -> Iterator[Primitive]:
-        """What a control looks like; markers in it that are wrong are left out, and noted. Raises `DisplayError`."""
+        """Yield the shapes of a control; invalid markers in it are left out, with a note. Raises `DisplayError`."""
         placed = matrix_product(self.frame, self.control_frame(control))
         faces = control.orientation_mode == Control.VIEW_FACING
         for shape in control.markers:
@@ -105,7 +105,7 @@ class Handle:
         return found
 
     def title(self) -> Iterator[Primitive]:
-        """The marker's description, above it."""
+        """Yield the marker's description, above it."""
         if self.message.description.strip():
             (text,) = title_control(self.message).markers
             yield from marker_primitives(
@@ -116,12 +116,12 @@ class Handle:
             )
 
     def axes(self) -> Iterator[Primitive]:
-        """The axes of the marker."""
+        """Yield the axes of the marker."""
         size = abs(self.message.scale)
         yield from axes(matrix_product(self.frame, self.pose), size, 0.05 * size)
 
     def under(self, gaze: Gaze, context: Context) -> list[tuple[float, Any]]:
-        """The controls that a line of sight of the fixed frame meets: how far away [m], and they."""
+        """Return the controls that a line of sight in the fixed frame meets, each with its distance [m]."""
         found = []
         for control in self.message.controls:
             if control.interaction_mode == Control.NONE:
@@ -138,9 +138,9 @@ class Handle:
 
 
 class Grip:
-    """A hand on a control: from the point (3,) of the fixed frame where it was pressed, it moves the marker.
+    """The mouse holding a control: it moves the marker from the point (3,) of the fixed frame where it was pressed.
 
-    With a line of sight the hand is where that passes the control's axis or its plane, as RViz's mouse is.
+    With a line of sight, the mouse is where that meets the control's axis or plane, as in RViz.
     """
 
     def __init__(self, handle: Handle, control: Any, at: Floats, gaze: Gaze | None = None) -> None:
@@ -152,7 +152,7 @@ class Grip:
         self._last = self._grab
 
     def cursor(self, at: Floats, gaze: Gaze | None) -> Floats:
-        """Where the hand is in space (3,), in the fixed frame; `at` where its line of sight does not say."""
+        """Return the position of the mouse in space (3,), in the fixed frame; `at` if the line of sight gives none."""
         if gaze is None:
             return at
         origin = matrix_product(self.handle.frame, self._start)[:3, 3]
@@ -170,9 +170,9 @@ class Grip:
         return found
 
     def move(self, at: Floats, gaze: Gaze | None = None) -> bool:
-        """Follow the hand to a point (3,) of the fixed frame, or to where it is seen; return whether the marker moved.
+        """Follow the mouse to a point (3,) of the fixed frame, or along a line of sight; True if the marker moved.
 
-        As RViz moves markers by a cursor in space: along the axis, in the plane across it, around it, or both.
+        As in RViz, the marker moves along the axis, in the plane across it, around it, or both.
         """
         to, pose = self._local(self.cursor(at, gaze)), self._start.copy()
         mode = self.control.interaction_mode
@@ -194,7 +194,7 @@ class Grip:
         return moved
 
     def _turn(self, centre: Floats, start: Floats, end: Floats) -> Floats:
-        """The rotation (3, 3) about the axis through `centre` that takes `start` towards `end`."""
+        """Return the rotation (3, 3) about the axis through `centre` that takes `start` towards `end`."""
         first, second = (self._across(each - centre) for each in (start, end))
         if min(norm(first), norm(second)) < 1e-9:
             return np.eye(3)
@@ -208,7 +208,7 @@ class Grip:
         return found
 
     def _towed(self, to: Floats) -> Floats:
-        """Turn the point that is held towards the hand, and then move it there."""
+        """Rotate the marker so that the point held faces the mouse, and then move it there."""
         pose = self.handle.pose.copy()
         centre = pose[:3, 3].copy()
         turn = self._turn(centre, self._last, to)
@@ -219,7 +219,7 @@ class Grip:
 
 
 def pose_message(pose: Floats) -> Any:
-    """A transform (4, 4) as a `geometry_msgs/Pose`."""
+    """Return a transform (4, 4) as a `geometry_msgs/Pose`."""
     made = message_class("geometry_msgs/Pose")()
     at, turned = made.position, made.orientation
     at.x, at.y, at.z = (float(each) for each in pose[:3, 3])

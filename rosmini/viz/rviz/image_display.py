@@ -1,4 +1,4 @@
-"""What displays of images have in common: their topic, what they count, and the range of grey ones."""
+"""The base of image displays: their topic, their counts, and the range of grey images."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .topic_display import Heard, TopicDisplay
 
 
 class ImageDisplay(TopicDisplay):
-    """The base of displays that show an image in a pane of its own."""
+    """The base of displays that show an image in a separate pane."""
 
     message = "sensor_msgs/Image"
     topic_property = "Image Topic"
@@ -34,12 +34,12 @@ class ImageDisplay(TopicDisplay):
         self._ranges: deque[tuple[float, float]] = deque(maxlen=1000)
 
     def reset(self) -> None:
-        """Forget all images."""
+        """Discard all images."""
         super().reset()
         self._ranges.clear()
 
     def accept(self, heard: Heard, context: Context) -> bool:
-        """Take an image that can be shown."""
+        """Accept an image that can be shown."""
         del context
         check_image(heard.message)
         found = image_range(heard.message)
@@ -48,28 +48,28 @@ class ImageDisplay(TopicDisplay):
         return True
 
     def bounds(self, window: int) -> tuple[float, float]:
-        """The medians of the least and of the greatest values of the last `window` images."""
+        """Return the medians of the minimum and of the maximum of the last `window` images."""
         last = list(self._ranges)[-window:]
         low, high = np.median(np.array(last or [(0.0, 1.0)]), axis=0)
         return float(low), float(high)
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """Nothing in the scene."""
+        """Return nothing: images are not part of the scene."""
         del heard, context
         return ()
 
     @abstractmethod
     def pane(self, image: Any, context: Context, shown: Sequence[Shown]) -> Pane | None:
-        """What there is to see of an image, beside what the other displays draw. May raise `DisplayError`."""
+        """Return the picture of an image, beside the other displays' primitives. May raise `DisplayError`."""
 
     def panes(self, context: Context, shown: Sequence[Shown] = ()) -> Iterable[Pane]:
-        """The last image."""
+        """Return the picture of the last image."""
         if not self.kept:
             self.set_status(Level.WARN, "Image", "No Image received")
             return ()
         try:
             found = self.pane(self.kept[-1].message, context, shown)
-        except Exception as error:  # the scene stands, whatever one image does
+        except Exception as error:  # an error in one image must not stop the scene
             self.fail("Image", error)
             return ()
         self.set_status(Level.OK, "Image", f"{self.received} images received")
@@ -77,7 +77,7 @@ class ImageDisplay(TopicDisplay):
 
 
 def described(image: Any, pixels: Pixels) -> str:
-    """An image in a line of words: its size, its encoding, and its frame."""
+    """Describe an image in one line: its size, its encoding, and its frame."""
     height, width = pixels.shape[:2]
     frame = f", in {image.header.frame_id}" if image.header.frame_id else ""
     return f"{width} x {height} pixels, {image.encoding}{frame}"

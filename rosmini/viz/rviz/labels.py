@@ -1,4 +1,4 @@
-"""Words in a still: they never overlap."""
+"""Labels in a still picture, placed so that they never overlap."""
 
 from __future__ import annotations
 
@@ -12,36 +12,36 @@ from .primitives import Text
 from .projection import Look
 
 SMALLEST, LARGEST = 10.0, 15.0
-"""Sizes of letters [px]."""
+"""Limits of the font size [px]."""
 MOST = 300
 MOST_SHIFTS = 3
-"""Words that would have to be written more lines further below are only counted."""
+"""Maximum number of lines by which a label may be moved down; labels without room are only counted."""
 
 
 @dataclass(frozen=True)
 class Label:
-    """Words with their place [px]: the middle, the base line, and the size of the letters."""
+    """A text with its position [px]: the middle, the baseline, and the font size."""
 
     text: Text
     x: float
     base: float
     size: float
     more: int = 0
-    """How many found no room beside these."""
+    """Number of texts that found no room beside this one."""
 
     @property
     def said(self) -> str:
-        """What is written."""
+        """The text to write."""
         return f"{self.text.text} +{self.more}" if self.more else self.text.text
 
     def covers(self, other: Label) -> bool:
-        """Whether both would be written over one another."""
+        """Return True if the two would overlap."""
         halves = (text_width(self.text.text, self.size) + text_width(other.text.text, other.size)) / 2
         return abs(self.x - other.x) < halves and abs(self.base - other.base) < self.size
 
 
 def placed(words: Sequence[Text], look: Look, shifts: int = MOST_SHIFTS) -> list[Label]:
-    """Words below their points, or further below where others are already; what finds no room is counted."""
+    """Place texts below their points, or further down if others are in the way; those without room are counted."""
     found: list[Label] = []
     for text in words[:MOST]:
         x, y = look.pixels(text.position[None])[0].tolist()
@@ -62,5 +62,5 @@ def placed(words: Sequence[Text], look: Look, shifts: int = MOST_SHIFTS) -> list
 
 
 def _above(label: Label, found: list[Label]) -> int | None:
-    """Which of the labels is in the way."""
+    """Return the index of the label that is in the way."""
     return next((i for i, other in enumerate(found) if other.covers(label)), None)

@@ -1,6 +1,6 @@
-"""What is wrong with a `visualization_msgs/Marker`, in RViz's words (`checkMarkerMsg` of rviz 1.14).
+"""Find errors in a `visualization_msgs/Marker`, in RViz's words (`checkMarkerMsg` of rviz 1.14).
 
-A marker with an error is not drawn; one with a warning is.
+A marker with an error is not drawn; a marker with a warning is drawn.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Finding = tuple[Level, str]
 
 
 def check(marker: Any) -> tuple[Level, str]:
-    """How bad a marker is, and what there is to say about it; nothing if all is well."""
+    """Return the severity of a marker's problems, and their description; empty if there are none."""
     if marker.type not in (Marker.ARROW, *SHAPES, *LISTS, Marker.TEXT_VIEW_FACING, Marker.MESH_RESOURCE):
         return _ERROR, f"Unknown marker type: {marker.type}"
     found = list(_findings(marker))

@@ -1,4 +1,4 @@
-"""Markers as primitives: what a `visualization_msgs/Marker` looks like, wherever it comes from."""
+"""Markers as primitives: the appearance of a `visualization_msgs/Marker`, whatever its source."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from .shapes import arrow, ball, box, cylinder, surface_mesh
 MOST_SOLIDS = 500
 """A list of more boxes or balls than this is drawn as points of their mean size."""
 SHAFT, HEAD = 0.77, 0.23
-"""How long the shaft and the head of an arrow are, by its length."""
+"""Length of an arrow's shaft and of its head, as a share of its length."""
 _UNEVEN = 1e-6
 
 
 def marker_primitives(marker: Any, pose: Floats) -> Iterator[Primitive]:
-    """What a marker looks like whose origin is at `pose` (4, 4) in the fixed frame; it was checked before.
+    """Yield the primitives of a checked marker whose origin is at `pose` (4, 4) in the fixed frame.
 
-    Raises `DisplayError` for a mesh that cannot be read, and for what the primitives refuse.
+    Raises `DisplayError` if a mesh cannot be read, or for values that the primitives reject.
     """
     kind = marker.type
     scale = np.abs([marker.scale.x, marker.scale.y, marker.scale.z])
@@ -50,7 +50,7 @@ def marker_primitives(marker: Any, pose: Floats) -> Iterator[Primitive]:
 
 
 def colour_of(color: Any) -> Floats:
-    """A `std_msgs/ColorRGBA` as four numbers."""
+    """Return a `std_msgs/ColorRGBA` as four numbers."""
     return np.array([color.r, color.g, color.b, color.a], dtype=float)
 
 
@@ -102,7 +102,7 @@ def _arrow(marker: Any, pose: Floats, scale: Floats, colour: Floats) -> Iterator
 
 
 def towards(start: Floats, end: Floats) -> Floats:
-    """The pose (4, 4) at `start` (3,) whose x axis points to `end` (3,), which is elsewhere."""
+    """Return the pose (4, 4) at `start` (3,) whose x axis points to `end` (3,), a different point."""
     x = (end - start) / norm(end - start)
     y = np.cross((0.0, 0.0, 1.0) if abs(x[2]) < 0.9 else (0.0, 1.0, 0.0), x)
     y /= norm(y)

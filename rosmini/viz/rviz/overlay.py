@@ -1,6 +1,6 @@
-"""The scene as a camera sees it: primitives drawn with perspective into pixels, by the camera's projection.
+"""The scene from a camera: primitives drawn into pixels, with the camera's projection.
 
-The camera looks along z of its optical frame, x to the right and y down (REP 103). Nothing nearer than `NEAR` is seen.
+The camera looks along z of its optical frame, x to the right and y down (REP 103), and sees nothing nearer than `NEAR`.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from .primitives import Lines, Mesh, Pixels, Points, Primitive, Texture
 
 NEAR = 0.02
 MOST_DRAWN = 20_000
-"""Points, segments or faces of one primitive; of more, every second, third ... is drawn."""
+"""Maximum number of points, segments or faces of a primitive; of more, every second, third ... is drawn."""
 MOST_PIECES = 24
-"""A line that leads away is drawn in at most this many pieces, which other things may hide."""
+"""Maximum number of pieces of a line that leads away; other things may hide each piece."""
 
 Mark = tuple[Any, ...]
-"""How far away something is [m], what draws it, and with which arguments."""
+"""The depth of something [m], the function that draws it, and its arguments."""
 
 
 class Overlay:
-    """A picture (h, w) of pixels that primitives are drawn into, from a camera at `pose` (4, 4) in the fixed frame."""
+    """A picture (h, w) of pixels into which primitives are drawn, from a camera at `pose` (4, 4) in the fixed frame."""
 
     def __init__(self, camera: PinHole, pose: Floats, scale: float = 1.0) -> None:
         from PIL import Image, ImageDraw
@@ -44,7 +44,7 @@ class Overlay:
         self._pen = ImageDraw.Draw(self._image, "RGBA")
 
     def draw(self, primitives: Iterable[Primitive]) -> None:
-        """Draw primitives: flat pictures first, then points, lines and faces from far to near."""
+        """Draw primitives: textures first, then points, lines and faces from far to near."""
         marks: list[Mark] = []
         for each in primitives:
             if isinstance(each, Texture):
@@ -60,7 +60,7 @@ class Overlay:
             pen(*arguments)
 
     def over(self, pixels: Pixels) -> Pixels:
-        """What was drawn, over pixels (h, w, 3) of the same size."""
+        """Return the drawing on top of pixels (h, w, 3) of the same size."""
         drawn = np.asarray(self._image, dtype=float)
         share = drawn[..., 3:] / 255.0
         mixed: Pixels = np.round(pixels * (1.0 - share) + drawn[..., :3] * share).astype(np.uint8)
@@ -69,12 +69,12 @@ class Overlay:
     # -- each kind -----------------------------------------------------------------------------------------------
 
     def _seen(self, points: Floats) -> Floats:
-        """Points (n, 3) of the fixed frame in the camera's (n, 3)."""
+        """Transform points (n, 3) from the fixed frame to the camera's frame."""
         found: Floats = matrix_product(points, self._inverse[:3, :3].T) + self._inverse[:3, 3]
         return found
 
     def _pixels(self, seen: Floats) -> Floats:
-        """Where points (n, 3) before the camera are in the picture (n, 2)."""
+        """Project points (n, 3) in front of the camera to the picture (n, 2)."""
         found: Floats = np.clip(seen[:, :2] / seen[:, 2:] * self._focal + self._middle, -1e5, 1e5)
         return found
 
@@ -127,13 +127,13 @@ class Overlay:
             yield far, self._pen.polygon, [tuple(each) for each in corners], _ink(colour)
 
     def _texture(self, texture: Texture) -> None:
-        """Look along the ray of each pixel for where it meets the flat picture."""
+        """Draw a texture: find where the ray of each pixel meets it."""
         from PIL import Image
 
         columns, rows = np.meshgrid(np.arange(self.width) + 0.5, np.arange(self.height) + 0.5)
         rays = np.stack([(columns - self._middle[0]) / self._focal[0], (rows - self._middle[1]) / self._focal[1],
                          np.ones_like(rows)], axis=-1)  # fmt: skip
-        inside = matrix_product(inverse_matrix(texture.pose), self._pose)  # from the camera to the picture
+        inside = matrix_product(inverse_matrix(texture.pose), self._pose)  # from the camera to the texture
         start, way = inside[:3, 3], matrix_product(rays, inside[:3, :3].T)
         level = np.abs(way[..., 2]) < 1e-9
         reach = -start[2] / np.where(level, 1.0, way[..., 2])

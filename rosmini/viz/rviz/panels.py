@@ -1,4 +1,4 @@
-"""Panels: what stands beside the scene in RViz's window, as text. That of the displays is a still's text form."""
+"""Panels beside the scene in RViz's window, as text. The text form of a still is that of the Displays panel."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .tools import Tools
 
 
 class TimePanel:
-    """ROS time and wall time, and how much of both has passed since the scene began or was reset."""
+    """ROS time and wall time, and the time since the scene started or was reset."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -21,12 +21,12 @@ class TimePanel:
         self._ros_ns, self._wall_s = self.scene.context.now_ns, time.time()
 
     def reset(self) -> None:
-        """Begin again: all displays forget what they received."""
+        """Restart: all displays discard what they received."""
         self.scene.root.attach(self.scene.context)
         self._begin()
 
     def words(self, *, wall: bool = True) -> str:
-        """The panel; without the wall's time it is equal in each run."""
+        """Return the panel's text; without wall time it is the same in each run."""
         now = self.scene.context.now_ns
         lines = [f"ROS Time: {now / 1e9:.2f}", f"ROS Elapsed: {(now - self._ros_ns) / 1e9:.2f}"]
         if wall:
@@ -35,7 +35,7 @@ class TimePanel:
 
 
 def tool_properties(tools: Tools) -> str:
-    """The Tool Properties panel: of each tool that has some, what can be set."""
+    """Return the Tool Properties panel: the properties of each tool that has some."""
     lines = []
     for tool in tools:
         if tool.properties:
@@ -45,7 +45,7 @@ def tool_properties(tools: Tools) -> str:
 
 
 def views(scene: Scene) -> str:
-    """The Views panel: the current view, and what can be set of it."""
+    """Return the Views panel: the current view and its properties."""
     if scene.view is None:
         return "Current View: from above, around everything"
     name = scene.view.plugin_name.rpartition("/")[2]
@@ -55,7 +55,7 @@ def views(scene: Scene) -> str:
 
 
 def selection(found: Iterable[Picked]) -> str:
-    """The Selection panel."""
+    """Return the text of the Selection panel."""
     return "\n".join(each.words() for each in found) or "nothing is selected"
 
 

@@ -1,4 +1,4 @@
-"""A scene as a view: what its displays say, and a still."""
+"""A scene as a view: a text with the statuses of its displays, and a still picture."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Graph
 
 BACKDROP = ("rviz/Grid",)
-"""Displays that a picture is not made larger for, if there is anything else."""
+"""Displays that do not enlarge a picture if there are others."""
 TALLEST = 2000.0
 STEP = 0.1
-"""To which a picture with perspective is rounded [px]."""
+"""Resolution to which a picture in perspective is rounded [px]."""
 STEEP = 1.5
-"""How much wider than what there is the view has to be for it to be seen, too."""
+"""Width of the view relative to the content's height at which an inclined view still shows all of it."""
 DEFAULT_HEIGHT = 420.0
-"""Of the view in three dimensions [CSS px]."""
+"""Default height of the view in three dimensions [CSS px]."""
 
 
 def rviz(
@@ -45,23 +45,23 @@ def rviz(
     title: str | None = None, width: float = WIDTH, height: float | None = None, fit: bool = False,
     turn: bool = False, view: str | None = None,
 ) -> View:  # fmt: skip
-    """What RViz shows of a graph: listen for some time with the displays of a file, then draw.
+    """Show a graph in RViz: listen for some time with the displays of a file, then draw.
 
     Args:
         graph: the graph.
-        config: a `.rviz` file, or its path; without one, displays are chosen by what is published.
-        fixed_frame: overrides that of the file.
-        duration: how long to listen [s of graph time].
+        config: a `.rviz` file, or its path; without one, published topics determine the displays.
+        fixed_frame: overrides the fixed frame of the file.
+        duration: the time to listen [s of graph time].
         title: a caption under the picture, and the first words of its text form.
-        width: of the still [CSS px].
-        height: of the picture [CSS px]; as high as it needs if None.
-        fit: from above and around everything, whatever the view of the file is.
-        turn: a view in three dimensions that can be turned in the page, in place of the still.
-        view: the kind of view on everything, such as `Orbit`, in place of that of the file.
+        width: width of the still picture [CSS px].
+        height: height of the picture [CSS px]; None for the height that it needs.
+        fit: show everything from above, whatever the view in the file.
+        turn: show a view in three dimensions, which can be turned in the page, instead of the still picture.
+        view: the kind of a view of everything, such as `Orbit`, which replaces the view in the file.
 
     Raises:
-        ConfigError: the file is no configuration of RViz.
-        ViewError: the duration is not positive, the picture too small or too large, or the view not known.
+        ConfigError: the file is not a configuration of RViz.
+        ViewError: the duration is not positive, the picture is too small or too large, or the view is unknown.
 
     """
     if not 0 < duration < float("inf"):
@@ -77,10 +77,10 @@ def rviz(
 
 
 def look_from(scene: Scene, kind: str) -> None:
-    """Look at all there is with a view of a kind, such as `Orbit` or `TopDownOrtho`; from the side if it orbits.
+    """Set a view of everything of a kind such as `Orbit` or `TopDownOrtho`; an orbiting view looks from the side.
 
     Raises:
-        ViewError: there is no such view.
+        ViewError: the view does not exist.
 
     """
     view, scene.view = scene.view, None
@@ -101,7 +101,7 @@ def still(
     height: float | None = None,
     fit: bool = False,
 ) -> Picture:
-    """What a scene shows now, from where its view looks; with `fit`, from above and around everything."""
+    """Return a picture of a scene from its current view; with `fit`, of everything from above."""
     layers = scene.update()
     alt = alt_text(scene, layers)
     svg = _drawn(scene, layers, title, width, height, fit=fit)
@@ -111,7 +111,7 @@ def still(
 def turnable(
     scene: Scene, *, title: str | None = None, height: float | None = None, fit: bool = False
 ) -> RvizView:
-    """What a scene shows now, in three dimensions: the reader turns it. Its image is the still."""
+    """Return a scene in three dimensions, which the reader can turn. Its image is the still picture."""
     layers = scene.update()
     svg = _drawn(scene, layers, title, WIDTH, height, fit=fit)
     text, alt = words(scene, layers, title), alt_text(scene, layers)
@@ -136,13 +136,13 @@ def turnable(
 
 
 class RvizView(MeshcatView):
-    """A scene that can be turned; its image is the still."""
+    """A scene that can be turned; its image is the still picture."""
 
     still: str = ""
 
     @property
     def svg(self) -> str:
-        """The still."""
+        """The still picture."""
         return self.still
 
 
@@ -165,7 +165,7 @@ def _drawn(
 def look_at(
     scene: Scene, layers: Sequence[Layer], width: float, height: float | None, *, fit: bool = False
 ) -> Projection:
-    """From where a scene is drawn without perspective."""
+    """Return the projection in which a scene is drawn without perspective."""
     sight = None if scene.view is None or fit else scene.view.sight(scene.context)
     fronts = [layer for layer in layers if layer.display.plugin_name not in BACKDROP and layer.primitives]
     shown: list[Primitive] = [each for layer in fronts or layers for each in layer.primitives]
@@ -173,7 +173,7 @@ def look_at(
 
 
 def words(scene: Scene, layers: Sequence[Layer], title: str | None = None) -> str:
-    """The text form: fixed frame, global status, and each display with its statuses."""
+    """Return the text form: fixed frame, global status, and each display with its statuses."""
     count = len([display for display in scene if not isinstance(display, Group)])
     head = f"{title or 'RViz'}: {plural(count, 'display')}, fixed frame {scene.fixed_frame}"
     lines = [head]
@@ -208,7 +208,7 @@ def _described(display: Display, drawn: dict[int, int], indent: str) -> Iterator
 
 
 def alt_text(scene: Scene, layers: Sequence[Layer]) -> str:
-    """The picture in a sentence or two."""
+    """Describe the picture in one or two sentences."""
     seen = [f"{layer.display.name}" for layer in layers if layer.primitives]
     silent = [
         f"{layer.display.name} ({layer.display.statuses[0].text})"

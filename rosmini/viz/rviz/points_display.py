@@ -1,4 +1,4 @@
-"""What displays of points have in common: their properties, and how many points they show."""
+"""The base of displays of points: their properties, and the number of points that they show."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class PointsDisplay(TopicDisplay):
     properties: ClassVar[tuple[Property, ...]] = POINT_PROPERTIES
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """The points of all messages that are kept."""
+        """Return the points of all stored messages."""
         found = list(super().primitives(context))
         count = sum(len(each.points) for each in found if isinstance(each, Points))
         if self.kept:

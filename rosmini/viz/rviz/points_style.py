@@ -1,4 +1,4 @@
-"""What LaserScan, PointCloud2 and others have in common: style, size, and the colours of the transformers."""
+"""Style, size and colours (by RViz's transformers) of points, for LaserScan, PointCloud2 and others."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ POINT_PROPERTIES: tuple[Property, ...] = (
 
 
 def rainbow(values: Floats) -> Floats:
-    """Colours (n, 3) from 0, magenta, through blue, green and yellow to 1, red: RViz's rainbow."""
+    """Return colours (n, 3) from 0, magenta, through blue, green and yellow to 1, red: RViz's rainbow."""
     h = np.clip(values, 0.0, 1.0) * 5.0 + 1.0
     i = np.floor(h).astype(int)
     f = h - i
@@ -56,16 +56,16 @@ def rainbow(values: Floats) -> Floats:
 def styled(
     points: Floats, properties: Any, channels: Mapping[str, Floats], local: Floats | None = None
 ) -> Points:
-    """Points (n, 3) of the fixed frame as the properties of a display say; all finite.
+    """Return points (n, 3) of the fixed frame, all finite, in the style of a display's properties.
 
     Args:
-        points: where they are.
+        points: their positions.
         properties: the display, or its properties.
-        channels: what is known of each point (n,), by name: `intensity` ...
+        channels: the values of the points (n,), by name: `intensity` ...
         local: the same points in the message's frame (n, 3).
 
     Raises:
-        DisplayError: the colours come from a channel that the message does not have.
+        DisplayError: the colours come from a channel that the message does not contain.
 
     """
     kind, count = properties["Color Transformer"], len(points)
@@ -113,7 +113,7 @@ def _channel(name: str, channels: Mapping[str, Floats]) -> Floats | None:
 
 
 def _share(values: Floats, bounds: tuple[float, float] | None) -> Floats:
-    """Where values are between their bounds, or between their least and greatest: 0 to 1."""
+    """Return the position of values between their bounds, by default their minimum and maximum: 0 to 1."""
     if not len(values):
         return values
     if bounds is None:

@@ -1,4 +1,4 @@
-"""How displays of poses draw one: as an arrow or as axes, and how uncertain it is."""
+"""The drawing of a pose: an arrow or axes, and its uncertainty."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from .topic_display import Heard
 
 RED = Colour(255, 25, 0)
 UNKNOWN = 100.0
-"""Drivers write huge variances where they know nothing [m]."""
+"""Standard deviation above which it counts as unknown, because drivers write huge variances then [m]."""
 
 
 def pose_properties(prefix: str = "") -> tuple[Property, ...]:
-    """The properties of an arrow and of axes; with a prefix they are in the group of that name."""
+    """Return the properties of an arrow and of axes; with a prefix, in the group of that name."""
 
     def length(name: str, default: float) -> Property:
         return Property(f"{prefix}{name}", default, "of the shape", unit="m", minimum=0.0, maximum=1e4)
@@ -53,7 +53,7 @@ COVARIANCE_PROPERTIES = (
 
 
 def pose_shape(pose: Floats, display: Any, prefix: str = "") -> Iterator[Primitive]:
-    """A pose (4, 4) as the properties of a display say."""
+    """Draw a pose (4, 4) according to a display's properties."""
     if display["Shape"] == "Axes":
         yield from axes(pose, display[f"{prefix}Axes Length"], display[f"{prefix}Axes Radius"])
         return
@@ -64,10 +64,10 @@ def pose_shape(pose: Floats, display: Any, prefix: str = "") -> Iterator[Primiti
 
 
 def covariance_shape(pose: Floats, covariance: ArrayLike, display: Any, heard: Heard) -> Iterator[Primitive]:
-    """The covariance (36) of x, y, z and rotations about x, y, z at a pose: an ellipsoid, and a sector of the yaw.
+    """Draw the covariance (36) of x, y, z and rotations about x, y, z at a pose: an ellipsoid and a sector of yaws.
 
     Raises:
-        DisplayError: some of it is not finite, or a variance is negative.
+        DisplayError: a value is not finite, or a variance is negative.
 
     """
     if not display["Covariance"]:
@@ -99,7 +99,7 @@ def covariance_shape(pose: Floats, covariance: ArrayLike, display: Any, heard: H
 
 
 def sector(pose: Floats, colour: Floats, half: float, radius: float) -> Mesh:
-    """A part of a disc around the x of a pose, `half` [rad] to each side, seen from both sides."""
+    """Return a sector of a disc around the x axis of a pose, `half` [rad] to each side, visible from both sides."""
     angles = np.linspace(-half, half, 17)
     rim = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))]) * radius
     first = np.arange(1, len(angles))

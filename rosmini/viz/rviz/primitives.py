@@ -1,7 +1,7 @@
-"""What displays draw: a small closed set of primitives in the fixed frame, in metres (REP 103), finite and bounded.
+"""The primitives that displays draw: a small closed set, in the fixed frame, in metres (REP 103), finite and bounded.
 
-A display turns messages into these, and `flat` and `solid` turn these into pictures. So a display knows nothing of SVG
-or meshcat, and a picture nothing of messages. What is made of them (arrows, axes, boxes) is in `shapes`.
+A display turns messages into primitives, and `flat` and `solid` turn those into pictures. So a display need not know
+SVG or meshcat, and a picture need not know messages. Shapes made of primitives (arrows, axes, boxes) are in `shapes`.
 """
 
 from __future__ import annotations
@@ -21,25 +21,25 @@ Pixels = NDArray[np.uint8]
 Style = Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"]
 
 MOST_POINTS = 2_000_000
-"""How many points, vertices or pixels one primitive may have; a display thins what is more."""
+"""Maximum number of points, vertices or pixels of a primitive; displays thin larger ones."""
 
 LONGEST_TEXT = 1000
 FAR = 1e7
-"""Nothing is drawn further away [m]: beyond, single precision has lost the centimetres."""
+"""Maximum distance of drawn things [m]: beyond it, single precision no longer resolves centimetres."""
 
 INVALID = "Message contained invalid floating point values (nans or infs)"
-"""What RViz says of such a message."""
+"""RViz's text for such a message."""
 
 
 class DisplayError(RosminiError, ValueError):
-    """A display cannot show what it was given; its text becomes the display's status."""
+    """A display cannot show its input; the error's text becomes the display's status."""
 
 
 def finite(values: ArrayLike, width: int) -> Floats:
-    """`values` as an array (n, width) of finite numbers.
+    """Return `values` as an array (n, width) of finite numbers.
 
     Raises:
-        DisplayError: some are not finite, are too far away or too many, or the shape is another.
+        DisplayError: values are not finite, too far away or too many, or the shape is wrong.
 
     """
     array = np.asarray(values, dtype=np.float64)
@@ -57,10 +57,10 @@ def finite(values: ArrayLike, width: int) -> Floats:
 
 
 def rgba(colours: ArrayLike, count: int) -> Floats:
-    """Colours as (4,) for all, or (count, 4): red, green, blue, opacity from 0 to 1; what is beyond is cut off.
+    """Return colours as (4,) for all, or (count, 4): red, green, blue, opacity, clipped to the range 0 to 1.
 
     Raises:
-        DisplayError: some are not finite, or there is a wrong number of them.
+        DisplayError: values are not finite, or their number is wrong.
 
     """
     array = np.asarray(colours, dtype=np.float64)
@@ -73,7 +73,7 @@ def rgba(colours: ArrayLike, count: int) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Points (n, 3) [m], each drawn as `style` says; `size` is in pixels for "Points", in metres for the others."""
+    """Points (n, 3) [m], each drawn in a `style`; `size` is in pixels for "Points", in metres for other styles."""
 
     points: Floats
     colours: Floats
@@ -89,13 +89,13 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Lines: a strip through points (n, 3) [m], or with `strip` off a segment for each pair of them."""
+    """Lines: a strip through points (n, 3) [m], or, without `strip`, a segment for each pair of points."""
 
     points: Floats
     colours: Floats
     """(4,), or (n, 4) for each point; a segment has the colour of its first."""
     width: float = 0.0
-    """[m]; 0: one pixel."""
+    """Width [m]; 0 for one pixel."""
     strip: bool = True
 
     def __post_init__(self) -> None:
@@ -123,7 +123,7 @@ class Lines:
 class Mesh:
     """Triangles: vertices (n, 3) [m] in the frame `pose` (4, 4), and faces (m, 3), counter-clockwise from outside.
 
-    Meshes with equal vertices and faces are kept once in three dimensions, whatever their poses.
+    The viewer in three dimensions stores meshes with equal vertices and faces only once, whatever their poses.
     """
 
     vertices: Floats
@@ -131,9 +131,9 @@ class Mesh:
     colours: Floats
     """(4,), or (m, 4) for each face."""
     pose: Floats | None = None
-    """None: the vertices are in the fixed frame."""
+    """None if the vertices are in the fixed frame."""
     lit: bool = True
-    """Whether faces are brighter towards the light."""
+    """True if faces towards the light are brighter."""
 
     def __post_init__(self) -> None:
         vertices = finite(self.vertices, 3)
@@ -165,7 +165,7 @@ class Texture:
     size: tuple[float, float]
     pose: Floats
     behind: bool = False
-    """Drawn before everything else."""
+    """True to draw it before everything else."""
 
     def __post_init__(self) -> None:
         pixels = np.asarray(self.pixels, dtype=np.uint8)
@@ -190,7 +190,7 @@ class Texture:
 
 @dataclass(frozen=True, eq=False)
 class Text:
-    """Words that always face the viewer, around a point (3,) [m]; `height` is that of a capital letter [m]."""
+    """A text that always faces the viewer, around a point (3,) [m]; `height` is the height of a capital letter [m]."""
 
     text: str
     position: Floats
@@ -210,7 +210,7 @@ Primitive = Points | Lines | Mesh | Texture | Text
 
 @dataclass(frozen=True, eq=False)
 class Pane:
-    """A picture beside the scene, as the window of an Image display: pixels (h, w, 3) of bytes, and a line of words."""
+    """A picture beside the scene, like the window of an Image display: pixels (h, w, 3) of bytes, and a caption."""
 
     title: str
     pixels: Pixels

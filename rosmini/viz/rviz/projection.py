@@ -1,7 +1,7 @@
-"""From the scene to a picture without perspective: straight down for maps, or from the side that a view looks from.
+"""Projections of the scene to a picture: straight down for maps, from the side, or in perspective.
 
-Without perspective a map stays a parallelogram, which SVG can draw. With perspective is what views that orbit show, in
-a still and in three dimensions: `Perspective` says, too, what a hand there is on.
+Without perspective a map stays a parallelogram, which SVG can draw. Orbiting views are shown in perspective, both in a
+still picture and in three dimensions; `Perspective` also finds the object under the mouse there.
 """
 
 from __future__ import annotations
@@ -21,63 +21,63 @@ from .primitives import Floats, Mesh, Primitive, Text, Texture
 from .views import Sight
 
 MARGIN = 0.05
-"""Around what is fitted into the picture, by its size."""
+"""Margin around the fitted content, as a share of its size."""
 LEAST = 1.0
-"""A picture shows at least this much [m]."""
+"""Minimum size of the area that a picture shows [m]."""
 HORIZON = 1000.0
-"""Where a pixel above the horizon meets the ground all the same [m]."""
+"""Distance at which a pixel above the horizon is taken to meet the ground [m]."""
 NOWHERE = -1e9
-"""Where in the picture what is behind the eye is [px]."""
+"""Position in the picture of points behind the eye [px]."""
 
 
 class Look(Protocol):
-    """From where one looks into a picture of some size."""
+    """The mapping from a scene to a picture of some size."""
 
     @property
     def width(self) -> float:
-        """Of the picture [px]."""
+        """Width of the picture [px]."""
 
     @property
     def height(self) -> float:
-        """Of the picture [px]."""
+        """Height of the picture [px]."""
 
     def pixels(self, points: Floats) -> Floats:
-        """Points (n, 3) in the picture (n, 2) [px], from its left upper corner."""
+        """Return the positions of points (n, 3) in the picture (n, 2) [px], from its upper left corner."""
 
     def metres(self, x: float, y: float) -> tuple[float, float, float]:
-        """The point of the ground that is seen at a pixel."""
+        """Return the point of the ground that is visible at a pixel."""
 
     def gaze(self, x: float, y: float) -> Gaze:
-        """The line of sight through a pixel."""
+        """Return the line of sight through a pixel."""
 
     @property
     def scale(self) -> float:
-        """Pixels a metre, in the middle of the picture."""
+        """Pixels per metre, in the middle of the picture."""
 
     def scale_at(self, points: Floats) -> float:
-        """Pixels a metre where points (n, 3) are, on the average."""
+        """Return the mean number of pixels per metre at points (n, 3)."""
 
     def nearness(self, points: Floats) -> Floats:
-        """How near points (n, 3) are to the viewer (n,) [m], to a millimetre."""
+        """Return the nearness (n,) of points (n, 3) to the viewer [m], rounded to a millimetre."""
 
     def towards(self, points: Floats) -> Floats:
-        """Directions (n, 3) or (3,) from points (n, 3) to the viewer."""
+        """Return directions (n, 3) or (3,) from points (n, 3) to the viewer."""
 
 
 @dataclass(frozen=True)
 class Projection:
-    """Axes of the picture in the fixed frame: `axes` (3, 3) has the directions right, up and towards the viewer."""
+    """A parallel projection: `axes` (3, 3) are the directions right, up and towards the viewer in the fixed frame."""
 
     axes: Floats
     middle: Floats
-    """What is in the middle of the picture (2,), along right and up [m]."""
+    """The middle of the picture (2,), along right and up [m]."""
     scale: float
-    """Pixels a metre."""
+    """Pixels per metre."""
     width: float
     height: float
 
     def pixels(self, points: Floats) -> Floats:
-        """Points (n, 3) in the picture (n, 2) [px], from its left upper corner, to a tenth of a pixel."""
+        """Return the positions of points (n, 3) in the picture (n, 2) [px], rounded to a tenth of a pixel."""
         flat = matrix_product(points, self.axes[:2].T) - self.middle
         right, up = flat[:, 0] * self.scale, flat[:, 1] * self.scale
         return snap(np.column_stack([self.width / 2 + right, self.height / 2 - up]), 0.1)
@@ -88,22 +88,22 @@ class Projection:
         return np.array(self.metres(self.width / 2, self.height / 2))
 
     def nearness(self, points: Floats) -> Floats:
-        """How near points (n, 3) are to the viewer (n,) [m], to a millimetre."""
+        """Return the nearness (n,) of points (n, 3) to the viewer [m], rounded to a millimetre."""
         return snap(matrix_product(points, self.axes[2]))
 
     def scale_at(self, points: Floats) -> float:
-        """The same everywhere."""
+        """Return the scale, which is the same everywhere."""
         del points
         return self.scale
 
     def towards(self, points: Floats) -> Floats:
-        """The same direction (3,) everywhere."""
+        """Return the direction (3,), which is the same everywhere."""
         del points
         towards: Floats = self.axes[2]
         return towards
 
     def metres(self, x: float, y: float) -> tuple[float, float, float]:
-        """The point of the ground z = 0 that is seen at a pixel. Only where the view is not level."""
+        """Return the point of the ground z = 0 that is visible at a pixel, unless the view is level."""
         right, up = (x - self.width / 2) / self.scale, (self.height / 2 - y) / self.scale
         start = self.axes[0] * (self.middle[0] + right) + self.axes[1] * (self.middle[1] + up)
         towards = self.axes[2]
@@ -113,13 +113,13 @@ class Projection:
         return (float(found[0]), float(found[1]), 0.0)
 
     def gaze(self, x: float, y: float) -> Gaze:
-        """The line of sight through a pixel; all of them are parallel."""
+        """Return the line of sight through a pixel; all of them are parallel."""
         return np.array(self.metres(x, y)) + HIGH * self.axes[2], -self.axes[2]
 
 
 @dataclass(frozen=True)
 class Perspective:
-    """What an eye sees of a point that it looks at, upright; `field_of_view` is from bottom to top [deg]."""
+    """The perspective of an eye that looks at a point, upright; `field_of_view` is vertical [deg]."""
 
     eye: Floats
     target: Floats
@@ -127,17 +127,17 @@ class Perspective:
     width: float
     height: float
     step: float = 0.0
-    """To which pixels are rounded, for a picture; 0: not at all."""
+    """Resolution to which pixels are rounded, for a picture; 0 for no rounding."""
 
     @classmethod
     def of(cls, sight: Sight, width: float, height: float, step: float = 0.0) -> Perspective:
-        """The eye of a view."""
+        """Return the perspective of a view."""
         eye = sight.target + sight.distance * _axes(sight.yaw, sight.pitch)[2]
         return cls(eye, sight.target, sight.field_of_view, width, height, step)
 
     @property
     def _focal(self) -> float:
-        """Pixels of the picture at the distance of one."""
+        """Focal length [px]."""
         return self.height / 2 / math.tan(math.radians(self.field_of_view) / 2)
 
     @property
@@ -147,7 +147,7 @@ class Perspective:
         return _axes(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
 
     def pixels(self, points: Floats) -> Floats:
-        """Points (n, 3) in the picture (n, 2) [px], from its left upper corner; far outside what is behind the eye."""
+        """Return the positions of points (n, 3) in the picture (n, 2) [px]; points behind the eye are far outside."""
         right, up, back = matrix_product(points - self.eye, self.axes.T).T
         away = np.where(back < 0, -back, np.inf)
         seen = np.column_stack(
@@ -157,25 +157,25 @@ class Perspective:
 
     @property
     def scale(self) -> float:
-        """Pixels a metre at the target."""
+        """Pixels per metre at the target."""
         return self._focal / norm(self.eye - self.target)
 
     def scale_at(self, points: Floats) -> float:
-        """Pixels a metre at the mean distance of points (n, 3) in front of the eye."""
+        """Return the number of pixels per metre at the mean distance of points (n, 3) in front of the eye."""
         away = -self.nearness(points)
         away = away[away > 0]
         return float(self._focal / away.mean()) if len(away) else self.scale
 
     def nearness(self, points: Floats) -> Floats:
-        """How near points (n, 3) are to the eye (n,) [m], along where it looks; negative in front of it."""
+        """Return the nearness (n,) of points (n, 3) to the eye [m], along its direction; negative in front of it."""
         return snap(matrix_product(points - self.eye, self.axes[2]))
 
     def towards(self, points: Floats) -> Floats:
-        """Directions (n, 3) from points to the eye."""
+        """Return directions (n, 3) from points to the eye."""
         return self.eye - points
 
     def metres(self, x: float, y: float) -> tuple[float, float, float]:
-        """The point of the ground z = 0 that is seen at a pixel; above the horizon one that is far away."""
+        """Return the point of the ground z = 0 that is visible at a pixel; above the horizon, a distant one."""
         eye, ahead = self.gaze(x, y)
         reach = -eye[2] / ahead[2] if eye[2] * ahead[2] < 0 else math.inf
         flat = math.hypot(ahead[0], ahead[1])
@@ -184,7 +184,7 @@ class Perspective:
         return (float(eye[0] + reach * ahead[0]), float(eye[1] + reach * ahead[1]), 0.0)
 
     def gaze(self, x: float, y: float) -> Gaze:
-        """The line of sight through a pixel, from the eye."""
+        """Return the line of sight through a pixel, from the eye."""
         seen = np.array([x - self.width / 2, self.height / 2 - y, -self._focal])
         ahead = matrix_product(seen, self.axes)
         return self.eye, ahead / norm(ahead)
@@ -193,7 +193,7 @@ class Perspective:
 def projection(
     sight: Sight | None, shown: Iterable[Primitive], width: float, height: float | None
 ) -> Projection:
-    """The projection of a view; without one, or for one without a width, from above, around all that is shown."""
+    """Return the projection of a view; without a view, or if it has no width, one around everything shown."""
     yaw, pitch = (-math.pi / 2, math.pi / 2) if sight is None else (sight.yaw, sight.pitch)
     axes = _axes(yaw, pitch)
     if sight is not None and sight.width > 0:
@@ -216,7 +216,7 @@ def _axes(yaw: float, pitch: float) -> Floats:
 
 
 def corners(primitive: Primitive) -> Floats:
-    """Points (n, 3) around which a primitive lies."""
+    """Return points (n, 3) that bound a primitive."""
     if isinstance(primitive, Texture):
         return primitive.corners
     if isinstance(primitive, Text):
@@ -226,7 +226,7 @@ def corners(primitive: Primitive) -> Floats:
 
 
 def _box_of(points: Floats) -> Floats:
-    """The points that are extreme in x, y or z, and diagonally, so that it holds from each side."""
+    """Return the extreme points along x, y, z and the diagonals, which bound it from every side."""
     directions = np.array(
         [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)], dtype=float
     )

@@ -1,6 +1,6 @@
-"""Properties of displays, views and tools, named as RViz names them: type, default, range, and how a file has them.
+"""Properties of displays, views and tools, with RViz's names: type, default, range, and their form in a file.
 
-In a `.rviz` file a property may have others under it, and then its own value is under `Value`. Here such a property is
+In a `.rviz` file a property may contain others, and then its own value is under `Value`. Here such a property is
 named by its path, `Line Style/Line Width`.
 """
 
@@ -25,14 +25,14 @@ class Colour(NamedTuple):
     blue: int
 
     def rgba(self, alpha: float = 1.0) -> Floats:
-        """The colour as four numbers from 0 to 1."""
+        """Return the colour as four numbers from 0 to 1."""
         import numpy as np
 
         return np.array([self.red / 255, self.green / 255, self.blue / 255, alpha])
 
 
 class Vector(NamedTuple):
-    """Three numbers; in a file a mapping with X, Y and Z."""
+    """Three numbers; in a file, a mapping with X, Y and Z."""
 
     x: float
     y: float
@@ -48,7 +48,7 @@ Value = bool | int | float | str | Colour | Vector | Tree
 
 @dataclass(frozen=True)
 class Property:
-    """One property: its type is that of its default."""
+    """A property; its type is that of its default."""
 
     name: str
     default: Value
@@ -59,10 +59,10 @@ class Property:
     choices: tuple[str, ...] = ()
 
     def value(self, given: Any) -> Value:
-        """What was given, as this property holds it; numbers beyond the range become the nearest in it, as in RViz.
+        """Return a value converted for this property; numbers outside the range become the nearest in it, as in RViz.
 
         Raises:
-            DisplayError: it has another type, or is none of the choices.
+            DisplayError: it has another type, or is not one of the choices.
 
         """
         found = self._converted(given)
@@ -95,7 +95,7 @@ class Property:
         return "" if given is None else None if isinstance(given, dict | list) else str(given)
 
     def written(self, value: Value) -> Any:
-        """A value as a file has it."""
+        """Return a value in the form that it has in a file."""
         if isinstance(value, Colour):
             return "; ".join(map(str, value))
         if isinstance(value, Vector):
@@ -128,14 +128,14 @@ def _vector(given: Any) -> Vector | None:
 
 
 class Properties:
-    """The values of declared properties, and all else that a file had, which is kept for when it is saved again."""
+    """The values of declared properties, and the rest of a file's mapping, which is preserved when it is saved."""
 
     def __init__(self, declared: tuple[Property, ...], tree: Mapping[str, Any] | None = None) -> None:
         self.declared = {each.name: each for each in declared}
         self._tree: dict[str, Any] = deepcopy(dict(tree or {}))
         self._values: dict[str, Value] = {each.name: each.default for each in declared}
         self.wrong: list[str] = []
-        """What the file had and could not be taken, in words."""
+        """Errors in values of the file, in words."""
         for each in declared:
             written = self._find(each.name)
             if written is not _MISSING:
@@ -160,13 +160,13 @@ class Properties:
         return name
 
     def unknown(self, besides: tuple[str, ...] = ()) -> list[str]:
-        """The paths of what the file has and nobody declared, sorted; `besides` are names that others read."""
+        """Return the paths of undeclared properties of the file, sorted, except `besides`, which others read."""
         known = {*self.declared, *besides}
         groups = {name.rpartition("/")[0] for name in self.declared}
         return sorted(path for path in _paths(self._tree, "", groups, self.declared) if path not in known)
 
     def tree(self) -> dict[str, Any]:
-        """All that a file has of it: what it had, with the present values."""
+        """Return the mapping for a file: its original contents, with the current values."""
         whole = deepcopy(self._tree)
         for name, declared in self.declared.items():
             *above, last = name.split("/")

@@ -1,4 +1,4 @@
-"""Displays of one measured number: a point at the sensor, coloured by the value."""
+"""Displays of a single measured number: a point at the sensor, coloured by the value."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .topic_display import Heard
 
 
 def bounds(channel: str, low: float, high: float, *, invert: bool = False) -> tuple[Property, ...]:
-    """The properties of RViz whose defaults are others than those of points: the channel and its range."""
+    """Return RViz's properties whose defaults differ from those of points: the channel and its range."""
     return (
         Property("Channel Name", channel, "the channel"),
         Property("Autocompute Intensity Bounds", False, "from what comes"),
@@ -29,14 +29,14 @@ def bounds(channel: str, low: float, high: float, *, invert: bool = False) -> tu
 
 
 class ScalarDisplay(PointsDisplay):
-    """The base of them; `field` is the message's number, `unit` what it is in."""
+    """The base of displays of a number; `field` is its name in the message, `unit` its unit."""
 
     properties: ClassVar[tuple[Property, ...]] = ()
     field: ClassVar[str] = ""
     unit: ClassVar[str] = ""
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """The point."""
+        """Yield the point."""
         del context
         value = float(getattr(heard.message, self.field))
         if not math.isfinite(value):

@@ -1,4 +1,4 @@
-"""A scene: displays, a fixed frame, and a node that listens for them; what RViz is without its window.
+"""A scene: displays, a fixed frame, and a node that subscribes for them; RViz without its window.
 
 >>> from rosmini import Graph
 >>> with Graph() as graph, Scene(graph, fixed_frame="odom") as scene:
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 class Layer(NamedTuple):
-    """What one display draws."""
+    """The drawing of a display."""
 
     display: Display
     primitives: tuple[Primitive, ...]
@@ -40,16 +40,16 @@ class Layer(NamedTuple):
 
 
 class Scene:
-    """Displays in a graph. Its node subscribes and publishes nothing; `close` takes it out of the graph.
+    """Displays in a graph. By default its node subscribes and publishes nothing; `close` removes it from the graph.
 
     Args:
         graph: the graph.
         config: a `.rviz` file, its path, or None for a scene without displays.
-        fixed_frame: overrides that of the file.
-        node: listens and, with tools, publishes; one of its own, `rviz` with a number, by default.
+        fixed_frame: overrides the fixed frame of the file.
+        node: subscribes and, with tools, publishes; by default a separate node, `rviz` with a number.
 
     Raises:
-        ConfigError: the file is no configuration of RViz.
+        ConfigError: the file is not a configuration of RViz.
 
     """
 
@@ -75,14 +75,14 @@ class Scene:
 
     @property
     def displays(self) -> list[Display]:
-        """The displays that are in no group, in the order in which they are drawn."""
+        """The displays that are in no group, in drawing order."""
         return self.root.displays
 
     def __iter__(self) -> Any:
         return self.root.walk()
 
     def __getitem__(self, name: str) -> Display:
-        """The first display of a name, groups searched, too. Raises `ViewError` if there is none."""
+        """Return the first display with this name, also in groups. Raises `ViewError` if there is none."""
         for display in self.root.walk():
             if display.name == name:
                 return display
@@ -98,7 +98,7 @@ class Scene:
         name: str = "",
         group: Group | None = None,
     ) -> Display:
-        """Add a display by its class, `rviz/LaserScan` or `LaserScan`, with what differs from the default.
+        """Add a display by its class, `rviz/LaserScan` or `LaserScan`, with properties that differ from their defaults.
 
         >>> from rosmini import Graph
         >>> with Graph() as graph, Scene(graph) as scene:
@@ -106,8 +106,8 @@ class Scene:
         0.05
 
         Raises:
-            ViewError: there is no such class.
-            DisplayError: it has no such property, or the value is of another type.
+            ViewError: the class does not exist.
+            DisplayError: it has no such property, or the value has another type.
 
         """
         if isinstance(kind, str):
@@ -125,7 +125,7 @@ class Scene:
         return display
 
     def remove(self, display: Display) -> None:
-        """Take a display out. Raises `ViewError` if it is not in the scene."""
+        """Remove a display. Raises `ViewError` if it is not in the scene."""
         for group in (self.root, *(each for each in self.root.walk() if isinstance(each, Group))):
             if display in group.displays:
                 display.detach()
@@ -137,7 +137,7 @@ class Scene:
 
     @property
     def fixed_frame(self) -> str:
-        """The frame in which everything is drawn; when it changes, all displays begin again."""
+        """The frame in which everything is drawn; when it changes, all displays restart."""
         return self.context.fixed_frame
 
     @fixed_frame.setter
@@ -148,7 +148,7 @@ class Scene:
 
     @property
     def global_status(self) -> tuple[Status, ...]:
-        """How the fixed frame is doing."""
+        """The status of the fixed frame."""
         tree, frame = self.context.tree, self.fixed_frame
         if frame in tree:
             return (Status(Level.OK, "Fixed Frame", "OK"),)
@@ -162,9 +162,9 @@ class Scene:
         return (Status(Level.ERROR, "Fixed Frame", f"Unknown frame {frame}; {hint}"),)
 
     def update(self) -> list[Layer]:
-        """Bring all displays up to date, and return what each draws now, in order; those that are off draw nothing.
+        """Update all displays, and return the drawing of each, in order; disabled ones draw nothing.
 
-        What a display raises becomes its status. When time jumped back, all of them begin again.
+        An exception in a display becomes its status. If time jumped back, all displays restart.
         """
         context = self.context
         now = context.now_ns
@@ -179,7 +179,7 @@ class Scene:
         try:
             display.update(self.context)
             drawn = tuple(display.primitives(self.context))
-        except Exception as error:  # the scene stands, whatever one display does
+        except Exception as error:  # an error in one display must not stop the scene
             display.fail("Display", error)
             return Layer(display, (), ())
         display.clear_status("Display")
@@ -189,7 +189,7 @@ class Scene:
         shown = [(layer.display.name, layer.primitives) for layer in layers if layer.display is not display]
         try:
             return tuple(display.panes(self.context, shown))
-        except Exception as error:  # the scene stands, whatever one display does
+        except Exception as error:  # an error in one display must not stop the scene
             display.fail("Display", error)
             return ()
 
@@ -197,7 +197,7 @@ class Scene:
 
     @property
     def warning(self) -> str:
-        """What the file has that is not known here, in one line; empty if there is nothing."""
+        """The unknown contents of the file, in one line; empty if there are none."""
         displays = list(self.root.walk())
         parts = [f"display {each.kind} ({each.name})" for each in displays if isinstance(each, FailedDisplay)]
         parts += self.config.strangers()
@@ -209,12 +209,12 @@ class Scene:
         return "; ".join(filter(None, [said, *wrong]))
 
     def saved(self) -> Config:
-        """The configuration as it is now."""
+        """Return the current configuration."""
         displays = [display.tree() for display in self.displays]
         return self.config.with_parts(displays, self.options, None if self.view is None else self.view.tree())
 
     def save(self, path: str | Path) -> Path:
-        """Write a `.rviz` file, which the real RViz loads, too. Raises `ConfigError` if it cannot be written."""
+        """Write a `.rviz` file, which the real RViz can also load. Raises `ConfigError` if it cannot be written."""
         return self.saved().write(path)
 
     # -- the end -------------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""What is under the pointer, and what is in a rectangle: for the tools, and for the Selection panel."""
+"""Find the object under the mouse and the objects in a rectangle: for the tools, and for the Selection panel."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from .projection import Look
 from .scene import Layer
 
 REACH = 6.0
-"""So near to the pointer something is hit [px]."""
+"""Maximum distance from the mouse at which something is hit [px]."""
 DEEP = 0.1
-"""What is so far behind a surface is hidden by it [m]."""
+"""Distance behind a surface from which things are hidden by it [m]."""
 MOST_LISTED = 10
-"""Of so many things a display's part of the panel tells, at most."""
+"""Maximum number of positions that the panel lists for a display."""
 
 
 class Picked(NamedTuple):
-    """What of one display was hit."""
+    """The selected part of a display."""
 
     display: Display
     number: int
-    """How many points, corners or texts."""
+    """Number of points, corners or texts."""
     positions: Floats
-    """Where the first of them are (n, 3), in the fixed frame [m]."""
+    """Positions of the first of them (n, 3), in the fixed frame [m]."""
 
     def words(self) -> str:
-        """As the panel shows it."""
+        """Return the text for the panel."""
         lines = [f"{self.display.name} ({self.display.plugin_name}): {self.number} selected"]
         lines += [f"  Position: {x:.3f}; {y:.3f}; {z:.3f}" for x, y, z in self.positions]
         if self.number > len(self.positions):
@@ -43,7 +43,7 @@ class Picked(NamedTuple):
 
 
 def picked(layers: Iterable[Layer], look: Look, first: Floats, last: Floats) -> list[Picked]:
-    """What is inside the rectangle between two pixels (2,), display by display, in the order of the displays."""
+    """Return what lies inside the rectangle between two pixels (2,), display by display, in their order."""
     low, high = np.minimum(first, last), np.maximum(first, last)
     found = []
     for layer in layers:
@@ -58,9 +58,9 @@ def picked(layers: Iterable[Layer], look: Look, first: Floats, last: Floats) -> 
 
 
 def hit(layers: Iterable[Layer], look: Look, pixel: Floats) -> Floats | None:
-    """The point (3,) of the fixed frame that is seen at a pixel (2,): of a surface, of a point near it, or of a map.
+    """Return the point (3,) of the fixed frame visible at a pixel (2,): of a surface, of a point near it, or of a map.
 
-    A surface hides what is behind it. None where nothing is drawn.
+    A surface hides things behind it. Returns None where nothing is drawn.
     """
     shown = [each for layer in layers for each in layer.primitives]
     gaze = look.gaze(float(pixel[0]), float(pixel[1]))
@@ -81,7 +81,7 @@ def hit(layers: Iterable[Layer], look: Look, pixel: Floats) -> Floats | None:
 
 
 def first_hit(meshes: Iterable[Mesh], gaze: Gaze) -> Floats | None:
-    """The point (3,) of the surfaces that a line of sight meets first, or None."""
+    """Return the point (3,) of the surfaces that a line of sight meets first, or None."""
     found = [depth for mesh in meshes for depth in depths(mesh, gaze)]
     return gaze[0] + min(found) * gaze[1] if found else None
 
@@ -91,7 +91,7 @@ def _depth(point: Floats, gaze: Gaze) -> float:
 
 
 def _places(primitives: Iterable[Primitive]) -> Iterator[Floats]:
-    """The points of what has any: a picture is hit anywhere, so it has none."""
+    """Yield the points of primitives that have any; textures are hit anywhere, so they have none."""
     for primitive in primitives:
         if isinstance(primitive, Texture):
             continue

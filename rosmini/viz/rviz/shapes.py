@@ -1,6 +1,6 @@
 """Solid shapes as meshes: arrows and axes as RViz draws them, boxes, cylinders, balls, ellipsoids.
 
-Each is made once for its sizes and then only placed, so that a thousand equal arrows are one geometry.
+Each is made once for its sizes and then only placed, so that a thousand equal arrows share one geometry.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ RED, GREEN, BLUE = (np.array(colour) for colour in ((1.0, 0, 0, 1), (0, 1.0, 0, 
 """The colours of axes: x, y, z."""
 
 _ALONG_X = np.array([[0.0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
-"""Turns z to x."""
+"""Rotates z to x."""
 _ALONG_Y = np.array([[0.0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 0], [0, 0, 0, 1]])
-"""Turns z to y."""
+"""Rotates z to y."""
 
 
 def arrow(
@@ -35,7 +35,7 @@ def arrow(
     head_length: float,
     head_radius: float,
 ) -> Mesh:
-    """An arrow along x from the origin of `pose` (4, 4); lengths and radii in metres."""
+    """Return an arrow along x from the origin of `pose` (4, 4); lengths and radii in metres."""
     found = _arrow(
         *(round(float(each), 6) for each in (shaft_length, shaft_radius, head_length, head_radius))
     )
@@ -43,14 +43,14 @@ def arrow(
 
 
 def flat_arrow(pose: Floats, colour: Floats, length: float) -> Lines:
-    """An arrow of three lines in the plane of x and y of `pose`, as those of a PoseArray."""
+    """Return an arrow of three lines in the xy plane of `pose`, like those of a PoseArray."""
     tip, back, side = (length, 0.0, 0.0), 0.75 * length, 0.2 * length
     flat = np.array([(0, 0, 0), tip, tip, (back, side, 0), tip, (back, -side, 0)], dtype=float)
     return Lines(matrix_product(flat, pose[:3, :3].T) + pose[:3, 3], colour, strip=False)
 
 
 def axes(pose: Floats, length: float, radius: float, alpha: float = 1.0) -> tuple[Mesh, Mesh, Mesh]:
-    """The axes of `pose`: x red, y green, z blue."""
+    """Return the axes of `pose`: x red, y green, z blue."""
     found = _rod(round(float(length), 6), round(float(radius), 6))
     turned = (_ALONG_X, _ALONG_Y, np.eye(4))
     x, y, z = (
@@ -61,34 +61,34 @@ def axes(pose: Floats, length: float, radius: float, alpha: float = 1.0) -> tupl
 
 
 def box(pose: Floats, colour: Floats, size: tuple[float, float, float] | Floats) -> Mesh:
-    """A box around the origin of `pose`."""
+    """Return a box around the origin of `pose`."""
     return surface_mesh(_box(), colour, matrix_product(pose, np.diag([*size, 1.0])))
 
 
 def cylinder(pose: Floats, colour: Floats, diameters: tuple[float, float], height: float) -> Mesh:
-    """A cylinder along z around the origin of `pose`, with diameters along x and y."""
+    """Return a cylinder along z around the origin of `pose`, with diameters along x and y."""
     return surface_mesh(_cylinder(), colour, matrix_product(pose, np.diag([*diameters, height, 1.0])))
 
 
 def cone(pose: Floats, colour: Floats, length: float, radius: float) -> Mesh:
-    """A cone with its tip in the origin of `pose`, open along x."""
+    """Return a cone with its tip at the origin of `pose`, opening along x."""
     return surface_mesh(_cone(), colour, matrix_product(pose, np.diag([length, radius, radius, 1.0])))
 
 
 def ball(pose: Floats, colour: Floats, size: tuple[float, float, float] | Floats) -> Mesh:
-    """An ellipsoid around the origin of `pose`; `size` are its diameters."""
+    """Return an ellipsoid around the origin of `pose`; `size` are its diameters."""
     return surface_mesh(_ball(), colour, matrix_product(pose, np.diag([*size, 1.0])))
 
 
 def surface_mesh(surface: Surface, colour: Floats | None = None, pose: Floats | None = None) -> Mesh:
-    """A surface as a mesh, in its own colour or another one."""
+    """Return a surface as a mesh, in its own colour or another one."""
     if colour is None:
         colour = np.array(surface.colour or (0.6, 0.6, 0.6, 1.0))
     return Mesh(surface.vertices, surface.faces, colour, pose)
 
 
 def outline(points: Floats, colour: Floats, width: float = 0.0) -> Lines:
-    """A closed line through points (n, 3) of the fixed frame."""
+    """Return a closed line through points (n, 3) of the fixed frame."""
     return Lines(np.vstack([points, points[:1]]) if len(points) else points, colour, width)
 
 

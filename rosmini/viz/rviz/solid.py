@@ -1,4 +1,4 @@
-"""Scenes in three dimensions: primitives as commands for meshcat's viewer, with no server (`rosmini.viz.meshcat`)."""
+"""Scenes in three dimensions: primitives as commands for meshcat's viewer, without a server (`rosmini.viz.meshcat`)."""
 
 from __future__ import annotations
 
@@ -21,32 +21,32 @@ from .primitives import Floats, Lines, Mesh, Points, Primitive, Texture
 from .views import Sight
 
 MOST_POINTS = 20_000
-"""Points of one display in a page: of more, evenly many."""
+"""Maximum number of points of a display in a page; of more, an evenly spaced selection is shown."""
 MOST_SEGMENTS, MOST_RIBBONS = 40_000, 6_000
-"""Thin lines and wide ones of one primitive; a strip with more leaves out points, pairs leave out pairs."""
+"""Maximum numbers of thin and of wide lines of a primitive; longer strips skip points, and pairs skip pairs."""
 MOST_TRIANGLES = 8_000
-"""Of one mesh of loose triangles; of more, the largest."""
+"""Maximum number of loose triangles of a mesh; of more, the largest are shown."""
 LEAST_POINT = 0.02
-"""[m]: smaller ones would hardly be seen."""
+"""Minimum size of a point [m]; smaller ones would hardly be visible."""
 PIXEL = 0.004
-"""How large a pixel of the style "Points" is drawn, by the camera's distance."""
+"""Size of a pixel of the style "Points", relative to the camera's distance."""
 LIFT = 0.001
-"""By how much a map lies below what is on the ground, and below the next map [m]."""
+"""Distance of a map below things on the ground, and below the next map [m]."""
 LEAST_LETTER = 0.013
-"""The height of letters, at least, by the distance of the camera."""
+"""Minimum height of letters, relative to the camera's distance."""
 
 
 class RvizScene(Scene3D):
-    """A scene as RViz shows it: its own background instead of ground and colours of the page."""
+    """A scene as RViz shows it: with its own background instead of the ground and colours of the page."""
 
     @property
     def themes(self) -> dict[str, dict[str, Sequence[float]]]:
-        """Nothing changes with the page."""
+        """Empty, because nothing changes with the page's theme."""
         return {"light": {}, "dark": {}}
 
 
 def camera_of(sight: Sight, reach: float) -> Camera:
-    """The camera of a view; one from above looks down steeply, from as far as it needs to see as much."""
+    """Return the camera of a view; from above it looks down steeply, from where it shows the same width."""
     x, y, z = (round(part, 3) for part in snap(sight.target).tolist())
     wide = sight.width or reach
     angle = min(max(sight.field_of_view, 10.0), 100.0)
@@ -56,7 +56,7 @@ def camera_of(sight: Sight, reach: float) -> Camera:
 
 
 def words_in(labels: Iterable[Label], camera: Camera) -> list[dict[str, Any]]:
-    """Words for the viewer to show, large enough to be read from the camera."""
+    """Return the texts for the viewer, large enough to read from the camera."""
     least = LEAST_LETTER * camera.distance
     found: list[dict[str, Any]] = []
     for label in labels:
@@ -68,7 +68,7 @@ def words_in(labels: Iterable[Label], camera: Camera) -> list[dict[str, Any]]:
 
 
 class Drawing:
-    """Primitives, without words, in a scene."""
+    """Primitives, without texts, in a scene."""
 
     def __init__(self, scene: Scene3D) -> None:
         self.scene = scene
@@ -77,14 +77,14 @@ class Drawing:
         self._maps = 0
 
     def add(self, shown: Iterable[Primitive]) -> None:
-        """Add primitives: each gets a path of its own, and equal meshes are there once."""
+        """Add primitives: each gets its own path, and equal meshes are stored once."""
         for primitive in shown:
             self.put(primitive, f"rviz/{self._count}", self._maps, shared=True)
             self._count += 1
             self._maps += isinstance(primitive, Texture) and bool(primitive.pixels[..., 3].any())
 
     def put(self, primitive: Primitive, path: str, maps: int = 0, *, shared: bool = False) -> None:
-        """Put a primitive at a path; `maps` is the number of flat pictures below it."""
+        """Put a primitive at a path; `maps` is the number of textures below it."""
         if isinstance(primitive, Mesh):
             self._mesh(primitive, path, shared=shared)
         elif isinstance(primitive, Lines):
@@ -95,7 +95,7 @@ class Drawing:
             self._texture(primitive, path, maps)
 
     def place(self, primitive: Mesh | Texture, path: str, maps: int = 0) -> None:
-        """Put what is at a path already where the primitive is."""
+        """Move the object that is already at a path to the primitive's pose."""
         if isinstance(primitive, Texture):
             width, height = primitive.size
             middle = np.eye(4)
@@ -179,7 +179,7 @@ class Drawing:
         self.scene.visualizer[path].set_object(cloud)
 
     def _texture(self, texture: Texture, path: str, maps: int) -> None:
-        pixels = texture.pixels[::-1]  # the viewer's rows begin above
+        pixels = texture.pixels[::-1]  # the viewer's rows begin at the top
         data, opacity = gif(pixels)
         if not opacity:
             return
@@ -194,7 +194,7 @@ class Drawing:
 
 
 class _Lowered:
-    """What meshcat takes for one of its elements: something with an id that says what the viewer reads."""
+    """An element for meshcat's API: an object with an id that can be encoded for the viewer."""
 
     field = ""
 
@@ -215,7 +215,7 @@ class _Lowered:
 
 
 class _Rectangle(_Lowered):
-    """A rectangle in x and y around its origin, on which an image fits (three.js's PlaneGeometry)."""
+    """A rectangle in x and y around its origin, to which an image is applied (three.js's PlaneGeometry)."""
 
     field = "geometries"
 
@@ -243,7 +243,7 @@ class _GifImage(_Lowered):
 
 
 def _largest(mesh: Mesh) -> Mesh:
-    """The largest triangles of a mesh, without the vertices of the others."""
+    """Return the largest triangles of a mesh, without the vertices of the others."""
     corners = mesh.vertices[mesh.faces]
     areas = norms(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     kept = np.sort(np.argsort(-areas, kind="stable")[:MOST_TRIANGLES])
@@ -276,7 +276,7 @@ _QUAD = np.array([(0, 2, 1), (1, 2, 3)])
 
 
 def _ribbons(segments: Floats, width: float) -> tuple[Floats, Any]:
-    """Flat strips along segments (m, 2, 3), level where that can be: vertices (4m, 3) and faces (2m, 3)."""
+    """Return flat strips along segments (m, 2, 3), level where possible: vertices (4m, 3) and faces (2m, 3)."""
     along = segments[:, 1] - segments[:, 0]
     side = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))])
     lengths = norms(side)

@@ -1,4 +1,4 @@
-"""Displays for what is published: what one would choose under Add, By topic."""
+"""Displays for published topics: those that a user would choose under Add, By topic."""
 
 from __future__ import annotations
 
@@ -18,28 +18,28 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 MOST = 40
-"""Displays at most."""
+"""Maximum number of displays."""
 SPECIAL = {"tf2_msgs/TFMessage": "rviz/TF"}
 ASKED_FOR = ("rviz/Camera", "rviz/DepthCloud", "rviz/Effort")
-"""What is shown only if it is asked for: other displays show these messages plainly, or they mean it for few robots."""
+"""Displays that are never suggested: others show their messages more simply, or few robots publish them."""
 INTERACTIVE = "visualization_msgs/InteractiveMarkerUpdate"
 TRUTH = "base_pose_ground_truth"
-"""A simulator's word on where a robot is, in a frame `map` that nobody publishes where nobody localises a robot."""
+"""A simulator's ground truth of a pose, in a frame `map` that does not exist unless the robot is localised."""
 TF_SCALE = 0.35
-"""Of the axes of frames: at RViz's own they are as long as a TurtleBot3, and hide it."""
+"""Scale of the axes of frames: at RViz's default they are as long as a TurtleBot3, and hide it."""
 SMALL = {"Shaft Length": 0.25, "Shaft Radius": 0.02, "Head Length": 0.1, "Head Radius": 0.05}
-"""An arrow for robots of the size of a TurtleBot3: RViz's own is longer than a metre [m]."""
+"""Dimensions of an arrow for robots of the size of a TurtleBot3: RViz's default is longer than a metre [m]."""
 GROUND = ("rviz/Grid", "rviz/Map")
 """Displays that are drawn first, below everything else."""
 LOOK_NS = 1_000_000_000
-"""How often a window asks the Master for new topics [ns of graph time]."""
+"""Interval at which a window asks the Master for new topics [ns of graph time]."""
 
 
 class Suggestions:
     """Adds displays to a scene for topics that appear after the window was opened.
 
-    It suggests each display once: the user may have removed it. While the user chooses no other fixed frame, it also
-    changes the frame to `map` when the first map appears.
+    It suggests each display once, because the user may have removed it. Unless the user has chosen another fixed frame,
+    it also changes the frame to `map` when the first map appears.
     """
 
     def __init__(self, graph: Graph, scene: Scene, fixed_frame: str | None = None) -> None:
@@ -49,7 +49,7 @@ class Suggestions:
         self._next_ns = graph.scheduler.now_ns() + LOOK_NS
 
     def look(self) -> bool:
-        """Ask the Master if it is time to, and return whether the scene has new displays."""
+        """Ask the Master if an interval has passed, and return True if the scene has new displays."""
         scene, now = self._scene, self._graph.scheduler.now_ns()
         if now < self._next_ns:
             return False
@@ -59,7 +59,7 @@ class Suggestions:
         try:
             config = suggested(self._graph, self._chosen, apart_from=scene.node.name)
         except RosminiError:
-            return False  # the Master is gone, or has not answered yet
+            return False  # the Master has gone, or has not answered yet
         frame = str(config.options()["Fixed Frame"])
         if self._chosen is None and frame != self._frame:
             scene.fixed_frame = self._frame = frame
@@ -74,17 +74,17 @@ class Suggestions:
         return bool(added)
 
     def _shows(self, display: Display) -> tuple[str, str]:
-        """The class of a display and its topic, if it has one."""
+        """Return the class of a display and its topic, if it has one."""
         key = display.topic_property if isinstance(display, TopicDisplay) else "Update Topic"
         topic = str(display[key]) if key in display else ""
         return display.plugin_name, topic and self._scene.node.resolve(topic)
 
 
 def suggested(graph: Graph, fixed_frame: str | None = None, *, apart_from: str = "") -> Config:
-    """A configuration with a grid and a display for each topic that one can show.
+    """Return a configuration with a grid and a display for each topic that one can show.
 
-    The fixed frame is `map` where there is a map, and otherwise `odom`. Topics that only the node `apart_from`
-    publishes are left out. Raises as the Master's questions do.
+    The fixed frame is `map` if there is a map, and otherwise `odom`. Topics that only the node `apart_from`
+    publishes are left out. Raises the errors of the calls of the Master.
     """
     kinds: dict[str, type[TopicDisplay]] = {}
     for name in Display.names():
@@ -104,7 +104,7 @@ def suggested(graph: Graph, fixed_frame: str | None = None, *, apart_from: str =
             and single != topic
             and types.get(single) == "visualization_msgs/Marker"
         ):
-            continue  # the display of the single markers hears them, too
+            continue  # the display of single markers also receives them
         if kind in kinds:
             displays.append(_display(kinds[kind], topic))
         elif kind == INTERACTIVE:

@@ -1,4 +1,4 @@
-"""Maps with fewer cells that show the same."""
+"""Reduce the number of cells of maps without a visible difference."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ import numpy as np
 from .primitives import Pixels
 
 MOST_SIDE = 640
-"""Cells along a side of what is drawn: a page shows no more."""
+"""Maximum number of cells per side of a drawing: a page shows no more."""
 
 
 def thinned(cells: Pixels, scheme: str) -> tuple[Pixels, int]:
-    """A map (h, w) with at most `MOST_SIDE` cells a side, and how many cells each of them stands for along a side.
+    """Return a map (h, w) with at most `MOST_SIDE` cells a side, and the number of cells per side that each combines.
 
-    Of several cells the one counts that is seen best: the most occupied, so walls stay; unknown last.
+    Of several cells, the most occupied one is used, so that walls are preserved; unknown is used last.
     """
     factor = math.ceil(max(cells.shape) / MOST_SIDE)
     if factor <= 1:
         return cells, 1
-    # -1 must not win over what is known; as a signed byte it is least
+    # -1 must not override known cells; as a signed byte it is the minimum
     order = cells if scheme == "raw" else cells.view(np.int8)
     least = order.min() if scheme == "raw" else np.int8(-128)
     height, width = (-(-side // factor) * factor for side in cells.shape)

@@ -1,6 +1,6 @@
-"""Tools: what a press, a drag and a click in the scene do, and what they publish (http://wiki.ros.org/rviz/UserGuide).
+"""Tools: reactions to a press, a drag and a click in the scene (http://wiki.ros.org/rviz/UserGuide).
 
-A tool is given points of the fixed frame, by a live view or by a script: `click` and `drag` are what a hand does.
+A live view or a script gives a tool points of the fixed frame: `click` and `drag` do the same as a mouse.
 
 >>> from rosmini import Graph
 >>> from rosmini.viz.rviz import Scene
@@ -43,25 +43,25 @@ GREEN = np.array([0.0, 1.0, 0.0, 1.0])
 
 
 class Tool(Plugin, ABC):
-    """The base of tools: a hand goes down at a point, moves, and comes up."""
+    """The base of tools: the mouse button is pressed at a point, the mouse moves, and the button is released."""
 
     label: ClassVar[str] = ""
-    """What the tool bar says."""
+    """The label in the tool bar."""
     key: ClassVar[str] = ""
-    """The key that takes the tool."""
+    """The key that selects the tool."""
     hint: ClassVar[str] = ""
-    """What the status bar says before anything is done."""
+    """The text in the status bar before anything is done."""
     needs_object: ClassVar[bool] = False
-    """Whether it takes points of what is drawn only, not of the empty ground."""
+    """True if it accepts only points of drawn objects, not of the empty ground."""
     properties: ClassVar[tuple[Property, ...]] = ()
 
     def __init__(self, scene: Scene, tree: Mapping[str, Any] | None = None) -> None:
         self.scene = scene
         self._values = Properties(self.properties, tree)
         self.is_finished = False
-        """Whether the tool has done what it was taken for; a view then takes the first one again."""
+        """True if the tool has done its work; a view then selects the first tool again."""
         self.gaze: Gaze | None = None
-        """The line of sight of the hand, where a live view knows it; else points are seen from above."""
+        """The line of sight of the mouse, if a live view knows it; otherwise points are seen from above."""
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name]
@@ -71,42 +71,42 @@ class Tool(Plugin, ABC):
 
     @property
     def wrong(self) -> list[str]:
-        """What its part of a file had and could not be taken, in words."""
+        """Errors in its part of a file, in words."""
         return self._values.wrong
 
     def tree(self) -> dict[str, Any]:
-        """Its part of a `.rviz` file."""
+        """Return its part of a `.rviz` file."""
         return {**self._values.tree(), "Class": self.plugin_name}
 
-    # -- to be overridden: each is given a point (3,) of the fixed frame, and returns what the status bar says ----
+    # -- to be overridden: each receives a point (3,) of the fixed frame, and returns the text of the status bar ----
 
     def press(self, at: Floats) -> str:
-        """Learn that the hand went down."""
+        """Handle a press of the mouse button."""
         del at
         return self.hint
 
     def move(self, at: Floats) -> str:
-        """Learn that the hand moved while it was down."""
+        """Handle a move of the mouse while the button is pressed."""
         del at
         return self.hint
 
     def release(self, at: Floats) -> str:
-        """Learn that the hand came up."""
+        """Handle the release of the mouse button."""
         del at
         return self.hint
 
     def primitives(self) -> Iterator[Primitive]:
-        """What it draws into the scene while it is used."""
+        """Yield the primitives that it draws into the scene while it is used."""
         yield from ()
 
-    # -- what a script does --------------------------------------------------------------------------------------
+    # -- for scripts ---------------------------------------------------------------------------------------------
 
     def click(self, at: Point) -> str:
-        """Press and release at a point. Raises `DisplayError` if it is no point."""
+        """Press and release at a point. Raises `DisplayError` if it is not a point."""
         return self.drag(at, at)
 
     def drag(self, start: Point, end: Point) -> str:
-        """Press at one point and release at another. Raises `DisplayError` if one is no point."""
+        """Press at one point and release at another. Raises `DisplayError` if one is not a point."""
         first, last = point(start), point(end)
         self.is_finished = False
         self.press(first)
@@ -116,7 +116,7 @@ class Tool(Plugin, ABC):
 
 
 def point(given: Point) -> Floats:
-    """A point (3,) of two or three numbers [m]; z is 0. Raises `DisplayError` for anything else."""
+    """Return a point (3,) from two or three numbers [m]; z is 0 by default. Raises `DisplayError` for anything else."""
     try:
         found = [float(each) for each in given]
     except (TypeError, ValueError):
@@ -128,7 +128,7 @@ def point(given: Point) -> Floats:
 
 
 class PublishingTool(Tool):
-    """A tool that publishes on a topic. The publisher is there from the beginning, as RViz's is."""
+    """A tool that publishes on a topic. Its publisher exists from the beginning, as in RViz."""
 
     message: ClassVar[str] = ""
 
@@ -149,19 +149,19 @@ class PublishingTool(Tool):
             self._advertise()
 
     def stamped(self) -> Any:
-        """A new message in the fixed frame, stamped now."""
+        """Return a new message in the fixed frame, with the current time as its stamp."""
         message = self.type()
         message.header.frame_id = self.scene.fixed_frame
         message.header.stamp = Time.from_nsec(self.scene.context.now_ns)
         return message
 
     def publish(self, message: Any) -> None:
-        """Publish a message, and say what was published."""
+        """Publish a message."""
         self._publisher.publish(message)
 
 
 class PoseTool(PublishingTool):
-    """Where the hand goes down is the position, where it comes up gives the heading; a click heads along x."""
+    """Sets the position with the press of the mouse, and the heading with its release; a click heads along x."""
 
     hint = "Click and drag mouse to set position/orientation."
 
@@ -169,17 +169,17 @@ class PoseTool(PublishingTool):
     _end: Floats | None = None
 
     def press(self, at: Floats) -> str:
-        """Take the position, on the ground."""
+        """Store the position, on the ground."""
         self._start, self._end = at * (1, 1, 0), None
         return self.hint
 
     def move(self, at: Floats) -> str:
-        """Turn the arrow."""
+        """Rotate the arrow."""
         self._end = at * (1, 1, 0)
         return self.hint
 
     def release(self, at: Floats) -> str:
-        """Publish. Without a press before, nothing happens."""
+        """Publish the pose. Does nothing without a press before."""
         if self._start is None:
             return self.hint
         (x, y, _), (to_x, to_y, _) = self._start, at
@@ -188,11 +188,11 @@ class PoseTool(PublishingTool):
         return self.set_pose(float(x), float(y), math.atan2(to_y - y, to_x - x))
 
     def set_pose(self, x: float, y: float, yaw: float) -> str:
-        """Publish a pose of the fixed frame [m, rad], and say so."""
+        """Publish a pose of the fixed frame [m, rad], and return a text that describes it."""
         raise NotImplementedError
 
     def primitives(self) -> Iterator[Primitive]:
-        """The arrow, while the hand is down and has moved: RViz's is 2.5 m long."""
+        """Yield the arrow, after the mouse was pressed and moved: RViz's is 2.5 m long."""
         if self._start is not None and self._end is not None:
             (x, y, _), (to_x, to_y, _) = self._start, self._end
             c, s = np.cos(yaw := math.atan2(to_y - y, to_x - x)), np.sin(yaw)
@@ -207,7 +207,7 @@ def _set_pose(pose: Any, x: float, y: float, yaw: float) -> None:
 
 
 class SetInitialPose(PoseTool, plugin="rviz/SetInitialPose"):
-    """2D Pose Estimate: tells a localisation such as amcl where the robot is, and how sure that is."""
+    """2D Pose Estimate: tells a localisation such as amcl the pose of the robot and its uncertainty."""
 
     label, key, message = "2D Pose Estimate", "p", "geometry_msgs/PoseWithCovarianceStamped"
     properties = (
@@ -218,7 +218,7 @@ class SetInitialPose(PoseTool, plugin="rviz/SetInitialPose"):
     )
 
     def set_pose(self, x: float, y: float, yaw: float) -> str:
-        """Publish the estimate; its covariance has the squares of the deviations."""
+        """Publish the estimate, with the squares of the deviations as its covariance."""
         message = self.stamped()
         _set_pose(message.pose.pose, x, y, yaw)
         covariance = [0.0] * 36
@@ -230,7 +230,7 @@ class SetInitialPose(PoseTool, plugin="rviz/SetInitialPose"):
 
 
 class SetGoal(PoseTool, plugin="rviz/SetGoal"):
-    """2D Nav Goal: where a robot is to go."""
+    """2D Nav Goal: sends a robot to a goal."""
 
     label, key, message = "2D Nav Goal", "g", "geometry_msgs/PoseStamped"
     properties = (Property("Topic", "goal", "where goals are published"),)
@@ -248,7 +248,7 @@ class SetGoal(PoseTool, plugin="rviz/SetGoal"):
 
 
 class PublishPoint(PublishingTool, plugin="rviz/PublishPoint"):
-    """Publish Point: tells others a point that was clicked."""
+    """Publish Point: publishes a point that was clicked."""
 
     label, key, message = "Publish Point", "u", "geometry_msgs/PointStamped"
     needs_object = True
@@ -259,7 +259,7 @@ class PublishPoint(PublishingTool, plugin="rviz/PublishPoint"):
     )
 
     def move(self, at: Floats) -> str:
-        """Say which point would be taken."""
+        """Return a text with the point that a click would select."""
         return f"Left-Click: Select this point. [{at[0]:.3g},{at[1]:.3g},{at[2]:.3g}]"
 
     def release(self, at: Floats) -> str:
@@ -272,7 +272,7 @@ class PublishPoint(PublishingTool, plugin="rviz/PublishPoint"):
 
 
 class Measure(Tool, plugin="rviz/Measure"):
-    """Measure: the distance of two points."""
+    """Measure: measures the distance between two points."""
 
     label, key = "Measure", "n"
     needs_object = True
@@ -281,32 +281,32 @@ class Measure(Tool, plugin="rviz/Measure"):
     def __init__(self, scene: Scene, tree: Mapping[str, Any] | None = None) -> None:
         super().__init__(scene, tree)
         self.points: list[Floats] = []
-        """What was clicked since the last pair."""
+        """The points clicked since the last pair."""
 
     @property
     def length(self) -> float | None:
-        """The distance [m], once two points were clicked."""
+        """The distance [m], once two points have been clicked."""
         return norm(self.points[1] - self.points[0]) if len(self.points) == 2 else None
 
     def release(self, at: Floats) -> str:
-        """Take a point; the third starts another line."""
+        """Add a point; the third one starts another line."""
         self.points = [*(self.points if len(self.points) < 2 else []), at]
         return self.hint if self.length is None else f"[Length: {self.length:.6g}m] {self.hint}"
 
     def primitives(self) -> Iterator[Primitive]:
-        """The line between the points."""
+        """Yield the line between the points."""
         if len(self.points) == 2:
             yield Lines(np.array(self.points), GREEN)
 
 
 class FocusCamera(Tool, plugin="rviz/FocusCamera"):
-    """Focus Camera: what was clicked comes into the middle of the view."""
+    """Focus Camera: moves the clicked point to the middle of the view."""
 
     label, key = "Focus Camera", "c"
     hint = "Left-Click: Focus on this point."
 
     def release(self, at: Floats) -> str:
-        """Turn the view there, if there is one that can be turned."""
+        """Move the view there, if there is a view."""
         if self.scene.view is None:
             return "there is no view to turn; the picture is drawn around everything"
         self.scene.view.look_at(at, self.scene.context)
@@ -322,25 +322,25 @@ class MoveCamera(Tool, plugin="rviz/MoveCamera"):
     _held: Floats | None = None
 
     def press(self, at: Floats) -> str:
-        """Take hold."""
+        """Store the point where the drag starts."""
         self._held = at
         return self.hint
 
     def move(self, at: Floats) -> str:
-        """Move the view so that the point that was pressed follows the hand. Without a press, nothing happens."""
+        """Move the view so that the pressed point follows the mouse. Does nothing without a press."""
         if self.scene.view is not None and self._held is not None:
             self.scene.view.pan(self._held - at, self.scene.context)
         return self.hint
 
     def release(self, at: Floats) -> str:
-        """Let go."""
+        """End the drag."""
         del at
         self._held = None
         return self.hint
 
 
 class Interact(MoveCamera, plugin="rviz/Interact"):
-    """Interact: for interactive markers; elsewhere it moves the camera."""
+    """Interact: operates interactive markers; elsewhere it moves the camera."""
 
     label, key = "Interact", "i"
     hint = "Click an interactive marker, or drag to move the camera."
@@ -350,7 +350,7 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
     _marker: InteractiveMarkers | None = None
 
     def press(self, at: Floats) -> str:
-        """Take hold of the control that is there."""
+        """Press the mouse on the control at the point."""
         for display in self.scene:
             if not isinstance(display, InteractiveMarkers):
                 continue
@@ -362,17 +362,17 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
         return super().press(at)
 
     def move(self, at: Floats) -> str:
-        """Drag it."""
+        """Drag the control."""
         return super().move(at) if self._marker is None else str(self._marker.move(at, self.gaze))
 
     def release(self, at: Floats) -> str:
-        """Let go of it."""
+        """Release the control."""
         held, self._marker = self._marker, None
         return super().release(at) if held is None else str(held.release(at))
 
 
 class Select(Tool, plugin="rviz/Select"):
-    """Select: what is in the rectangle of a drag is listed by the Selection panel."""
+    """Select: lists the objects in a rectangle in the Selection panel."""
 
     label, key = "Select", "s"
     hint = "Click and drag to select objects on the screen."
@@ -383,25 +383,25 @@ class Select(Tool, plugin="rviz/Select"):
         """The rectangle, in the fixed frame."""
 
     def press(self, at: Floats) -> str:
-        """Begin a rectangle."""
+        """Start a rectangle."""
         self.corners = (at, at)
         return self.hint
 
     def move(self, at: Floats) -> str:
-        """Widen it."""
+        """Extend the rectangle."""
         self.corners = (at if self.corners is None else self.corners[0], at)
         return self.hint
 
     def release(self, at: Floats) -> str:
-        """End it."""
+        """End the rectangle."""
         return self.move(at)
 
 
 class Tools:
-    """The tools of a scene, in the order of its file; the first is in the hand.
+    """The tools of a scene, in the order of its file; the first is current.
 
     Raises:
-        ViewError: no tool is of that name, or a topic's name is none.
+        ViewError: no tool has this name, or the name of a topic is invalid.
 
     """
 
@@ -412,18 +412,18 @@ class Tools:
         for tree in trees:
             try:
                 self.all.append(Tool.named(kind_of(tree))(scene, tree))
-            except PluginError:  # the scene's warning names it, and it is kept in the file
+            except PluginError:  # the scene's warning lists it, and the file preserves it
                 continue
         if not self.all:
             self.all = [MoveCamera(scene)]
         self.current = self.all[0]
-        """The tool in the hand."""
+        """The tool in use."""
 
     def __iter__(self) -> Iterator[Tool]:
         return iter(self.all)
 
     def __getitem__(self, name: str) -> Tool:
-        """A tool by what the tool bar says, by its class, or by its key."""
+        """Return a tool by its label, its class, or its key."""
         for tool in self.all:
             if name in (tool.label, tool.plugin_name, tool.plugin_name.rpartition("/")[2], tool.key):
                 return tool
@@ -432,19 +432,19 @@ class Tools:
         raise ViewError(f"there is no tool {name!r:.60}; {hint}")
 
     def take(self, name: str) -> Tool:
-        """Take a tool into the hand. Raises `ViewError` if there is none of that name."""
+        """Select a tool. Raises `ViewError` if no tool has this name."""
         self._hold(self[name])
         self.current.is_finished = False
         return self.current
 
     def _hold(self, tool: Tool) -> None:
-        """Have a tool in the hand; controls of interactive markers are seen with Interact only, as in RViz."""
+        """Make a tool current; controls of interactive markers are shown only with Interact, as in RViz."""
         self.current = tool
         for display in self.scene:
             if isinstance(display, InteractiveMarkers):
                 display.shows_controls = isinstance(tool, Interact)
 
     def put_away(self) -> None:
-        """Take the first tool again if the one in the hand has done its work."""
+        """Select the first tool again if the current one has done its work."""
         if self.current.is_finished:
             self._hold(self.all[0])

@@ -1,4 +1,4 @@
-"""Displays of one topic: messages wait for their transform, are kept for as long as asked, and are drawn once each."""
+"""Displays of a topic: messages wait for their transform, are stored as long as requested, and are drawn once each."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ from .primitives import INVALID, DisplayError, Primitive
 from .properties import Property
 
 MOST_KEPT = 10_000
-"""How many messages a display keeps at most, whatever its history or decay time is."""
+"""Maximum number of messages that a display stores, whatever its history or decay time."""
 MOST_WAITING = 1000
 LENGTH_TOLERANCE = 0.01
-"""By how much the length of a quaternion may differ from 1 without a word."""
+"""Deviation of a quaternion's length from 1 that is tolerated without a warning."""
 
 
 class Heard:
-    """A message, and where its frame is in the fixed one.
+    """A message, and the pose of its frame in the fixed frame.
 
-    What comes from outside is brought to the fixed frame by `pose` and `points`, which also check it.
+    `pose` and `points` transform its contents to the fixed frame, and validate them.
     """
 
     def __init__(self, message: Any, arrived_ns: int) -> None:
         self.message = message
         self.arrived_ns = arrived_ns
-        """When it came [ns]."""
+        """Time of arrival [ns]."""
         header = getattr(message, "header", None)
         self.frame = "" if header is None else str(header.frame_id)
         self.stamp_ns = 0 if header is None else header.stamp.to_nsec()
@@ -44,28 +44,28 @@ class Heard:
             (getattr(message, "_connection_header", None) or {}).get("callerid", "unknown_publisher")
         )
         self.place: Rigid = IDENTITY
-        """Where the message's frame is in the fixed frame."""
+        """The pose of the message's frame in the fixed frame."""
         self.notes: list[str] = []
-        """What is odd in the message, in words; they become a warning."""
+        """Irregularities of the message, in words; they become a warning."""
         self.drawn: tuple[Primitive, ...] | None = None
         self.version = -1
 
     def points(self, points: Any) -> Floats:
-        """Points (n, 3) of the message's frame in the fixed frame (n, 3): an array, or messages with x, y, z."""
+        """Transform points (n, 3) of the message's frame to the fixed frame: an array, or messages with x, y, z."""
         if len(points) and hasattr(points[0], "x"):
             points = [(each.x, each.y, getattr(each, "z", 0.0)) for each in points]
         array = np.asarray(points, dtype=float).reshape(-1, 3)
         return transform_points(self.place, array)
 
     def pose(self, pose: Any) -> Floats:
-        """A `geometry_msgs/Pose` of the message's frame as a transform (4, 4) in the fixed frame.
+        """Return a `geometry_msgs/Pose` of the message's frame as a transform (4, 4) in the fixed frame.
 
-        A quaternion of zeros is taken as no rotation, as in RViz, and noted. Raises `DisplayError` for nan.
+        A quaternion of zeros means no rotation, as in RViz, with a note. Raises `DisplayError` for nan.
         """
         return matrix_product(matrix(self.place), matrix(self.local(pose)))
 
     def local(self, pose: Any) -> Rigid:
-        """A `geometry_msgs/Pose` in the message's own frame; checked as `pose` does."""
+        """Return a `geometry_msgs/Pose` in the message's own frame; validated like in `pose`."""
         at, turned = pose.position, pose.orientation
         values = (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w)
         if not all(math.isfinite(value) for value in values):
@@ -81,22 +81,22 @@ class Heard:
         return (x, y, z, i, j, k, w)
 
     def note(self, text: str) -> None:
-        """Say once what is odd in the message."""
+        """Add a note about an irregularity of the message, once."""
         if text not in self.notes:
             self.notes.append(text)
 
 
 class TopicDisplay(Display):
-    """The base of displays of one topic. A subclass names `message`, declares `properties`, and says how to `draw`."""
+    """The base of displays of one topic. A subclass defines `message`, `properties` and `draw`."""
 
     message: ClassVar[str] = ""
-    """The type of messages: `sensor_msgs/LaserScan`."""
+    """The type of the messages, such as `sensor_msgs/LaserScan`."""
     topic_property: ClassVar[str] = "Topic"
-    """What the property with the topic's name is called."""
+    """The name of the property with the topic's name."""
     history: ClassVar[str] = ""
-    """The property that says how many messages are kept (0: all); without it the last, or as `Decay Time` says."""
+    """The property with the number of messages to store (0 for all); by default one, or according to `Decay Time`."""
     needs_transform: ClassVar[bool] = True
-    """Whether a message waits until its frame can be brought to the fixed one."""
+    """True if a message waits until its frame can be transformed to the fixed frame."""
 
     properties: ClassVar[tuple[Property, ...]] = (
         Property("Topic", "", "the topic to subscribe to"),
@@ -109,26 +109,26 @@ class TopicDisplay(Display):
     def __init__(self, name: str = "", tree: Any = None) -> None:
         super().__init__(name, tree)
         self.received = 0
-        """How many messages came."""
+        """Number of messages received."""
         self._waiting: deque[Heard] = deque()
         self.kept: deque[Heard] = deque(maxlen=MOST_KEPT)
-        """What is shown, the oldest first."""
+        """The messages that are shown, the oldest first."""
 
     @classmethod
     def declared(cls) -> tuple[Property, ...]:
-        """All properties; that of the topic under this class's name for it."""
+        """Return all properties; that of the topic under this class's name for it."""
         found = super().declared()
         return tuple(each for each in found if each.name != "Topic" or cls.topic_property == "Topic")
 
     @abstractmethod
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-        """What a message looks like, in the fixed frame; asked once for each message, and when a property changed.
+        """Return the drawing of a message, in the fixed frame; called once per message, and when a property changed.
 
         May raise `DisplayError`: its text becomes the status, and the message is not shown.
         """
 
     def accept(self, heard: Heard, context: Context) -> bool:
-        """Whether to keep a message that came and whose place is known; a display with state of its own takes it here.
+        """Return True to store a message whose frame is known; a display with its own state processes it here.
 
         May raise `DisplayError`.
         """
@@ -136,18 +136,18 @@ class TopicDisplay(Display):
         return True
 
     def moment(self, heard: Heard) -> int:
-        """When a message's frame is looked at [ns]; 0: always now, so that the drawing goes with the frame."""
+        """Return the time at which a message's frame is looked up [ns]; 0 to follow the frame as it moves."""
         return heard.stamp_ns
 
     # -- hearing -------------------------------------------------------------------------------------------------
 
     @property
     def topic(self) -> str:
-        """The topic's name as it was given."""
+        """The topic's name as given."""
         return str(self[self.topic_property])
 
     def start(self, context: Context) -> None:
-        """Subscribe."""
+        """Subscribe to the topic."""
         if not self.topic:
             self.set_status(Level.ERROR, "Topic", "Error subscribing: Empty topic name")
             return
@@ -169,13 +169,13 @@ class TopicDisplay(Display):
             self.restart()
 
     def reset(self) -> None:
-        """Forget all messages."""
+        """Discard all messages."""
         self.received = 0
         self._waiting.clear()
         self.kept.clear()
 
     def hear(self, message: Any, context: Context) -> None:
-        """Take a message; it is kept as soon as its frame can be brought to the fixed one."""
+        """Process a message; it is stored as soon as its frame can be transformed to the fixed frame."""
         self.count()
         heard = Heard(message, context.now_ns)
         if not self.needs_transform:
@@ -189,17 +189,17 @@ class TopicDisplay(Display):
         self._settle(context)
 
     def count(self) -> None:
-        """Say that one more message came."""
+        """Count a received message in the status."""
         self.received += 1
         plural = "" if self.received == 1 else "s"
         self.set_status(Level.OK, "Topic", f"{self.received} message{plural} received")
 
     def transform_status(self, heard: Heard) -> str:
-        """The name of the status that says whether a message's frame can be brought to the fixed one."""
+        """Return the name of the status of a message's transform."""
         return f"Transform [sender={heard.sender}]"
 
     def _settle(self, context: Context) -> None:
-        """Keep what waited and can be placed now, in order of arrival; what is too old is dropped."""
+        """Store waiting messages whose transform is known now, in order of arrival; drop those that are too old."""
         still: deque[Heard] = deque()
         lost: Heard | None = None
         while self._waiting:
@@ -240,7 +240,7 @@ class TopicDisplay(Display):
         except (LookupException, ConnectivityException) as error:
             self.set_status(Level.ERROR, name, context.problem(heard.frame, error))
         except TransformException as error:
-            if is_dropped or not self.kept:  # else the transform of this moment is on its way, as always
+            if is_dropped or not self.kept:  # otherwise the transform will arrive soon, as usual
                 level = Level.ERROR if is_dropped or not heard.frame else Level.WARN
                 self.set_status(level, name, context.problem(heard.frame, error))
 
@@ -248,7 +248,7 @@ class TopicDisplay(Display):
         try:
             if not self.accept(heard, context):
                 return
-        except Exception as error:  # the scene stands, whatever one message does
+        except Exception as error:  # an error in one message must not stop the scene
             self.fail("Topic", error)
             return
         if not self._is_endless and not self.history:
@@ -261,7 +261,7 @@ class TopicDisplay(Display):
         return "Decay Time" in self and self["Decay Time"] > 0
 
     def _forget(self, context: Context) -> None:
-        """Drop what is beyond the history or the decay time."""
+        """Drop messages beyond the history or the decay time."""
         if self._is_endless:
             oldest = context.now_ns - int(self["Decay Time"] * 1e9)
             while len(self.kept) > 1 and self.kept[0].arrived_ns < oldest:
@@ -272,7 +272,7 @@ class TopicDisplay(Display):
                 self.kept.popleft()
 
     def _follow(self, context: Context) -> None:
-        """Look where the frames of messages without a moment are now."""
+        """Update the poses of frames that the drawing follows."""
         for heard in self.kept:
             if self.needs_transform and self.moment(heard) == 0:
                 try:
@@ -287,7 +287,7 @@ class TopicDisplay(Display):
     # -- drawing -------------------------------------------------------------------------------------------------
 
     def update(self, context: Context) -> None:
-        """Look again at what waits for a transform, and say why nothing came if nothing did."""
+        """Check messages that wait for a transform, and report why none arrived if that is so."""
         if self._waiting:
             self._settle(context)
         self._forget(context)
@@ -301,7 +301,7 @@ class TopicDisplay(Display):
             self.set_status(level, "Topic", f"No messages received: {why.text}")
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
-        """What was drawn for the messages that are kept."""
+        """Return the drawings of the stored messages."""
         found: list[Primitive] = []
         notes: list[str] = []
         for heard in self.kept:
@@ -309,7 +309,7 @@ class TopicDisplay(Display):
                 heard.version, heard.drawn = self.version, ()
                 try:
                     heard.drawn = tuple(self.draw(heard, context))
-                except Exception as error:  # the scene stands, whatever one message does
+                except Exception as error:  # an error in one message must not stop the scene
                     self.fail("Topic", error)
             found += heard.drawn
             notes += heard.notes

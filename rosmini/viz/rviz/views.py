@@ -1,6 +1,6 @@
-"""Views: from where a scene is seen (http://wiki.ros.org/rviz/UserGuide). Each becomes a camera.
+"""Views: positions from which a scene is seen (http://wiki.ros.org/rviz/UserGuide). Each becomes a camera.
 
-Files have the view under `Visualization Manager/Views/Current`.
+In a file, the view is under `Visualization Manager/Views/Current`.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from .properties import Properties, Property, Vector
 
 STEEPEST = math.pi / 2 - 0.001
 PIXELS = 900.0
-"""How wide the 3D view of RViz's window is, about [px]: what a scale in pixels a metre refers to."""
+"""Approximate width of the 3D view in RViz's window [px], to which a scale in pixels per metre refers."""
 ASPECT = 1.6
-"""Of the 3D view of RViz's window, about."""
+"""Approximate aspect ratio of the 3D view in RViz's window."""
 FIELD_OF_VIEW = 45.0
-"""Of RViz's cameras, from bottom to top [deg]."""
+"""Vertical field of view of RViz's cameras [deg]."""
 
 _TARGET = Property("Target Frame", FIXED_FRAME, "the frame that the camera goes with")
 _FOCUS = (
@@ -50,26 +50,26 @@ _FOCUS = (
 
 @dataclass(frozen=True)
 class Sight:
-    """From where one looks: at `target` (3,) [m], from the side `yaw` and from as high as `pitch` [rad]."""
+    """A viewpoint: looks at `target` (3,) [m], from the direction `yaw` and the elevation `pitch` [rad]."""
 
     target: Floats
     yaw: float
     pitch: float
     width: float
-    """How wide what one sees at the target is [m]; 0: as wide as what there is."""
+    """Visible width at the target [m]; 0 to fit the contents."""
     is_flat: bool = True
-    """Without perspective."""
+    """True for a view without perspective."""
     field_of_view: float = FIELD_OF_VIEW
-    """[deg]"""
+    """Vertical field of view [deg]."""
 
     @property
     def distance(self) -> float:
-        """From where a camera sees as much [m]."""
+        """Distance at which a camera sees this width [m]."""
         return self.width / (2.0 * ASPECT * math.tan(math.radians(self.field_of_view) / 2))
 
 
 class ViewController(Plugin):
-    """The base of views; `place` is where its camera is."""
+    """The base of views."""
 
     properties: ClassVar[tuple[Property, ...]] = (_TARGET,)
 
@@ -83,7 +83,7 @@ class ViewController(Plugin):
         self._values[name] = value
 
     def tree(self) -> dict[str, Any]:
-        """Its part of a file."""
+        """Return its part of a file."""
         name = self.plugin_name.rpartition("/")[2]
         return {
             **self._values.tree(),
@@ -93,11 +93,11 @@ class ViewController(Plugin):
         }
 
     def sight(self, context: Context) -> Sight:
-        """Where the camera is now. Where the target frame is not known, it is taken as the fixed one."""
+        """Return the current viewpoint. An unknown target frame is replaced by the fixed frame."""
         raise NotImplementedError
 
     def look_at(self, at: Floats, context: Context) -> None:
-        """Bring a point (3,) of the fixed frame into the middle."""
+        """Move a point (3,) of the fixed frame to the middle."""
         self.pan(at - self.sight(context).target, context)
 
     def pan(self, offset: Floats, context: Context) -> None:
@@ -105,11 +105,11 @@ class ViewController(Plugin):
         raise NotImplementedError
 
     def zoom(self, factor: float) -> None:
-        """Look from closer, by a factor."""
+        """Zoom in by a factor."""
         raise NotImplementedError
 
     def target(self, context: Context) -> tuple[Floats, float]:
-        """Origin (3,) and heading [rad] of the target frame in the fixed frame."""
+        """Return the origin (3,) and heading [rad] of the target frame in the fixed frame."""
         with suppress(TransformException):
             found = context.place(self["Target Frame"] or FIXED_FRAME)
             return np.array(found[:3]), rpy(found)[2]
@@ -117,12 +117,12 @@ class ViewController(Plugin):
 
 
 class Orbit(ViewController, plugin="rviz/Orbit"):
-    """Turns around a focal point, which goes with the target frame."""
+    """Orbits a focal point, which moves with the target frame."""
 
     properties = (_TARGET, *_FOCUS)
 
     def sight(self, context: Context) -> Sight:
-        """The focal point moves with the target frame, and does not turn with it."""
+        """Return the viewpoint; the focal point moves with the target frame, but does not rotate with it."""
         origin, _ = self.target(context)
         return self._around(origin + np.array(self["Focal Point"]), self["Yaw"])
 
@@ -132,11 +132,11 @@ class Orbit(ViewController, plugin="rviz/Orbit"):
         self["Focal Point"] = Vector(*(float(each) for each in np.array(self["Focal Point"]) + offset))
 
     def zoom(self, factor: float) -> None:
-        """Come closer to the focal point."""
+        """Move closer to the focal point."""
         self["Distance"] = self["Distance"] / factor
 
     def turn(self, yaw: float, pitch: float, distance: float, context: Context) -> None:
-        """Look from the side `yaw` of the fixed frame, from as high as `pitch` [rad], and from so far [m]."""
+        """Look from the direction `yaw` of the fixed frame, at the elevation `pitch` [rad], from this distance [m]."""
         del context
         self["Yaw"] = float(yaw) % (2 * math.pi)
         self["Pitch"] = min(max(float(pitch), -STEEPEST), STEEPEST)
@@ -152,28 +152,28 @@ class XYOrbit(Orbit, plugin="rviz/XYOrbit"):
     """An orbit whose focal point stays on the ground."""
 
     def sight(self, context: Context) -> Sight:
-        """As that of `Orbit`, on the ground of the target frame."""
+        """Return the viewpoint like `Orbit`, with the focal point on the ground of the target frame."""
         origin, _ = self.target(context)
         focus = self["Focal Point"]
         return self._around(origin + np.array([focus.x, focus.y, 0.0]), self["Yaw"])
 
 
 class ThirdPersonFollower(Orbit, plugin="rviz/ThirdPersonFollower"):
-    """An orbit that turns with the target frame."""
+    """An orbit that rotates with the target frame."""
 
     def sight(self, context: Context) -> Sight:
-        """Focal point and yaw are those of the target frame."""
+        """Return the viewpoint; focal point and yaw are relative to the target frame."""
         origin, heading = self.target(context)
         x, y, z = self["Focal Point"]
         c, s = math.cos(heading), math.sin(heading)
         return self._around(origin + np.array([c * x - s * y, s * x + c * y, z]), self["Yaw"] + heading)
 
     def turn(self, yaw: float, pitch: float, distance: float, context: Context) -> None:
-        """Look from the side `yaw` of the fixed frame; the view keeps it from the target frame."""
+        """Look from the direction `yaw` of the fixed frame; the view stores it relative to the target frame."""
         super().turn(yaw - self.target(context)[1], pitch, distance, context)
 
     def pan(self, offset: Floats, context: Context) -> None:
-        """Move the focal point, which is in the target frame."""
+        """Move the focal point, which is given in the target frame."""
         _, heading = self.target(context)
         x, y, z = offset
         c, s = math.cos(heading), math.sin(heading)
@@ -181,7 +181,7 @@ class ThirdPersonFollower(Orbit, plugin="rviz/ThirdPersonFollower"):
 
 
 class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
-    """From above, without perspective: `Scale` is in pixels a metre."""
+    """A view from above without perspective; `Scale` is in pixels per metre."""
 
     properties = (
         _TARGET,
@@ -192,7 +192,7 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
     )
 
     def sight(self, context: Context) -> Sight:
-        """At angle 0, x goes to the right and y goes up."""
+        """Return the viewpoint; at angle 0, x is to the right and y is up."""
         origin, _ = self.target(context)
         middle = origin + np.array([self["X"], self["Y"], 0.0])
         return Sight(middle, self["Angle"] - math.pi / 2, math.pi / 2, PIXELS / self["Scale"])
@@ -203,14 +203,14 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
         self["X"], self["Y"] = self["X"] + float(offset[0]), self["Y"] + float(offset[1])
 
     def zoom(self, factor: float) -> None:
-        """Draw everything larger."""
+        """Enlarge the drawing."""
         self["Scale"] = self["Scale"] * factor
 
 
 def view_like(kind: str, before: Sight, frame: str, context: Context) -> ViewController:
-    """A view of another kind that looks at the same place from as far; from the side, if it was from above.
+    """Return a view of another kind that shows the same place from the same distance; an orbit looks from the side.
 
-    Raises `PluginError` for a kind that is not known here.
+    Raises `PluginError` for an unknown kind.
     """
     made = ViewController.named(kind)()
     made["Target Frame"] = frame
@@ -224,7 +224,7 @@ def view_like(kind: str, before: Sight, frame: str, context: Context) -> ViewCon
 
 
 def view_controller(tree: Mapping[str, Any]) -> ViewController | None:
-    """The view that a file has; None for one that is not known here, and for none."""
+    """Return the view in a file; None if there is none or its class is unknown."""
     kind = str(tree.get("Class", ""))
     try:
         return ViewController.named(kind)(tree) if kind else None
