@@ -23,21 +23,21 @@ SECTORS = (
 
 @dataclass(frozen=True, eq=False)
 class Beams:
-    """What a picture needs of a scan."""
+    """The beams of a laser scan, as pictures need them."""
 
     angles: Floats
-    """(n,): of each beam [rad], counter-clockwise from straight ahead of the laser."""
+    """(n,): direction of each beam [rad], counter-clockwise from straight ahead of the laser."""
     ranges: Floats
-    """(n,) [m]; inf where nothing was hit, -inf where what was hit is too near to be measured."""
+    """(n,) [m]; inf where nothing was hit, -inf where the object hit is too near to be measured."""
     range_max: float
-    """[m]"""
+    """Maximum range [m]."""
     frame: str = ""
     starts: Floats | None = None
-    """(n, 3): the laser's pose at each beam, x [m], y [m], heading [rad], seen from its first; None: it stood still."""
+    """(n, 3): the laser's pose at each beam, x [m], y [m], heading [rad], relative to the first; None if constant."""
 
     @property
     def hits(self) -> NDArray[np.bool_]:
-        """(n,): which beams hit something."""
+        """(n,): True for each beam that hit something."""
         return np.isfinite(self.ranges)
 
     def points(self) -> Floats:
@@ -50,7 +50,7 @@ class Beams:
         return np.column_stack([x + reach * np.cos(angles), y + reach * np.sin(angles)])
 
     def nearest(self) -> int | None:
-        """The beam with the nearest hit; of those that differ by less than a hair, the one that looks ahead most."""
+        """The index of the nearest hit; among hits at almost the same range, of the beam closest to straight ahead."""
         if not self.hits.any():
             return None
         near = np.flatnonzero(self.hits & (self.ranges < self.ranges[self.hits].min() + 1.0371e-5))
@@ -58,7 +58,7 @@ class Beams:
         return min(off)[2]
 
     def text(self) -> str:
-        """How many beams hit something, and what is nearest."""
+        """Report how many beams hit something, and the nearest hit."""
         count = f"{int(self.hits.sum())} of {len(self.ranges)} beams hit"
         nearest = self.nearest()
         if nearest is None:
@@ -69,7 +69,7 @@ class Beams:
         )
 
     def clause(self) -> str:
-        """The same for an alt text."""
+        """Return the same as a clause for an alt text."""
         nearest = self.nearest()
         if nearest is None:
             return f"none of {len(self.ranges)} laser beams hits anything within {fixed(self.range_max, 1)} m"
@@ -79,7 +79,7 @@ class Beams:
         )
 
     def around(self) -> str:
-        """What the beams ahead, on the left, behind and on the right say; those that look there."""
+        """Report the ranges ahead, on the left, behind and on the right, where the laser has beams."""
         said = []
         for angle in (0.0, math.pi / 2, math.pi, -math.pi / 2):
             off = np.abs(np.array([_wrapped(float(a) - angle) for a in self.angles]))
@@ -91,7 +91,7 @@ class Beams:
 
 
 def direction(angle: float) -> str:
-    """Which of eight directions an angle [rad] is in, in words.
+    """Return the name of the one of eight directions that an angle [rad] lies in.
 
     >>> direction(0.1), direction(1.5), direction(-2.4)
     ('ahead', 'on the left', 'behind on the right')
@@ -100,13 +100,13 @@ def direction(angle: float) -> str:
 
 
 def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
-    """The beams of a `sensor_msgs/LaserScan`, or of an array of ranges: beam i at 2 pi i / beams, or as `lidar` says.
+    """Return the beams of a `sensor_msgs/LaserScan` or of an array of ranges: beam i at 2 pi i / n, or as `lidar` says.
 
     A range outside of range_min and range_max is not a hit, nor is nan (sensor_msgs/LaserScan, REP 117).
 
     Raises:
-        ViewError: the scan has no ranges, or not as many as its angles say or the laser has beams, or its angles are
-            not numbers.
+        ViewError: the scan has no ranges, or their number does not match its angles or the laser's beams, or its angles
+            are not finite.
 
     """
     if not hasattr(scan, "ranges"):
@@ -117,7 +117,7 @@ def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
         first, step = (
             (first + last) / 2,
             1.0,
-        )  # one beam needs no step: stageros says inf, and half its field of view to either side
+        )  # one beam needs no increment: stageros sends inf, and half its field of view as limits
         last = first
     if not all(map(math.isfinite, (first, step, last))) or not step:
         raise ViewError(
@@ -125,7 +125,7 @@ def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
             "knows where its beams look"
         )
     expected = round((last - first) / step) + 1
-    # some drivers give the end of the last beam's share as angle_max, some the last beam itself
+    # some drivers set angle_max to the end of the last beam's sector, some to the last beam itself
     if not len(ranges) or abs(expected - len(ranges)) > 1:
         raise ViewError(
             f"a scan has {len(ranges)} ranges, but its angles from {first:.4f} to {last:.4f} rad by {step:.6f} rad are "
@@ -160,7 +160,7 @@ def _from_ranges(given: ArrayLike, lidar: LidarModel | None) -> Beams:
 def _beams(angles: Floats, ranges: Floats, least: float, most: float, frame: str) -> Beams:
     hit = np.isfinite(ranges) & (ranges >= least) & (ranges <= most)
     reach = most if 0 < most < math.inf else float(max(ranges[hit], default=1.0))
-    # 0 is no distance: an LDS-01 gives it for a beam that did not come back
+    # 0 is not a distance: an LDS-01 reports it for a beam without an echo
     near = (ranges == -np.inf) | (ranges > 0) & (ranges < least)
     return Beams(angles, np.where(hit, ranges, np.where(near, -np.inf, np.inf)), reach, frame)
 

@@ -1,4 +1,4 @@
-"""Maps of bytes: what stands where in a piece of a protocol, byte by byte."""
+"""Byte maps: the parts of a protocol message and their bytes, drawn one below the other."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from rosmini.viz.view import Picture, ViewError
 __all__ = ["byte_map"]
 
 ACROSS = 16
-"""Bytes in a row."""
+"""Number of bytes in a row."""
 
 ROWS = 4
-"""The rows of a part at most; what is left is counted."""
+"""Maximum number of rows of a part; the bytes beyond them are only counted."""
 
 CELL, HEIGHT, OFFSET = 23.0, 25.0, 38.0
 COLOURS = ["ink", "muted", "label", "node-fill", "node-line", "topic-fill", "topic-line"]
 
 
 class _Row(NamedTuple):
-    """Some bytes of a part: `label` is its meaning, in its first row."""
+    """Some bytes of a part; only the first row of a part has its meaning as `label`."""
 
     offset: int
     data: bytes
@@ -34,15 +34,15 @@ class _Row(NamedTuple):
 
 
 def byte_map(data: bytes, parts: Iterable[tuple[int, str]], *, title: str) -> Picture:
-    """Draw bytes in their parts, one below the other: where each begins, its bytes, and what it means.
+    """Draw the parts of some bytes, one below the other: the offset, the bytes and the meaning of each.
 
     Args:
         data: the bytes.
-        parts: (how many bytes, what they mean), in order; together they are all of the data. A part that is text is
-            shown as such, any other one in hexadecimal digits; of a long one its first 64 bytes are shown.
+        parts: (number of bytes, meaning) of each part, in order; together they cover all of the data. A part that is
+            text is shown as text, any other in hexadecimal; of a long part only the first 64 bytes are shown.
         title: the caption, and the first words of the text form.
 
-    Raises ``ViewError`` if the parts are not as long as the data.
+    Raises ``ViewError`` if the sizes of the parts do not add up to the length of the data.
 
     """
     data = bytes(data)
@@ -75,7 +75,7 @@ def _rows(offset: int, data: bytes, meaning: str) -> list[_Row]:
 
 
 def _shown(byte: int, is_text: bool) -> str:
-    """A byte as a character, where it is one of a text that can be seen, else as two digits."""
+    """Return a byte as a character if it is printable text, otherwise as two hexadecimal digits."""
     return chr(byte) if is_text and byte != 0x0A else f"{byte:02x}"
 
 

@@ -1,4 +1,4 @@
-"""Costs from above, in RViz's colours, and if given the robot, its footprint, a plan and a goal on them."""
+"""Costmaps from above, in RViz's colours, with an optional robot, footprint, plan and goal."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ KINDS = (
     ("obstacle", 254, 254),
     ("unknown", 255, 255),
 )
-"""What costs are called, and from which to which."""
+"""The kinds of cost: name, lowest and highest value."""
 
 
 def costmap_picture(
@@ -51,19 +51,19 @@ def costmap_picture(
 
     Args:
         grid: the costs.
-        robot: its x [m], y [m] and heading [rad] in the frame of the costmap.
-        model: which robot.
-        footprint: its outline (n, 2) [m] in its base frame, drawn where the robot is.
+        robot: its pose x [m], y [m], heading [rad] in the frame of the costmap.
+        model: the robot's model.
+        footprint: its outline (n, 2) [m] in its base frame, drawn at the robot's pose.
         plan: a path (n, 2) or (n, 3) [m].
         goal: a point or a pose [m].
-        window: show these cells only: first column, first row, and the ones behind the last.
-        scheme: "costmap", RViz's colours, or "safe", which the colour-blind can tell.
-        name: what it is, for the text form.
+        window: show only these cells: first column, first row, and the column and row after the last.
+        scheme: "costmap", RViz's colours, or "safe", which colour-blind people can distinguish.
+        name: the name of the costmap, for the text form.
         title: a caption under the picture, and the first words of its text form.
         size: the largest width and height [CSS px].
 
     Raises:
-        ViewError: it is no costmap, or what should be drawn on it is none; the message says what is wrong.
+        ViewError: `grid` is not a costmap, or something to be drawn on it is invalid; the message says what is wrong.
 
     """
     cells = cells_of(grid, window)
@@ -90,7 +90,7 @@ def costmap_picture(
 
 
 def cells_of(grid: Costmap2D, window: Sequence[int] | None = None) -> Cells:
-    """The costs of a costmap, or of a part of it, and where they lie. Raises `ViewError`."""
+    """Return the costs of a costmap, or of a window of it, and their position. Raises `ViewError`."""
     if not isinstance(grid, Costmap2D):
         raise ViewError(
             f"a costmap is a Costmap2D, not a {type(grid).__name__}: that of a Costmap2DROS is its grid"
@@ -109,12 +109,12 @@ def cells_of(grid: Costmap2D, window: Sequence[int] | None = None) -> Cells:
 
 
 def published(costs: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Costs (h, w) as the bytes of the message in which RViz gets them."""
+    """Return costs (h, w) as the bytes of the message that RViz receives."""
     return published_values()[costs].view(np.uint8)
 
 
 def shares(costs: NDArray[np.uint8]) -> list[str]:
-    """Which part of the cells has which kind of cost, in whole percent; what is not there is left out."""
+    """Return the percentage of cells of each kind of cost, in whole percent; kinds without cells are left out."""
     said = []
     for name, low, high in KINDS:
         count = int(((costs >= low) & (costs <= high)).sum())
@@ -125,7 +125,7 @@ def shares(costs: NDArray[np.uint8]) -> list[str]:
 
 
 class _Scene:
-    """What is drawn on the costs."""
+    """The things drawn on top of the costs."""
 
     def __init__(
         self, pose: Pose | None, outline: Floats | None, plan: Floats | None, goal: Floats | None
@@ -176,7 +176,7 @@ class _Scene:
 
 
 def _swatches(cells: Cells, scheme: str) -> list[Any]:
-    """A patch for each kind of cost that is there."""
+    """Return a legend patch for each kind of cost that occurs."""
     from matplotlib.patches import Patch
 
     table = colours_of(scheme)

@@ -1,4 +1,4 @@
-"""A running Gazebo world from above: models that drive as named, coloured robots, the others as things."""
+"""A running Gazebo world from above: robots are named and coloured, other models are drawn as objects."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rosmini.viz.view import Picture
 from rosmini.viz.world_pictures import HEIGHT, Other, Scene, contents, pose_of, pose_text
 
 MANY = 12
-"""Of more models than this only the first are named."""
+"""Maximum number of models that are named."""
 
 
 def gazebo_picture(
@@ -34,24 +34,24 @@ def gazebo_picture(
     title: str | None = None,
     size: tuple[float, float] = (WIDTH, HEIGHT),
 ) -> Picture:
-    """Draw a world of Gazebo from above, in metres, x to the right and y up.
+    """Draw a Gazebo world from above, in metres, x to the right and y up.
 
     Args:
-        snapshot: what a server's or a client's `snapshot()` gives.
-        robot: the pose that `scan`, `trail` and `odom` belong to: x [m], y [m], heading [rad]; by default that of
-            `name`.
-        model: what it is.
-        scan: what its laser measured, as `world_picture` takes it.
-        scan_from: where it was then.
-        trail: where it was, (n, 2) or (n, 3).
-        odom: where its odometry believes that it was, likewise.
-        others: more robots.
-        name: of the model that is drawn as the first robot, in blue; by default the first that drives.
+        snapshot: the snapshot of a server or a client.
+        robot: the pose to which `scan`, `trail` and `odom` belong: x [m], y [m], heading [rad]; by default the pose
+            of `name`.
+        model: the model of that robot.
+        scan: a scan of its laser, in the forms that `world_picture` takes.
+        scan_from: its pose when the scan was taken.
+        trail: its past positions or poses, (n, 2) or (n, 3).
+        odom: the same according to its odometry.
+        others: further robots.
+        name: the model that is drawn as the first robot, in blue; by default the first robot.
         title: a caption under the picture, and the first words of its text form.
         size: the largest width and height [CSS px].
 
     Raises:
-        ViewError: a pose, a scan or a trail is not one; the message says what is wrong with it.
+        ViewError: a pose, a scan or a trail is invalid; the message says what is wrong with it.
 
     """
     driven = list(snapshot.robots)
@@ -70,7 +70,7 @@ def gazebo_picture(
 
 
 def _first(driven: list[Robot], pose: Pose | None, name: str) -> Robot | None:
-    """The robot that is drawn first: that of the name, that at the pose, or the first there is."""
+    """Return the robot that is drawn first: the one with this name, the one at this pose, or the first in the list."""
     if pose is not None:
         return next(
             (each for each in driven if each.name == name or math.dist(each.pose[:2], pose[:2]) < 1e-3), None
@@ -80,7 +80,7 @@ def _first(driven: list[Robot], pose: Pose | None, name: str) -> Robot | None:
 
 
 class _Scene(Scene):
-    """What there is to see in a world of Gazebo."""
+    """The contents of a Gazebo world."""
 
     def __init__(self, snapshot: Snapshot) -> None:
         super().__init__(snapshot.world(robots=False))
@@ -88,24 +88,24 @@ class _Scene(Scene):
         self.alone_too = True
 
     def text(self, title: str | None) -> str:
-        """What time it is there, and where everything is."""
+        """The time in the world, and the position of everything."""
         head = [f"{title or self.snapshot.title}: {when(self.snapshot)}", contents(self.world)]
         own = super().text(title).splitlines()[1:]
         return "\n".join([*head, *own, *places(self.snapshot)])
 
     def alt(self) -> str:
-        """The same in sentences."""
+        """The same as sentences."""
         said = super().alt()
         return f"{said} It is {when(self.snapshot)}."
 
 
 def when(snapshot: Snapshot) -> str:
-    """What time it is there, and whether it stands."""
+    """Return the time in the world, and whether it is paused."""
     return f"{fixed(snapshot.time, 2)} s{', paused' * snapshot.paused}"
 
 
 def places(snapshot: Snapshot) -> list[str]:
-    """A line for each model that can be moved, and one for those that stand fast."""
+    """Return a line for each movable model, and one for the static ones."""
     lines = [f"{model.name}: pose {pose_text(model.place)}" for model in snapshot.things[:MANY]]
     if len(snapshot.things) > MANY:
         lines.append(f"and {len(snapshot.things) - MANY} more that can be moved")

@@ -1,4 +1,4 @@
-"""Images of cameras: what a `sensor_msgs/Image` shows, in colour or grey, or in false colours if it holds depths."""
+"""Pictures of a `sensor_msgs/Image`: in colour, in grey, or in false colours if it contains depths."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ Pixels = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
 WIDTH = 480
-"""A picture is no wider than this [px] if nothing else is said."""
+"""Default maximum width of a picture [px]."""
 
 MILLIMETRES = 1e-3
 
 
 class Encoding(NamedTuple):
-    """How pixels are written: number type, channels, places of red, green and blue; or metres a unit of depth."""
+    """The form of a pixel: number type, channels, indices of red, green and blue; or metres per unit of depth."""
 
     kind: str
     channels: int
@@ -46,22 +46,22 @@ ENCODINGS = {
     "16SC1": Encoding("i2", 1, (), MILLIMETRES),
     **{f"bayer_{order}8": Encoding("u1", 1, (0, 0, 0)) for order in ("rggb", "bggr", "gbrg", "grbg")},
 }
-"""Those of `sensor_msgs/image_encodings.h` that cameras and depth cameras write (depths: REP 118); raw are grey."""
+"""Encodings of `sensor_msgs/image_encodings.h` that cameras write (depths: REP 118); Bayer images are shown in grey."""
 
 
 def image_picture(
     image: Any, *, title: str | None = None, width: float = WIDTH, far: float | None = None
 ) -> Picture:
-    """Show an image; depths go from yellow, near, to blue, far, with a scale, and grey where nothing was measured.
+    """Show an image; depths go from yellow (near) to blue (far), with a scale, and are grey where nothing was measured.
 
     Args:
         image: a `sensor_msgs/Image`; or an array: (h, w, 3) of bytes, red, green, blue, or (h, w) of depths [m].
         title: a caption under the picture, and the first words of its text form.
-        width: the largest width of the image [px].
-        far: the depth at the end of the scale [m]; the largest there is if not given.
+        width: the maximum width of the image [px].
+        far: the depth at the end of the scale [m]; by default the largest depth in the image.
 
     Raises:
-        ViewError: it is no image, or its data do not fit its size and its encoding.
+        ViewError: it is not an image, or its data do not match its size and encoding.
 
     """
     if hasattr(image, "encoding"):
@@ -82,10 +82,10 @@ def image_picture(
 
 
 def pixels_of(message: Any) -> NDArray[Any]:
-    """The pixels of a `sensor_msgs/Image`: bytes (h, w, 3), red, green, blue, or depths [m] (h, w), nan for none.
+    """Return the pixels of a `sensor_msgs/Image`: RGB bytes (h, w, 3), or depths [m] (h, w), nan where there is none.
 
     Raises:
-        ViewError: the encoding is not known, or the data are not as long as the image's size says.
+        ViewError: the encoding is unknown, or the amount of data does not match the image's size.
 
     """
     encoding = ENCODINGS.get(message.encoding)
@@ -105,10 +105,10 @@ def pixels_of(message: Any) -> NDArray[Any]:
 
 
 def values_of(message: Any, encoding: Encoding) -> NDArray[Any]:
-    """What a `sensor_msgs/Image` of an encoding holds (h, w, channels), as it was written.
+    """Return the raw values (h, w, channels) of a `sensor_msgs/Image` with this encoding.
 
     Raises:
-        ViewError: the data are not as long as the image's size says.
+        ViewError: the amount of data does not match the image's size.
 
     """
     kind = np.dtype((">" if message.is_bigendian else "<") + encoding.kind)
@@ -151,7 +151,7 @@ def _coloured(pixels: Pixels, name: str, title: str | None, width: float) -> Pic
 
 
 def _colour_of(pixels: Pixels) -> str:
-    """The mean colour of pixels in words that one level more or less does not change."""
+    """Name the mean colour of pixels in words that do not change with one grey level more or less."""
     if not pixels.size:
         return "black"
     red, green, blue = pixels.reshape(-1, 3).mean(axis=0)

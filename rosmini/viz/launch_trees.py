@@ -1,4 +1,4 @@
-"""The plan of a launch as a tree: files, what they include, their nodes with remappings and parameters."""
+"""The plan of a launch as a tree: files, their includes, and their nodes with remappings and parameters."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from rosmini.viz.words import plural
 __all__ = ["launch_tree"]
 
 LONGEST = 44
-"""How many characters of a value are shown."""
+"""Maximum number of characters of a value that are shown."""
 
 
 def launch_tree(plan: Plan, *, parameters: bool = True, title: str | None = None) -> Picture:
-    """Draw what launch files mean, as a tree.
+    """Draw a plan of launch files as a tree.
 
     Args:
-        plan: the plan, of `rosmini.ros.launch.read` for instance.
-        parameters: whether parameters are shown.
+        plan: the plan, for instance from `rosmini.ros.launch.read`.
+        parameters: False leaves out the parameters.
         title: a caption under the picture.
 
     """
@@ -36,7 +36,7 @@ def launch_tree(plan: Plan, *, parameters: bool = True, title: str | None = None
 def _file(
     file: LaunchFile, plan: Plan, depth: int, parent: int, number: int, *, parameters: bool
 ) -> Iterator[Row]:
-    """Yield a file, as row `number`, and what is in it."""
+    """Yield the row of a file, with index `number`, and the rows of its contents."""
     name = file.path.replace(os.sep, "/").rpartition("/")[2]
     space = ((KIND, f"in {file.namespace}"),) if file.namespace != "/" else ()
     yield Row(depth, parent, ((HEAD, name), *space))
@@ -73,7 +73,7 @@ def _node(
 
 
 def _of(node: NodePlan, file: LaunchFile) -> list[Setting]:
-    """Return the parameters of a node's own."""
+    """Return the private parameters of a node."""
     return [setting for setting in file.settings if setting.name.startswith(node.full_name + "/")]
 
 

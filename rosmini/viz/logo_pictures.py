@@ -1,4 +1,4 @@
-"""What programs in Logo have drawn, as a player in which the lines grow; its still picture is the drawing."""
+"""Drawings of Logo programs as a player in which the lines grow; its still picture is the finished drawing."""
 
 from __future__ import annotations
 
@@ -25,31 +25,31 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 LONGEST = 30.0
-"""No drawing takes longer to grow; turtles go faster then [s]."""
+"""Maximum duration of a drawing; turtles go faster if it would take longer [s]."""
 
 TURNING = 360.0
-"""How fast turtles turn [degrees/s]."""
+"""Turning speed of turtles [degrees/s]."""
 
 TURTLE = ((0.3, 0.0), (0.1, 0.12), (-0.25, 0.17), (-0.15, 0.0), (-0.25, -0.17), (0.1, -0.12))
 """A turtle's outline [m], for a window of 11 m, x ahead."""
 
 
 class _Shown(Shown):
-    """A drawing of a player, told of in Logo's terms."""
+    """A drawing in a player, described in Logo's terms."""
 
     def __init__(self, drawing: Drawing, run: Run) -> None:
         super().__init__(run)
         self.drawing = drawing
 
     def text(self, title: str) -> str:
-        """How many lines there are, and where the turtles stand."""
+        """The number of lines, and the poses of the turtles."""
         return "\n".join(
             [f"{title}: {_lines(self.drawing)}", *(_turtle(*each) for each in self.drawing.turtles.items())]
         )
 
     @property
     def alt(self) -> str:
-        """The same in sentences."""
+        """The same as sentences."""
         return " ".join(
             [
                 f"A drawing by Logo, which grows: {_lines(self.drawing)}.",
@@ -59,12 +59,12 @@ class _Shown(Shown):
 
 
 def logo_picture(drawing: Drawing, *, title: str | None = None, speed: float = 200.0) -> ReplayView:
-    """A player of a drawing, in which the turtles draw it again.
+    """Return a player in which the turtles repeat a drawing.
 
     Args:
-        drawing: what `Logo.drawing` is.
+        drawing: the value of `Logo.drawing`.
         title: a caption, and the first words of the text form.
-        speed: how fast turtles go [steps/s]; a drawing that would take longer than half a minute is drawn faster.
+        speed: the speed of turtles [steps/s]; a drawing that would take longer than half a minute is drawn faster.
 
     Raises:
         ViewError: the speed is not above zero.
@@ -86,7 +86,7 @@ def logo_picture(drawing: Drawing, *, title: str | None = None, speed: float = 2
 
 
 def _times(strokes: tuple[Stroke, ...], speed: float) -> Floats:
-    """When each movement begins [s], and when the last one ends."""
+    """Return the time at which each movement begins [s], and at which the last one ends."""
     spans = [
         math.dist(stroke.start[:2], stroke.end[:2]) / speed
         + abs(math.remainder(stroke.end.heading - stroke.start.heading, 360.0)) / TURNING
@@ -98,7 +98,7 @@ def _times(strokes: tuple[Stroke, ...], speed: float) -> Floats:
 
 
 def _strokes(drawing: Drawing, times: Floats) -> dict[str, tuple[Line, ...]]:
-    """The lines of each turtle, joined where they follow one another with one pen."""
+    """Return the lines of each turtle; consecutive strokes of one pen are joined."""
     found: dict[str, tuple[Line, ...]] = {}
     numbered = [(i, stroke) for i, stroke in enumerate(drawing.strokes)]
     for name in dict.fromkeys(stroke.turtle for stroke in drawing.strokes):
@@ -130,13 +130,13 @@ def _body(name: str, pose: Pose, drawing: Drawing, times: Floats) -> Body:
 
 
 def _metres(drawing: Drawing, pose: Pose) -> tuple[float, float, float]:
-    """A pose in metres, x to the right, y up, and radians counter-clockwise from x."""
+    """Return a pose in metres, x to the right, y up, and radians counter-clockwise from x."""
     x, y = (drawing.middle + part / drawing.metre for part in pose[:2])
     return x, y, math.radians(90.0 - pose.heading)
 
 
 def _bounds(drawing: Drawing) -> tuple[float, float, float, float] | None:
-    """The window of turtlesim; None for what has none, or what is larger."""
+    """Return turtlesim's window; None if there is none or the drawing leaves it."""
     if not drawing.middle:
         return None
     side = 2.0 * drawing.middle

@@ -1,7 +1,7 @@
 """Colours of grids, one table for all pictures: RViz's three schemes, and one for every kind of colour vision.
 
-A cell of `nav_msgs/OccupancyGrid` is a byte: 0 to 100 are what maps and costmaps use, -1 (255) is unknown, and the
-others are illegal (http://wiki.ros.org/rviz/DisplayTypes/Map).
+A cell of `nav_msgs/OccupancyGrid` is a byte: maps and costmaps use 0 to 100, -1 (255) is unknown, and the others
+are illegal (http://wiki.ros.org/rviz/DisplayTypes/Map).
 
 | scheme | 0 | 1 to 98 | 99 | 100 | unknown |
 |---|---|---|---|---|---|
@@ -24,19 +24,19 @@ from rosmini.viz.view import ViewError
 Colours = NDArray[np.uint8]
 
 SCHEMES = ("map", "costmap", "raw", "safe")
-"""The first three are RViz's, by its names; "safe" shows a costmap in colours that the colour-blind can tell."""
+"""The first three are RViz's, by their names; "safe" shows a costmap in colours for every kind of colour vision."""
 UNKNOWN = 255
-"""The byte of -1, a cell of which nothing is known."""
+"""The byte of -1, an unknown cell."""
 ALPHA = 0.7
-"""How opaque RViz draws a map, unless it is told otherwise."""
+"""Default opacity of a map in RViz."""
 
 
 @cache
 def colours_of(scheme: str = "map") -> Colours:
-    """Return the colours (256, 4) of a scheme: red, green, blue and alpha (0 to 255) by the byte in a cell, read-only.
+    """Return the colours (256, 4) of a scheme: red, green, blue and alpha (0 to 255) per cell value, read-only.
 
     Raises:
-        ViewError: there is no such scheme.
+        ViewError: the scheme does not exist.
 
     """
     if scheme not in SCHEMES:
@@ -67,10 +67,10 @@ def colours_of(scheme: str = "map") -> Colours:
 
 
 def painted(cells: ArrayLike, scheme: str = "map") -> Colours:
-    """Return the colours (..., 4) of cells (...), which are bytes, signed as in messages or not.
+    """Return the colours (..., 4) of cells (...), which are bytes, signed (as in messages) or unsigned.
 
     Raises:
-        ViewError: there is no such scheme.
+        ViewError: the scheme does not exist.
 
     """
     values = np.asarray(cells).astype(np.int16) & 0xFF
@@ -79,5 +79,5 @@ def painted(cells: ArrayLike, scheme: str = "map") -> Colours:
 
 
 def scheme_of(topic: str) -> str:
-    """Return the scheme of a grid on a topic unless one is chosen: `costmap` if that is in the name, else `map`."""
+    """Return the default scheme of a grid on a topic: `costmap` if its name contains that word, otherwise `map`."""
     return "costmap" if "costmap" in topic else "map"

@@ -1,6 +1,6 @@
-"""A map from above: what is free, occupied and unknown, in metres, and if given a robot, points and a path on it.
+"""A map from above: free, occupied and unknown cells, in metres, with an optional robot, points and a path.
 
-Its cells have the colours of RViz, on a dark page, too, since what is white and what is black has a meaning.
+Its cells have the colours of RViz, also on a dark page, since white and black have a meaning.
 """
 
 from __future__ import annotations
@@ -34,22 +34,22 @@ Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
 STEADY = ("page", "blue", "vermilion", "green")
-"""Colours of what is drawn on a map, which does not turn dark either."""
+"""Colours of things drawn on a map, which also stay the same on a dark page."""
 ARROW = 22.0
 """The length of the axes at a map's origin [px]."""
 FEW = 6
-"""So many points are named one by one."""
+"""Maximum number of points that are listed one by one."""
 
 
 class Cells(NamedTuple):
-    """Cells as bytes (h, w), the first row at the origin; the side of one [m], and where the first has its corner."""
+    """Cells as bytes (h, w), the first row at the origin; the side of a cell [m], and the pose of the grid's corner."""
 
     values: Bytes
     resolution: float
     origin: Pose
 
     def corners(self) -> Floats:
-        """The corners (4, 2) of the grid, the origin first, then to the left of it."""
+        """Return the corners (4, 2) of the grid, counter-clockwise from the origin."""
         height, width = self.values.shape
         unit = np.array([(0, 0), (width, 0), (width, height), (0, height)], dtype=float)
         return transform_points(self.origin, unit * self.resolution)
@@ -70,14 +70,14 @@ def map_picture(
     Args:
         grid: the map.
         robot: a robot's x [m], y [m] and heading [rad] in the frame of the map.
-        model: which robot.
-        points: places (n, 2) [m] to mark with dots.
+        model: the robot's model.
+        points: positions (n, 2) [m] to mark with dots.
         path: a line (n, 2) or (n, 3) [m].
         title: a caption under the picture, and the first words of its text form.
         size: the largest width and height [CSS px].
 
     Raises:
-        ViewError: it is no map, or a pose, points or a path are none; the message says what is wrong with it.
+        ViewError: it is not a map, or a pose, points or a path are invalid; the message says what is wrong.
 
     """
     if not isinstance(grid, GridMap):
@@ -110,7 +110,7 @@ def map_picture(
 
 
 def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
-    """The cells as an element of SVG, which lies below what is drawn on these axes."""
+    """Return the cells as an SVG element, which lies below the things drawn on these axes."""
     values, _ = thinned(cells.values, scheme)
     data, opacity = gif(painted(values, scheme))
     width, height = figure.get_size_inches() * 72
@@ -118,7 +118,7 @@ def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
     left, top = box.x0 * width, (1 - box.y1) * height
     scale = box.width * width / (x1 - x0)
     origin, right, _, up = cells.corners() * (scale, -scale) + (left - x0 * scale, top + y1 * scale)
-    pixelated = np.abs(right - origin).max() >= values.shape[1]  # else one left out may be a wall
+    pixelated = np.abs(right - origin).max() >= values.shape[1]  # otherwise walls may be left out
     a, b, c, d, e, f = (fixed(value, 3) for value in (*(right - origin), *(up - origin), *origin))
     return element(
         "image", href=gif_address(data), width=1, height=1,
@@ -128,19 +128,19 @@ def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
 
 
 def gif_address(data: bytes) -> str:
-    """A GIF as an address that holds all of it."""
+    """Return a GIF as a data URL."""
     return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
 
 def cells_element(address: str, **where: str | float) -> str:
-    """A GIF of cells as an element of SVG in which each cell stays a rectangle, with its place and other attributes."""
+    """Return a GIF of cells as an SVG element, where cells stay rectangles, with a position and other attributes."""
     return element(
         "image", href=address, **where, preserveAspectRatio="none", style="image-rendering:pixelated"
     )
 
 
 def draw_frame(axes: Axes, cells: Cells, scale: float) -> None:
-    """The edge of a grid, and at its origin two short axes: x red, y green, as in RViz."""
+    """Draw the edge of a grid and two short axes at its origin: x red, y green, as in RViz."""
     corners = cells.corners()
     edges = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     draw_strokes(axes, edges, "group-line", 1.0)
@@ -157,7 +157,7 @@ def _legend(grid: GridMap, dots: Floats | None, line: Floats | None) -> list[Any
     for name, value in (("free", 0), ("occupied", 100), ("unknown", -1)):
         if (grid.occupancy == value).any():
             red, green, blue, _ = colours_of("map")[value & 0xFF].tolist()
-            # pure black and white would follow the theme of the page
+            # pure black and pure white would follow the theme of the page
             face = f"#{min(max(red, 1), 254):02x}{min(max(green, 1), 254):02x}{min(max(blue, 1), 254):02x}"
             handles.append(Patch(facecolor=face, edgecolor=LIGHT["group-line"], label=name))
     if line is not None:
@@ -186,7 +186,7 @@ def _text(grid: GridMap, robot: Pose | None, dots: Floats | None, line: Floats |
 
 
 def shares(grid: GridMap) -> list[str]:
-    """Which part of the cells is free, occupied and unknown, and what else there is."""
+    """Return the percentages of free, occupied, unknown and other cells."""
     counts = {
         "free": int(grid.free.sum()),
         "occupied": int((grid.occupancy == 100).sum()),

@@ -1,4 +1,4 @@
-"""The inside of a `move_base` as a picture: the plugins that it has loaded, and the nodes that they hear or command."""
+"""The inside of a `move_base` as a picture: its loaded plugins, and the nodes that they receive from or send to."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ COLOURS = [
     "ink", "muted", "line", "label", "node-fill", "node-line", "topic-fill", "topic-line", "group-fill", "group-line",
 ]  # fmt: skip
 OBEYS = " "
-"""Added to the name of a node that is commanded, which stands below as one of its own: so arrows lead downwards."""
+"""Suffix of the name of a node that receives commands: it is drawn a second time, below, so that arrows lead down."""
 Arrow = tuple[str, str, str]
-"""(from, to, what passes): nodes by their names, parts by theirs."""
+"""(from, to, topics): names of nodes or of parts."""
 
 
 def move_base_picture(move_base: Any, *, title: str | None = None) -> Picture:
-    """Draw what a running `move_base` is made of, and what comes from outside.
+    """Draw the parts of a running `move_base`, and its connections to the outside.
 
-    Ovals are other nodes, with the topics by which they are heard or commanded; a node that is commanded stands below
-    once more. A topic that nobody else publishes stands for itself, as that of goals does until a program sends one.
-    Boxes are parts: the planners, layers and recovery behaviors that are loaded, under their ROS names. Publications
-    that nobody hears, and parameters, are left out.
+    Ovals are other nodes, with the topics that they publish or subscribe to; a node that is commanded appears again
+    below. A topic without another publisher appears by itself, like the topic of goals until a program sends one.
+    Boxes are parts: the loaded planners, layers and recovery behaviours, under their ROS names. Publications without
+    subscribers, and parameters, are left out.
 
     Args:
         move_base: the program of the node, `graph.nodes["/move_base"].program`.
@@ -53,7 +53,7 @@ def move_base_picture(move_base: Any, *, title: str | None = None) -> Picture:
 
 
 def _outside(name: str, found: Structure, state: GraphState) -> list[Arrow]:
-    """What other nodes give the parts, and what the parts command; the topics between the same two in one arrow."""
+    """Return the arrows between other nodes and the parts; the topics between the same two share an arrow."""
     single = sorted({each for part in found.parts for each in _ends(name, part, state)})
     return [
         (source, target, ", ".join(topic for _, _, topic in group))
@@ -62,7 +62,7 @@ def _outside(name: str, found: Structure, state: GraphState) -> list[Arrow]:
 
 
 def _ends(name: str, part: Part, state: GraphState) -> Iterator[Arrow]:
-    """Every (from, to, topic) of a part and another node; of a topic without a publisher the topic is the source."""
+    """Yield every (from, to, topic) of a part and another node; a topic without a publisher is itself the source."""
     heard = {topic: state.publishers.get(topic, frozenset()) - {name} for topic in part.subscribes}
     for topic, publishers in heard.items():
         yield from ((publisher, part.name, topic) for publisher in publishers)

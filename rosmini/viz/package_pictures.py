@@ -1,4 +1,4 @@
-"""Packages as pictures: what is in the folder of one, or of a workspace, and which needs which."""
+"""Packages as pictures: the contents of the folder of a package or workspace, and the dependencies of packages."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ MEANINGS = {
     "urdf": "descriptions of robots",
     "worlds": "worlds of a simulator",
 }
-"""What stands by custom under these names in the folder of a package."""
+"""Usual contents of a package's folder, by name."""
 
 SPACES = {
     "build": "the build space: the notes of the build",
@@ -59,14 +59,14 @@ SPACES = {
     "src": "the source space: what you write",
     "src/CMakeLists.txt": "makes one build of all packages",
 }
-"""What stands in a workspace of catkin, by its path there."""
+"""Contents of a catkin workspace, by relative path."""
 
 DEEPEST, MOST = 3, 8
-"""How many levels of folders are shown, and how many entries of one folder."""
+"""Maximum number of levels of folders, and of entries of a folder, that are shown."""
 
 
 class Entry(NamedTuple):
-    """A row of the tree: its depth, its name, and what it is; "" where the name says it."""
+    """A row of the tree: its depth, its name, and its meaning ("" if the name is enough)."""
 
     depth: int
     name: str
@@ -74,11 +74,11 @@ class Entry(NamedTuple):
 
 
 def package_tree(package: str, *, index: PackageIndex | None = None, title: str | None = None) -> Picture:
-    """Draw the folder of a package, and say what its parts are for.
+    """Draw the folder of a package with the purpose of its parts.
 
     Args:
-        package: its name.
-        index: where packages are looked for; by default what `ROS_PACKAGE_PATH` names, and rosmini's own.
+        package: the name of the package.
+        index: the index in which packages are searched; by default `ROS_PACKAGE_PATH` and rosmini's own packages.
         title: a caption under the picture, and the first words of its text form.
 
     Raises:
@@ -91,10 +91,10 @@ def package_tree(package: str, *, index: PackageIndex | None = None, title: str 
 
 
 def workspace_tree(space: str = "", *, devel: Path | None = None, title: str | None = None) -> Picture:
-    """Draw the folders of a workspace, and say what they are for.
+    """Draw the folders of a workspace with their purposes.
 
     Args:
-        space: one of its folders alone, such as "src"; by default all of them, to the second level.
+        space: draw only this folder, such as "src"; by default all folders, to the second level.
         devel: its development space; by default the first one in `CMAKE_PREFIX_PATH`: the workspace sourced last.
         title: a caption under the picture, and the first words of its text form.
 
@@ -142,7 +142,7 @@ def _role(folder: Path) -> str:
 def _inside(
     folder: Path, depth: int, meanings: Mapping[str, str], *, deepest: int = DEEPEST, below: str = ""
 ) -> Iterator[Entry]:
-    """Yield what is in a folder: files first, then folders, each by name; `meanings` by paths from the first folder."""
+    """Yield the contents of a folder: files first, then folders, each by name; `meanings` is keyed by relative path."""
     found = sorted(folder.iterdir(), key=lambda path: (path.is_dir(), path.name))
     found = [path for path in found if not path.name.startswith((".", "__"))]
     for path in found[:MOST]:
@@ -159,12 +159,12 @@ def _inside(
 def package_graph(
     *packages: str, depth: int = 1, index: PackageIndex | None = None, title: str | None = None
 ) -> Picture:
-    """Draw which packages need which, as their manifests say.
+    """Draw the dependencies between packages, according to their manifests.
 
     Args:
-        packages: the names to begin with.
-        depth: how many steps along the dependencies are taken from there.
-        index: where packages are looked for; by default what `ROS_PACKAGE_PATH` names, and rosmini's own.
+        packages: the names of the packages to start from.
+        depth: the number of steps along the dependencies.
+        index: the index in which packages are searched; by default `ROS_PACKAGE_PATH` and rosmini's own packages.
         title: a caption under the picture, and the first words of its text form.
 
     Raises:

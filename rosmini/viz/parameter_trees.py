@@ -13,10 +13,10 @@ from rosmini.viz.words import plural
 __all__ = ["parameter_tree"]
 
 ROSCORE = ("/rosdistro", "/roslaunch", "/rosversion", "/run_id")
-"""What roscore and roslaunch set for themselves."""
+"""Parameters that roscore and roslaunch set themselves."""
 
 LONGEST = 44
-"""How many characters of a value are shown."""
+"""Maximum number of characters of a value that are shown."""
 
 
 @dataclass(frozen=True)
@@ -35,12 +35,12 @@ def parameter_tree(
 
     Args:
         source: a graph, its Master, or a dictionary of parameters.
-        namespace: what to draw, `/` for all.
-        hide: full names that are left out; those that roscore sets for itself, if not given.
+        namespace: the namespace to draw, `/` for all.
+        hide: full names to leave out; by default the parameters that roscore and roslaunch set themselves.
         title: a caption under the picture, and the first words of its text form.
 
     Raises:
-        ViewError: the source has no parameters, or there is no such namespace.
+        ViewError: the source has no parameters, or the namespace does not exist.
 
     """
     rows = list(_rows(_tree(source, namespace), namespace, hide, 0, -1))
@@ -82,7 +82,7 @@ def _tree(source: object, namespace: str) -> dict[str, Any]:
 def _rows(
     tree: Mapping[str, Any], full: str, hide: Collection[str], depth: int, parent: int, number: int = 0
 ) -> Iterator[_Row]:
-    """Yield a namespace, as row `number`, and what is in it."""
+    """Yield a namespace, as row `number`, and its contents."""
     yield _Row(depth, full if depth == 0 else full.rpartition("/")[2] + "/", parent, None, is_namespace=True)
     following = number + 1
     for name in sorted(tree):

@@ -1,4 +1,4 @@
-"""Numbers over time, or over anything else: a few lines with marks in one frame."""
+"""Plots of numbers over time, or over anything else: a few lines with markers in one frame."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 COLOURS = ("blue", "orange", "green", "vermilion", "purple")
 MARKS = ("o", "s", "^", "D", "v")
 LEFT, RIGHT, TOP, BOTTOM, HEIGHT = 50.0, 24.0, 58.0, 42.0, 220.0
-"""Around the frame, and its height [px]."""
+"""Margins around the plot, and its height [px]."""
 
 
 def plot(
@@ -39,16 +39,16 @@ def plot(
     """Plot up to five series of points, each with a line through it.
 
     Args:
-        series: by name, the numbers along x and those along y, as many of each.
-        x: what stands along x, with its unit in brackets.
-        y: what stands along y, likewise.
+        series: for each name, the numbers along x and along y, of the same length.
+        x: the label of the x axis, with its unit in brackets.
+        y: the label of the y axis, likewise.
         title: a caption under the picture, and the first words of its text form.
-        alt: what there is to see, for those who do not see it; the text form is put after it.
-        width: of the picture [CSS px].
-        marks: whether each point has a mark.
+        alt: a description for people who cannot see the picture; the text form is appended to it.
+        width: width of the picture [CSS px].
+        marks: True to mark each point.
 
     Raises:
-        ViewError: there are no series or too many, or one has lists of different lengths or no numbers.
+        ViewError: there are no series or too many, or a series has lists of different lengths or no numbers.
 
     """
     points = {name: _points(name, values) for name, values in series.items()}
@@ -63,7 +63,7 @@ def plot(
         _frame(axes, np.vstack(list(points.values())), x, y)
         for (name, values), colour, shape in zip(points.items(), COLOURS, MARKS, strict=False):
             box, low = axes.viewLim, axes.viewLim.min
-            pixel = np.array([box.width, box.height]) / 2000.0  # a good deal finer than the screen
+            pixel = np.array([box.width, box.height]) / 2000.0  # much finer than the screen
             drawn = snap((values - low) / pixel, 1.0) * pixel + low
             axes.plot(
                 *drawn.T, color=LIGHT[colour], linewidth=1.4, marker=shape if marks else None, markersize=4.5,
@@ -86,7 +86,7 @@ def _points(name: str, values: tuple[ArrayLike, ArrayLike]) -> Floats:
 
 
 def _frame(axes: Axes, points: Floats, x: str, y: str) -> None:
-    """Limits and ticks around the points and zero."""
+    """Set limits and ticks around the points and zero."""
     edges = []
     for low, high, most in (
         (points[:, 0].min(), points[:, 0].max(), 6),

@@ -1,4 +1,4 @@
-"""A recorded run: its way from above, and its velocities and the error of its odometry over time."""
+"""A recorded run: its path from above, and its velocities and odometry error over time."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 LEFT, GAP, TOP, BOTTOM, ROW_GAP = 50.0, 66.0, 58.0, 42.0, 50.0
-"""Around and between the plots [px]."""
+"""Margins around the plots and gaps between them [px]."""
 STROKE = 1.8
 LEAST_WAY = 0.005
-"""A thing that was moved by less [m] is not said to have moved."""
+"""Minimum distance that counts as movement of an object [m]."""
 
 
 class RunScene(Scene):
-    """The end of a run, and the way to there."""
+    """The end of a run, and the path to it."""
 
     def __init__(self, recording: Recording, *, scan: bool) -> None:
         end = float(recording.times[-1])
@@ -55,7 +55,7 @@ class RunScene(Scene):
             self.look(beams_of(recording.scans[-1], self.model.laser), _pose(each[0]), each)
 
     def text(self, title: str | None) -> str:
-        """What happened, in numbers."""
+        """The run in numbers."""
         run = self.recording
         name = run.name if run.others and run.name else run.model.name
         recorded = ((run.times, "pose"), (run.scans, "scan"), (run.commands, "command"))
@@ -72,7 +72,7 @@ class RunScene(Scene):
         return "\n".join(lines)
 
     def alt(self) -> str:
-        """What happened, in sentences."""
+        """The run in sentences."""
         run = self.recording
         seen = f" In its last scan, {self.beams.clause()}." if self.beams is not None else ""
         return (
@@ -87,7 +87,7 @@ class RunScene(Scene):
         return [thing for thing in self.recording.things if thing.distance > LEAST_WAY]
 
     def _beside(self) -> str:
-        """Other robots and things that moved, as sentences."""
+        """Return sentences about other robots and objects that moved."""
         others, moved = self.recording.others, [thing.obstacle.name for thing in self._moved()]
         said = ""
         if others:
@@ -106,19 +106,19 @@ def recording_picture(
     title: str | None = None,
     size: tuple[float, float] = (WIDTH, HEIGHT),
 ) -> Picture:
-    """Draw a run from above: where the robot was, and where its odometry believes that it was, laid on the same start.
+    """Draw a run from above: the true path of the robot, and its path by odometry, both with the same start.
 
-    The robot is drawn at the end of each way: solid where it is, a dashed outline where odometry puts it. Other robots
-    have colours and names. Recorded things stand where they ended, with a dashed outline where they began.
+    The robot is drawn at the end of both paths: solid at its true pose, with a dashed outline at its pose by odometry.
+    Other robots have colours and names. Recorded objects are drawn where they ended, and with dashes where they began.
 
     Args:
         recording: the run.
-        scan: whether the last scan is drawn too, from where it was taken.
+        scan: True to draw the last scan too, from where it was taken.
         title: a caption under the picture, and the first words of its text form.
         size: the largest width and height [CSS px].
 
     Raises:
-        ViewError: it is no recording, or it has no scan to draw.
+        ViewError: it is not a recording, or it has no scan to draw.
 
     """
     return RunScene(_checked(recording), scan=scan).picture(title, size)
@@ -127,16 +127,16 @@ def recording_picture(
 def recording_plots(
     recording: Recording, *, odometry: bool = True, title: str | None = None, width: float = WIDTH
 ) -> Picture:
-    """Plot a run over time: the velocities, as commanded and as driven, and how far odometry is off.
+    """Plot a run over time: the commanded and the actual velocities, and the error of odometry.
 
     Args:
         recording: the run.
-        odometry: whether the error of odometry is plotted beside the velocities.
+        odometry: True to plot the odometry error beside the velocities.
         title: a caption under the picture, and the first words of its text form.
-        width: of the picture [CSS px].
+        width: width of the picture [CSS px].
 
     Raises:
-        ViewError: it is no recording, or one of a single moment.
+        ViewError: it is not a recording, or it has no duration.
 
     """
     run = _checked(recording)
@@ -178,11 +178,11 @@ def _plots(run: Recording, width: float, *, odometry: bool) -> Figure:
 def _frame(
     axes: Axes, label: str, span: tuple[float, float], values: Floats, least: float, *, last: bool
 ) -> None:
-    """Limits and ticks around `values` and zero, at least `least` high, and a title over them."""
+    """Set limits and ticks around `values` and zero, at least `least` high, and a title."""
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
     if high - low < least:
         high = low + least
-    low, high = 1.06 * low, 1.06 * high  # a line along the edge would not be seen
+    low, high = 1.06 * low, 1.06 * high  # a line along the edge would be invisible
     step = step_of(high - low, 4)
     bottom, top = math.floor(low / step + 0.0137) * step, math.ceil(high / step - 0.0137) * step
     axes.set(xlim=span, ylim=(bottom, top))
@@ -197,7 +197,7 @@ def _frame(
 def _curve(
     axes: Axes, times: Floats, values: Floats, colour: str, *, dashed: bool = False, label: str = ""
 ) -> None:
-    """A line over time, of as few points as make the same picture; rounded to a twentieth of a pixel."""
+    """Draw a line over time, with only the points that matter, rounded to a twentieth of a pixel."""
     box = axes.get_window_extent()
     size = np.array([box.width, box.height])
     limits = np.array([axes.get_xlim(), axes.get_ylim()])

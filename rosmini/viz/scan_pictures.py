@@ -1,4 +1,4 @@
-"""One laser scan, as the robot sees it: what is around it, and the range of each beam over its angle."""
+"""A laser scan from the robot's point of view: the hits around it, and the range of each beam over its angle."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIDE = 264.0
-"""Of the round view [px]."""
+"""Width and height of the round view [px]."""
 EDGE, FLANK = 24.0, 40.0
-"""Above and below it, and on each side of it, for the words [px]."""
+"""Space above and below it, and on each side of it, for the labels [px]."""
 
 
 GROUND = MappingProxyType({"facecolor": LIGHT["page"], "alpha": 0.75, "edgecolor": "none", "pad": 1.0})
-"""Under words that stand on other things."""
+"""Background of labels in front of other things."""
 
 
 def scan_picture(
@@ -38,13 +38,13 @@ def scan_picture(
     """Draw a scan twice: around the robot, with ahead at the top, and as ranges over angles, with the left on the left.
 
     Args:
-        scan: a `sensor_msgs/LaserScan`, or ranges [m] of which beam i looks at 2 pi i / beams from ahead.
-        model: the robot that has the laser; TurtleBot3 Burger if not given. Only the drawing of it depends on it.
+        scan: a `sensor_msgs/LaserScan`, or ranges [m], where beam i has the direction 2 pi i / beams from ahead.
+        model: the robot with the laser; by default the TurtleBot3 Burger. Only its drawing depends on it.
         title: a caption under the picture, and the first words of its text form.
-        width: of the picture [CSS px].
+        width: width of the picture [CSS px].
 
     Raises:
-        ViewError: the scan is invalid, or its angles and its ranges do not match.
+        ViewError: the scan is invalid, or the numbers of its angles and ranges do not match.
 
     """
     beams = beams_of(scan)
@@ -153,7 +153,7 @@ def _over_angles(figure: Figure, beams: Beams, width: float) -> None:
     if nearest is not None:
         spot = (float(angles[nearest]), float(snap(beams.ranges[nearest])))
         _encircle(axes, *spot)
-        # nothing lies below the nearest hit
+        # there is nothing below the nearest hit
         below = spot[1] > 0.12 * top
         _say_at(
             axes,
@@ -181,11 +181,11 @@ def _say_at(
 
 
 ALONE = 15.0
-"""How far the axis goes to either side of a beam ahead that is the only one [deg]."""
+"""Extent of the axis to either side of a single beam ahead [deg]."""
 
 
 def _field(angles: Floats) -> tuple[float, float]:
-    """From which angle to which the axis goes [deg]: what the beams span, and ahead."""
+    """Return the range of angles of the axis [deg]: all beams, and ahead."""
     low, high = min(angles.min(), 0.0), max(angles.max(), 0.0)
     if low == high:
         return (-ALONE, ALONE)
@@ -193,7 +193,7 @@ def _field(angles: Floats) -> tuple[float, float]:
 
 
 def _radius(beams: Beams) -> float:
-    """How far the picture has to reach [m]: to the furthest hit, or to the laser's own limit if a beam hits nothing."""
+    """Return the radius of the picture [m]: the furthest hit, or the laser's maximum range if a beam hits nothing."""
     if not beams.hits.all():
         return beams.range_max
     furthest = float(beams.ranges.max())

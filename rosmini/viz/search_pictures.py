@@ -1,4 +1,4 @@
-"""A search on a grid of costs from above: what it reached and at what cost, what waits, parents, and the path."""
+"""A search on a cost grid from above: reached cells with their potentials, the frontier, parents, and the path."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
 NEAR, FAR = (214, 234, 248), (0, 84, 148)
-"""Colours of cells that were reached, from the start to the farthest one."""
+"""Colours of reached cells, from the start to the farthest one."""
 WAITING = (230, 159, 0)
 BLOCKED, UNKNOWN = 60, 170
-"""Greys of cells that no way leads through, and of unknown ones that one may."""
+"""Greys of impassable cells, and of unknown ones that are passable."""
 SHADES = 200
 MANY = 2_500
-"""With more cells, parents are not drawn: one could not see them."""
+"""Above this number of cells parents are not drawn, because they would be too small."""
 HEIGHT = 460.0
 
 
 def search_picture(
     search: Search, *, parents: bool = False, title: str | None = None, width: float = WIDTH
 ) -> Picture:
-    """Draw a search as it is now, to scale, row 0 at the bottom.
+    """Draw a search in its current state, to scale, row 0 at the bottom.
 
     Args:
-        search: what was searched, to its end or not.
-        parents: whether to draw a line from each cell to the one its potential comes from.
+        search: the search, finished or not.
+        parents: True to draw a line from each cell to the cell that its potential comes from.
         title: a caption, and the first words of the text form.
-        width: at most [CSS px].
+        width: maximum width [CSS px].
 
     Raises:
-        ViewError: it is no search, or it has too many cells for their parents to be seen.
+        ViewError: it is not a search, or it has too many cells to show their parents.
 
     """
     if not isinstance(search, Search):
@@ -84,7 +84,7 @@ STYLE = (
 
 
 def path_of(search: Search) -> Floats | None:
-    """The path, if the search has arrived."""
+    """Return the path, if the search has arrived."""
     if not search.arrived:
         return None
     try:
@@ -94,7 +94,7 @@ def path_of(search: Search) -> Floats | None:
 
 
 def said_of(search: Search) -> str:
-    """A search in words."""
+    """Describe a search in words."""
     said = f"{search.expanded} cells taken up, {int(search.reached.sum())} of {search.width * search.height} reached"
     path = path_of(search)
     if path is not None:
@@ -108,7 +108,7 @@ def said_of(search: Search) -> str:
 
 
 def greys_of(search: Search) -> Bytes:
-    """The ground (h, w) in grey: the higher the cost the darker, and nearly black where no way leads."""
+    """Return the ground (h, w) in grey: darker with increasing cost, and nearly black if impassable."""
     costs = search.costs[1:-1, 1:-1]
     greys = (255 - 0.35 * np.minimum(costs, 252)).astype(np.uint8)
     greys[costs == 255] = UNKNOWN
@@ -117,7 +117,7 @@ def greys_of(search: Search) -> Bytes:
 
 
 def shades() -> Bytes:
-    """The colours (SHADES, 3) of cells that were reached."""
+    """Return the colours (SHADES, 3) of reached cells."""
     share = np.linspace(0, 1, SHADES)[:, None]
     return np.rint((1 - share) * NEAR + share * FAR).astype(np.uint8)
 

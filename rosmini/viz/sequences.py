@@ -1,4 +1,4 @@
-"""Sequence diagrams: who called whom, in order, and what was answered."""
+"""Sequence diagrams: calls between participants in order, with their answers."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ COLOURS = ["page", "ink", "line", "label", "muted", "node-fill", "node-line", "g
 HEAD = 30.0
 ROW = 32.0
 GAP = 150.0
-"""How far apart two participants are at least [px]."""
+"""Minimum distance between two participants [px]."""
 
 
 def sequence_diagram(calls: Iterable[Call], *, title: str) -> Picture:
-    """Draw who called whom: a line for each participant, downwards in time, and an arrow for each call.
+    """Draw calls: a line for each participant, downwards in time, and an arrow for each call.
 
     Args:
-        calls: (who, whom, what, answer), in order. An answer is drawn as a dashed arrow back; None where there is none.
+        calls: (caller, callee, what, answer), in order. An answer is a dashed arrow back; None for no answer.
         title: the caption, and the first line of the text form.
 
-    Participants stand in the order in which they appear. Raises ``ViewError`` without calls, and for a call of oneself.
+    Participants are in order of appearance. Raises ``ViewError`` without calls, and if a participant calls itself.
 
     """
     made = [(who, whom, what, answer) for who, whom, what, answer in calls]
@@ -60,9 +60,9 @@ def recorded_calls(
     limit: int = 40,
     title: str | None = None,
 ) -> Picture:
-    """Draw what happened in a graph while it recorded; the arguments are those of ``Recording.show``.
+    """Draw the calls in a graph while it recorded; the arguments are those of ``Recording.show``.
 
-    Raises ``ViewError`` when nothing of it happened.
+    Raises ``ViewError`` if there were none.
     """
     calls = recording.calls(*names, everything=everything, since=since)
     about = f" about {', '.join(names)}" if names else ""
@@ -77,7 +77,7 @@ def recorded_calls(
 
 
 Arrow = tuple[str, str, str, bool]
-"""(from, to, label, whether it is an answer)"""
+"""(from, to, label, True for an answer)"""
 
 
 def _arrows(call: Call) -> list[Arrow]:
@@ -90,7 +90,7 @@ def _line(source: str, target: str, label: str, is_answer: bool) -> str:
 
 
 def _columns(actors: Sequence[str], arrows: Sequence[Arrow]) -> list[float]:
-    """The x of each participant's line: as near as labels and names allow."""
+    """Return the x of each participant's line: as close as labels and names allow."""
     at = [text_width(actors[0], style.TEXT_SIZE) / 2 + 12]
     for index in range(1, len(actors)):
         names = sum(text_width(one, style.TEXT_SIZE) / 2 + 20 for one in actors[index - 1 : index + 1])

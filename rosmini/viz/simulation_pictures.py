@@ -1,4 +1,4 @@
-"""A running simulation, as it is now: the world, the robot where it really is, and what its laser saw last."""
+"""A running simulation in its current state: the world, the true pose of the robot, and the last scan of its laser."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ def simulation_picture(
     title: str | None = None,
     size: tuple[float, float] = (WIDTH, HEIGHT),
 ) -> Picture:
-    """Draw a simulator's world as it is now, with its robots, and the first one's last scan from where it was taken.
+    """Draw a simulator's world in its current state, with its robots, and the first robot's last scan.
 
     Args:
-        simulator: what `rosrun("rosmini_sim", "simulator").instance()` returns.
-        scan: whether the last scan is drawn; there is none before the first revolution of the laser.
-        trail: where the robot was: a `Recording`, of which odometry is drawn too, or poses (n, 2) or (n, 3).
+        simulator: the instance that `rosrun("rosmini_sim", "simulator").instance()` returns.
+        scan: True to draw the last scan; there is none before the first revolution of the laser.
+        trail: past poses of the robot: a `Recording`, whose odometry is also drawn, or poses (n, 2) or (n, 3).
         title: a caption under the picture, and the first words of its text form.
         size: the largest width and height [CSS px].
 

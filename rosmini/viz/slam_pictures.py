@@ -1,6 +1,6 @@
-"""What gmapping holds: a particle's map, its path, and the tree of all paths; as a picture or a player.
+"""The state of gmapping: a particle's map, its path, and the tree of all paths; as a picture or a player.
 
-Paths that died are there only as far as a living one shares them: what a resampling takes away is gone.
+Paths of particles that died exist only where a living particle shares them; resampling discards the rest.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from rosmini.viz.world_pictures import HEIGHT, LEFT, length_of, map_axes
 
 Floats = NDArray[np.float64]
 BEST, OTHERS = "blue", "orange"
-"""Colours of the path of the particle that is shown, and of all others."""
+"""Colours of the path of the particle shown, and of all others."""
 LEAST_OCCUPIED = 0.25
 """The default of `occ_thresh`."""
 
@@ -34,17 +34,17 @@ def slam_picture(
     title: str | None = None,
     size: tuple[float, float] = (WIDTH, HEIGHT),
 ) -> Picture:
-    """Draw the map of a particle and, above it, the paths of all.
+    """Draw the map of a particle and, above it, the paths of all particles.
 
     Args:
         slam: the filter, after its first scan.
-        particle: which one; by default the best.
-        threshold: cells are occupied above this share of ends among their visits (`occ_thresh`).
+        particle: the index of the particle; by default the best.
+        threshold: cells are occupied if more than this share of their visits are ends of beams (`occ_thresh`).
         title: a caption, and the first words of the text form.
         size: the largest width and height [CSS px].
 
     Raises:
-        ViewError: it is no filter, has no such particle, or has taken no scan in.
+        ViewError: it is not a filter, has no such particle, or has not processed a scan.
 
     """
     if not isinstance(slam, GridSlam):
@@ -97,10 +97,10 @@ def _text(slam: GridSlam, which: int, cells: NDArray[np.uint8], own: Floats) -> 
 
 
 def slam_film(film: Film, *, title: str | None = None) -> ReplayView:
-    """Play how a map grew: the best particle's map, the paths of all, and where it took the robot to be.
+    """Play how a map grew: the best particle's map, the paths of all, and its estimate of the robot's pose.
 
     Raises:
-        ViewError: it is no film, or nothing was taken.
+        ViewError: it is not a film, or it is empty.
 
     """
     if not isinstance(film, Film):

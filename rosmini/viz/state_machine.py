@@ -1,4 +1,4 @@
-"""State machines as pictures: states as rounded boxes, final ones with a double frame, and the way of one goal."""
+"""State machines as pictures: states as rounded boxes, final ones with a double frame, and the path of a goal."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from rosmini.viz.view import Picture, ViewError
 __all__ = ["Transition", "action_states", "state_machine"]
 
 Transition = tuple[str, str, str]
-"""(from, what happens, to)"""
+"""(from, event, to)"""
 
 COLOURS = ["ink", "line", "label", "muted", "node-fill", "node-line", "topic-fill", "topic-line", "vermilion"]
 HEIGHT = 30.0
@@ -37,12 +37,12 @@ def action_states(
     """Draw the state machine of an action's server or client (http://wiki.ros.org/actionlib/DetailedDescription).
 
     Args:
-        side: whose machine.
-        visited: the states that a goal came through, in order; they and the arrows between them stand out.
+        side: the side of the action.
+        visited: the states of a goal, in order; they and the arrows between them are highlighted.
         title: the caption, and the first line of the text form.
-        direction: where arrows lead, "right" or "down".
+        direction: the direction of the arrows, "right" or "down".
 
-    The client's arrows say which status was heard; short cuts past a missed status are left out.
+    The client's arrows are labelled with the received status; shortcuts past a missed status are left out.
     Raises ``ViewError`` for a state that the machine does not have.
 
     """
@@ -57,7 +57,7 @@ def action_states(
 
 
 def server_transitions() -> list[Transition]:
-    """Return the steps of the server's machine, named as the methods of a goal's handle, and the client's request."""
+    """Return the steps of the server's machine, named after the methods of a goal handle, and the client's request."""
     return [
         (before.name, "cancel request" if event is GoalEvent.CANCEL_REQUEST else event.value, after.name)
         for event, table in SERVER_TRANSITIONS.items()
@@ -66,7 +66,7 @@ def server_transitions() -> list[Transition]:
 
 
 def client_transitions() -> list[Transition]:
-    """Return the single steps of the client's machine, named by what it hears or does."""
+    """Return the single steps of the client's machine, named after the received status or the client's call."""
     steps = [
         (state.name, status.name, way[0].name)
         for state, row in CLIENT_TRANSITIONS.items()
@@ -88,10 +88,10 @@ def state_machine(
     first: str | None = None,
     alt: str | None = None,
 ) -> Picture:
-    """Draw a state machine; a state without a way out is final. Raises ``ViewError`` for an unknown visited state.
+    """Draw a state machine; a state without outgoing transitions is final.
 
-    ``first`` is the state where it begins: the picture begins there, too. ``alt`` says what is drawn to those who do
-    not see it; None names the states.
+    ``first`` is the initial state, where the picture begins. ``alt`` is the alt text; None lists the states. Raises
+    ``ViewError`` if a visited state is unknown.
     """
     labels: dict[tuple[str, str], list[str]] = {}
     for source, label, target in transitions:

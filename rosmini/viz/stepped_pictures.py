@@ -1,4 +1,4 @@
-"""The stepped players of the book's chapters: algorithms step by step, and parameters with what they cause.
+"""The stepped players of the book's chapters: algorithms step by step, and parameters with their effects.
 
 Each function computes the frames of one `rosmini.viz.stepped_player.SteppedPlayer`.
 """
@@ -41,16 +41,16 @@ Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
 WHITE = element("rect", width="100%", height="100%", fill="#fefefe")
-"""A ground for cells that are transparent where they are free; pure white would follow the theme of the page."""
+"""A background for cells that are transparent where they are free; pure white would follow the theme of the page."""
 
 
 def _image(pixels: Bytes, width: float, height: float) -> str:
-    """Pixels (h, w, 4), row 0 at the top, as an image in a panel's top left corner."""
+    """Return pixels (h, w, 4), row 0 at the top, as an image in a panel's top left corner."""
     return cells_element(gif_address(gif(pixels)[0]), width=width, height=height)
 
 
 def _path(points: ArrayLike, kind: str, close: str = "") -> str:
-    """A line through points (n, 2) [px]."""
+    """Return a line through points (n, 2) [px]."""
     line = "L".join(f"{x:.1f} {y:.1f}" for x, y in np.asarray(points).tolist())
     return element("path", d=f"M{line}{close}", class_=kind)
 
@@ -58,7 +58,7 @@ def _path(points: ArrayLike, kind: str, close: str = "") -> str:
 # -- chapter on maps: thresholds -----------------------------------------------------------------------------------
 
 LARGEST_IMAGE = 256
-"""Largest side of a map image [px]."""
+"""Maximum side of a map image [px]."""
 FREE_THRESHOLDS = (0.1, 0.196, 0.25, 0.3, 0.4)
 OCCUPIED_THRESHOLDS = (0.3, 0.4, 0.5, 0.65, 0.8)
 
@@ -134,7 +134,7 @@ def map_steps(file: MapFile, *, title: str | None = None) -> SteppedPlayer:
 # -- chapter on costmaps: inflation --------------------------------------------------------------------------------
 
 LARGEST_COSTMAP = 400
-"""Largest side of a costmap [cells]."""
+"""Maximum side of a costmap [cells]."""
 INFLATION_RADII = (0.2, 0.4, 0.6, 1.0)
 SCALING_FACTORS = (1.0, 5.0, 10.0, 25.0)
 INSCRIBED_RADII = (0.15, 0.3, 0.45)
@@ -155,10 +155,10 @@ def inflation_steps(
 
     Args:
         grid: the costs. Obstacles (254) and unknown cells (255) are used, all other costs are ignored.
-        inscribed_radius: inscribed radius of the robot [m] that is shown first.
-        inflation_radius: largest distance with a cost [m] that is shown first.
-        cost_scaling_factor: exponent of the decay [1/m] that is shown first.
-        window: show only these cells: first column, first row, and one past the last column and row.
+        inscribed_radius: initial inscribed radius of the robot [m].
+        inflation_radius: initial inflation radius, the largest distance with a cost [m].
+        cost_scaling_factor: initial exponent of the decay [1/m].
+        window: show only these cells: first column, first row, and the column and row after the last.
         title: a caption, and the first words of the text form.
 
     Raises:
@@ -241,7 +241,7 @@ def _curve_axes() -> str:
 
 
 def _cost_curve(reach: float, factor: float, inner: float) -> str:
-    """The cost by distance up to 1.5 m; `reach` is the inflation radius, rounded up to whole cells."""
+    """Return the cost by distance up to 1.5 m; `reach` is the inflation radius, rounded up to whole cells."""
     distances = np.linspace(0, min(reach, 1.5), 40).tolist()
     points = [_on_curve(distance, cost_at(distance, inner, factor)) for distance in distances]
     return _path([*points, _on_curve(reach, 0), _on_curve(max(reach, 1.5), 0)], "rm-curve")
@@ -250,22 +250,22 @@ def _cost_curve(reach: float, factor: float, inner: float) -> str:
 # -- chapter on global planners: searches --------------------------------------------------------------------------
 
 LARGEST_GRID = 16_384
-"""Largest number of cells of a grid."""
+"""Maximum number of cells of a grid."""
 FINEST = 2_000
-"""Number of batches in which a search is recorded, about."""
+"""Approximate number of batches in which a search is recorded."""
 SEARCH_FRAMES = 60
-"""Largest number of frames of a search."""
+"""Maximum number of frames of a search."""
 
 
 def search_steps(searches: Mapping[str, Search], *, title: str | None = None) -> SteppedPlayer:
     """Run searches to their ends and show them side by side, each after the same number of expanded cells.
 
     Args:
-        searches: the searches by name. None has begun, and their grids have the same size.
+        searches: the searches by name, none of them started, on grids of the same size.
         title: a caption, and the first words of the text form.
 
     Raises:
-        ViewError: there is no search, one has begun, or the grids differ in size or are too large.
+        ViewError: there is no search, a search has started, or the grids differ in size or are too large.
 
     """
     if not searches or not all(isinstance(each, Search) for each in searches.values()):
@@ -329,7 +329,7 @@ def _recorded(search: Search) -> NDArray[np.int64]:
 def _search_frame(
     search: Search, after: NDArray[np.int64], count: int, longest: int, scale: float
 ) -> tuple[str, str]:
-    """A search after `count` expanded cells: its picture and its text."""
+    """Return the picture and the text of a search after `count` expanded cells."""
     reached = (after >= 0) & (after <= count)
     pixels = np.full((search.height, search.width, 4), 255, dtype=np.uint8)
     pixels[..., :3] = greys_of(search)[..., None]
@@ -355,7 +355,7 @@ def _search_frame(
 
 
 def _beside(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The four neighbours of the given cells."""
+    """Return the four neighbours of the given cells."""
     rim = np.pad(cells, 1)
     return rim[:-2, 1:-1] | rim[2:, 1:-1] | rim[1:-1, :-2] | rim[1:-1, 2:]
 
@@ -363,15 +363,15 @@ def _beside(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
 # -- chapter on local planners: trajectories -----------------------------------------------------------------------
 
 SIDE = 440.0
-"""The longer side of the picture [CSS px]."""
+"""Length of the longer side of the picture [CSS px]."""
 LEGEND = 24.0
 """Height of the legend above it [CSS px]."""
 MARGIN = 0.15
 """Space around the trajectories [m]."""
 TOLERANCE = 0.004
-"""Largest distance of a drawn line from its points [m]."""
+"""Maximum distance of a drawn line from its points [m]."""
 LARGEST_WINDOW = 200
-"""Largest side of a costmap below trajectories [cells]."""
+"""Maximum side of a costmap below trajectories [cells]."""
 SHADES = 5
 OUTLINES = 2
 """Number of footprints along the chosen trajectory, without its start."""
@@ -386,7 +386,7 @@ def trajectory_steps(
     chosen: int | None = None,
     title: str | None = None,
 ) -> SteppedPlayer:
-    """Show the trajectories that a local planner tried in a cycle, one of them highlighted.
+    """Show the trajectories that a local planner tried in one cycle, with one of them highlighted.
 
     Cheap trajectories are dark blue, expensive ones are pale, and rejected ones are thin and vermilion. The slider goes
     from the cheapest to the most expensive and then to the rejected ones.
@@ -396,11 +396,11 @@ def trajectory_steps(
         costmap: the costs on which they were scored: `planner.costmap.grid`.
         plan: the plan (n, 2) or (n, 3) [m].
         footprint: the robot's outline (n, 2) [m] in its base frame.
-        chosen: number of the trajectory that is shown first, by default the best.
+        chosen: index of the trajectory that is shown first, by default the best.
         title: a caption, and the first words of the text form.
 
     Raises:
-        ViewError: there are no trajectories or none of that number, or the costmap is too large.
+        ViewError: there are no trajectories, none has this index, or the costmap is too large.
 
     """
     if not isinstance(samples, Samples) or not len(samples):
@@ -415,7 +415,7 @@ def trajectory_steps(
             "shown; the costmap of a local planner is a small window"
         )
     totals = np.array([float(fixed(value, 6)) for value in samples.totals])
-    # The cheapest first, then the rejected ones, critic by critic.
+    # the cheapest first, then the rejected ones, critic by critic
     rank = np.where(samples.accepted, -1, samples.rejected_by)
     order = np.lexsort((np.arange(len(totals)), np.where(samples.accepted, totals, 0.0), rank))
     if chosen is None:
@@ -486,7 +486,7 @@ class _Fan:
         return _path(self._at(placed[kept(placed, TOLERANCE)] if len(placed) > 2 else placed), kind)
 
     def ground(self, order: NDArray[np.int64], plan: ArrayLike | None) -> str:
-        """Costs, all trajectories, and the plan."""
+        """Return the costs, all trajectories, and the plan."""
         x, parts = 0.0, []
         for text, kind in (("cheap", "t0"), ("dear", f"t{SHADES - 1}"), ("rejected", "tx"), ("chosen", "tb")):
             parts.append(_path([(x, 12.0), (x + 20, 12.0)], kind))
@@ -509,7 +509,7 @@ class _Fan:
         return "".join(parts)
 
     def drawn(self, number: int) -> str:
-        """One trajectory, highlighted, with footprints along it."""
+        """Return one trajectory, highlighted, with footprints along it."""
         track = self._samples.trajectory(number)
         parts = [self._line(track[:, :2], "tb")]
         if self._footprint is not None and len(self._footprint) > 2:
@@ -538,11 +538,11 @@ _FAN_CSS = (
 # -- chapter on amcl: particles ------------------------------------------------------------------------------------
 
 MOST = 400
-"""Largest number of particles that are drawn for a step."""
+"""Maximum number of particles that are drawn for a step."""
 HEAVIEST = 100
-"""Number of these that are the heaviest; the others are a sample of the rest."""
+"""Number of the heaviest particles among these; the others are a sample of the rest."""
 LONGEST = 200
-"""Largest number of steps."""
+"""Maximum number of steps."""
 STROKE = 0.25
 """Length of the stroke of a particle [m]."""
 WEIGHTS = ("rm-light", "rm-middle", "rm-heavy")
@@ -635,7 +635,7 @@ def _filter_frame(
 
 
 def _thinned(weights: Floats) -> NDArray[np.int64]:
-    """Indices of the particles that are drawn, the heaviest last."""
+    """Return the indices of the particles that are drawn, the heaviest last."""
     order = np.argsort(weights, kind="stable").astype(np.int64)
     if len(order) <= MOST:
         return order
@@ -654,14 +654,14 @@ AROUND = 0.3
 def match_steps(
     grid: OccupancyGrid, points: Floats, pose: Pose, *, steps: int = 8, title: str | None = None
 ) -> SteppedPlayer:
-    """Show how hector_mapping matches a scan to its map, one step of the Gauss-Newton method after another.
+    """Show how hector_mapping matches a scan to its map, one Gauss-Newton step after another.
 
     The darker a cell of the map, the more likely it is occupied.
 
     Args:
         grid: the map.
         points: the ends of the beams (n, 2) [m], in the robot's frame.
-        pose: the pose at which the search begins.
+        pose: the pose at which the search starts.
         steps: number of steps.
         title: a caption, and the first words of the text form.
 

@@ -1,9 +1,9 @@
 """A player of stored frames: pictures made in Python, of which a page shows one at a time.
 
-A player has one or more *panels* side by side, each with a ground that does not change. It has one or more *axes*, and
-each axis is a slider: the steps of an algorithm, or the values of a parameter. There is a frame for each combination of
-values: SVG on top of each panel's ground, and a text. The still picture, which is what a page without scripts shows and
-what is printed, is one of the frames. `rosmini.viz.stepped_pictures` makes the players of the book's chapters.
+A player has one or more *panels* side by side, each with a constant background. It has one or more *axes*, and each
+axis is a slider: the steps of an algorithm, or the values of a parameter. There is a frame for each combination of
+values: SVG on top of each panel's background, and a text. The still picture, which pages without scripts show and
+which is printed, is one of the frames. `rosmini.viz.stepped_pictures` makes the players of the book's chapters.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from rosmini.viz.view import ViewError
 GAP, NAME_HEIGHT = 20.0, 22.0
 """Space between two panels, and for a name above each panel [CSS px]."""
 CONTROLS = 80
-"""Least height of the controls and the text in the page [CSS px]."""
+"""Minimum height of the controls and the text in the page [CSS px]."""
 
 
 class Panel(NamedTuple):
-    """One of the pictures that are shown side by side, with (0, 0) at its top left corner."""
+    """One of the pictures shown side by side, with (0, 0) at its top left corner."""
 
     name: str
     width: float
-    """Width in the page [CSS px], where there is room for it."""
+    """Width in the page [CSS px], if there is room for it."""
     height: float
     ground: str = ""
     """SVG elements below every frame."""
@@ -43,12 +43,12 @@ class Axis(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """What a player shows at one combination of values."""
+    """The content of a player at one combination of values."""
 
     pictures: Sequence[str]
     """SVG elements for each panel."""
     text: str
-    """A line below the panels, or several."""
+    """The text below the panels, of one or more lines."""
 
 
 class SteppedPlayer(MovingView):
@@ -56,9 +56,9 @@ class SteppedPlayer(MovingView):
 
     Args:
         name: the name of the view, in a few words.
-        panels: the panels, from left to right; a panel that finds no room begins a new row.
+        panels: the panels, from left to right; a panel without room starts a new row.
         axes: the sliders. A player with a single axis also has the buttons *Play* and *Next step*.
-        frames: a frame for each combination of values; the last axis changes first.
+        frames: a frame for each combination of values; the last axis varies fastest.
         text: the text form.
         alt: the alt text.
         title: a caption.
@@ -128,7 +128,7 @@ class SteppedPlayer(MovingView):
 
     @property
     def svg(self) -> str:
-        """The still picture: the panels with one of the frames. The page's script takes the panels from here."""
+        """The still picture: the panels with one of the frames. The page's script takes the panels from it."""
         pictures = self.frame(self._still).pictures
         parts, left, top, bottom, right = [], 0.0, 0.0, 0.0, 0.0
         for panel, picture in zip(self.panels, pictures, strict=True):
@@ -161,7 +161,7 @@ class SteppedPlayer(MovingView):
 
     @property
     def data(self) -> dict[str, Any]:
-        """The data for the page's script. A picture that several frames share appears once."""
+        """The data for the page's script; a picture that several frames share appears once."""
         numbers: dict[str, int] = {}
         frames = [
             [[numbers.setdefault(picture, len(numbers)) for picture in each.pictures], each.text]

@@ -1,4 +1,4 @@
-"""`rqt_tf_tree`: the tree of frames as a picture, each edge with its broadcaster, its rate, and what is buffered."""
+"""`rqt_tf_tree`: the tree of frames as a picture, each edge with its broadcaster, its rate, and its buffer."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def _tree(source: Any) -> FrameTree:
 
 
 def _facts(edge: History) -> list[str]:
-    """What stands beside an edge: broadcaster, rate, most recent transform and buffer length."""
+    """Return the lines beside an edge: broadcaster, rate, most recent transform and buffer length."""
     sender = f"Broadcaster: {edge.newest.authority or 'unknown'}"
     if edge.static:
         return [sender, "static"]

@@ -1,4 +1,4 @@
-"""Which state something was in, over time: a row for each state, and what happened on top."""
+"""The state of something over time: a row for each state, and events on top."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ __all__ = ["Span", "spans_of", "timeline"]
 
 COLOURS = ("blue", "green", "orange", "purple", "vermilion")
 LEFT, RIGHT, BOTTOM, ROW, LINE = 118.0, 24.0, 42.0, 34.0, 16.0
-"""Around the frame, and the height of a row of it and of a line of words [px]."""
+"""Margins around the plot, and the height of a row and of a line of text [px]."""
 THINNEST = 1 / 400
-"""A span is drawn at least this wide, as a share of the whole time."""
+"""Minimum width of a span, as a share of the whole time."""
 
 
 class Span(NamedTuple):
-    """A state, from when to when [s]."""
+    """A state and its start and end [s]."""
 
     state: str
     begin: float
@@ -30,9 +30,9 @@ class Span(NamedTuple):
 
 
 def spans_of(history: Iterable[Any], begin: float | None = None) -> list[Span]:
-    """The spans between the transitions of a history: each has a `time`, and `before` and `after`, two enums.
+    """Return the spans between the transitions of a history, which have `time`, and `before` and `after`, two enums.
 
-    With `begin` there is one more, from then to the first of them.
+    With `begin`, there is another span from then to the first transition.
     """
     steps = list(history)
     spans = [Span(one.after.name, one.time, after.time) for one, after in pairwise(steps)]
@@ -50,17 +50,17 @@ def timeline(
     title: str | None = None,
     alt: str = "",
 ) -> Picture:
-    """Draw which state something was in, from `begin` or the first transition of its history to the last.
+    """Draw the state of something, from `begin` or the first transition of its history to the last.
 
     Args:
         history: transitions, in order, each with a `time` [s], and `before` and `after`, two enums.
         states: the rows, from above.
-        marks: what happened, and when [s].
-        begin: from when on [s]; None: the first transition.
+        marks: events and their times [s].
+        begin: the start of the timeline [s]; None for the first transition.
         title: a caption under the picture, and the first words of its text form.
-        alt: what there is to see, for those who do not see it; the text form is put after it.
+        alt: a description for people who cannot see the picture; the text form is appended to it.
 
-    Times are counted from there. Raises `ViewError` for fewer than two, and for a state without a row.
+    Times are relative to the start. Raises `ViewError` for fewer than two transitions, and for a state without a row.
 
     """
     spans = spans_of(history, begin)
@@ -115,7 +115,7 @@ def _draw(axes: Any, spans: Sequence[Span], states: Sequence[str]) -> None:
 
 
 def _event(axes: Any, time: float, name: str, above: float) -> None:
-    """A line down from the words about something that happened; words near the right end stand left of it."""
+    """Draw a line down from the text of an event; texts near the right end are to the left of the line."""
     left, right = axes.get_xlim()
     (time,) = snap([time], (right - left) / 4000).tolist()
     ends = time > left + 0.75 * (right - left)

@@ -1,4 +1,4 @@
-"""A way on the ground, from above: what odometry tells, or any row of positions."""
+"""A path on the ground, from above: positions from odometry, or any other array of positions."""
 
 from __future__ import annotations
 
@@ -21,24 +21,24 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 LEFT, TOP, RIGHT, BOTTOM = 68.0, 14.0, 24.0, 44.0
-"""Around the way [px]."""
+"""Margins around the path [px]."""
 HIGHEST = 360.0
 LEAST = 0.2
-"""No picture shows less than this [m]."""
+"""Minimum size of the area that a picture shows [m]."""
 COLUMNS = ("pose.pose.position.x", "pose.pose.position.y")
-"""Where a table of `nav_msgs/Odometry` has its positions."""
+"""Columns of positions in a table of `nav_msgs/Odometry`."""
 
 
 def track_picture(source: Any, *, title: str | None = None, width: float = WIDTH) -> Picture:
-    """Draw a way from above: a line, a ring where it begins, a dot where it ends; x to the right, y up, in metres.
+    """Draw a path from above: a line, a ring at its start, a dot at its end; x to the right, y up, in metres.
 
     Args:
         source: a table of `nav_msgs/Odometry` (`Bag.table`), or positions as an array (n, 2) [m].
         title: a caption under the picture, and the first words of its text form.
-        width: the largest width of the picture [CSS px].
+        width: the maximum width of the picture [CSS px].
 
     Raises:
-        ViewError: there are no positions in it.
+        ViewError: it contains no positions.
 
     """
     points = _points(source)
@@ -64,7 +64,7 @@ def track_picture(source: Any, *, title: str | None = None, width: float = WIDTH
 
 
 def _points(source: Any) -> Floats:
-    """The positions of a table or an array (n, 2)."""
+    """Return the positions of a table or an array (n, 2)."""
     if isinstance(source, Mapping):
         missing = [name for name in COLUMNS if name not in source]
         if missing:

@@ -1,4 +1,4 @@
-"""The window of a turtlesim as it is now: the background, what was drawn, and the turtles."""
+"""The window of a turtlesim in its current state: the background, the strokes, and the turtles."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from rosmini.viz.words import plural
 
 KIND = "rosmini-turtles"
 MANY = 12
-"""Of more turtles only the first are told of."""
+"""Maximum number of turtles that are described."""
 TOLERANCE = 0.3
-"""How far a drawn line may be off [px]."""
+"""Maximum deviation of a drawn line [px]."""
 
 
 def turtle_picture(frame: Frame, *, title: str | None = None, size: float = 360.0) -> Picture:
-    """Draw what a window of turtlesim shows; strokes lie in the order in which they were begun.
+    """Draw a window of turtlesim; strokes are drawn in the order in which they started.
 
     Args:
-        frame: what `TurtleSim.frame` is.
+        frame: the value of `TurtleSim.frame`.
         title: a caption under the picture, and the first words of its text form.
         size: its width and height [CSS px].
 
     Raises:
-        ViewError: the size is no positive number.
+        ViewError: the size is not a positive number.
 
     """
     if not size > 0:
@@ -70,14 +70,14 @@ def _told(frame: Frame) -> list[str]:
 
 
 def _line(turtle: Turtle) -> str:
-    """Where a turtle is, and with what it draws."""
+    """Describe the pose and the pen of a turtle."""
     place = f"({fixed(turtle.x, 2)}, {fixed(turtle.y, 2)}, {degrees(turtle.theta)} deg)"
     pen = f"{_rgb(turtle.pen.colour)}, {turtle.pen.width} px" if turtle.pen_on else "up"
     return f"{turtle.name}: pose {place}, pen {pen}"
 
 
 def chains(strokes: Iterable[Stroke]) -> list[tuple[Pen, list[tuple[float, float]]]]:
-    """Strokes of one turtle and one pen that follow one another, joined to lines, in the order of the first ones."""
+    """Join consecutive strokes of one turtle and one pen to lines, in the order of their first strokes."""
     found: list[tuple[Pen, list[tuple[float, float]]]] = []
     open_: dict[str, tuple[Pen, list[tuple[float, float]]]] = {}
     for stroke in strokes:  # a stroke goes from its end to its start: turtles draw backwards, as in ROS
@@ -92,7 +92,7 @@ def chains(strokes: Iterable[Stroke]) -> list[tuple[Pen, list[tuple[float, float
 
 
 def _drawn(pen: Pen, points: list[tuple[float, float]]) -> str:
-    line = np.clip(np.array(points), -SIZE, 2 * SIZE)  # a teleport may come from far outside
+    line = np.clip(np.array(points), -SIZE, 2 * SIZE)  # a teleport may start far outside
     line = snap(line[kept(line, TOLERANCE)] if len(line) > 2 else line, TOLERANCE / 3)
     path = "M" + "L".join(f"{number(float(x))},{number(float(y))}" for x, y in line)
     return element(

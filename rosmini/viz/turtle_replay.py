@@ -1,4 +1,4 @@
-"""What turtles drew, to be played: a tape of a turtlesim in the player of runs."""
+"""A recording of turtlesim in the player of runs."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from rosmini.sim.turtlesim.turtle import LIMIT
 from rosmini.viz.replay import Body, ReplayView, Run, Stroke, Strokes, replay
 
 THINNER = 0.7
-"""By how much pens are thinner than in the window: the player is smaller."""
+"""Width of pens relative to the window, because the player is smaller."""
 
 OUTLINE = (
     (0.5, 0.0), (0.42, 0.1), (0.32, 0.12), (0.3, 0.34), (0.2, 0.34), (0.14, 0.25), (-0.1, 0.27), (-0.2, 0.34),
     (-0.3, 0.32), (-0.3, 0.12), (-0.46, 0.0),
 )  # fmt: skip
-"""Half of a turtle from above, the left one [m]."""
+"""Left half of a turtle's outline from above [m]."""
 
 
 def turtle_replay(tape: Tape, *, title: str | None = None) -> ReplayView:
-    """Play a tape: turtles that move, and their strokes as they grew, on the background that the window has at the end.
+    """Play a tape: moving turtles, and their strokes as they grew, on the final background of the window.
 
-    Until it is played it shows what was drawn in the end.
+    Before it is played, it shows the final drawing.
 
     Args:
-        tape: what `TurtleSim.record()` gave.
+        tape: the result of `TurtleSim.record()`.
         title: a caption, and the first words of the text form.
 
     Raises:
-        ViewError: there is nothing to see on the tape.
+        ViewError: the tape contains nothing to show.
 
     """
     strokes = tuple(_stroke(line) for line in tape.lines())

@@ -21,10 +21,10 @@ COLOURS = [
 def urdf_tree(robot: Robot, *, title: str | None = None) -> Picture:
     """Draw the links of a robot, each under its parent, with the joints beside the lines.
 
-    Links with a mass are filled; the root is round. A joint that moves has a thick line, with its type and limits.
+    Links with a mass are filled; the root is round. A movable joint has a thick line, with its type and limits.
 
     Args:
-        robot: as `rosmini.sim.urdf.load` gives it.
+        robot: the robot, for instance from `rosmini.sim.urdf.load`.
         title: a caption under the picture, and the first words of its text form.
 
     """
@@ -47,7 +47,7 @@ def urdf_tree(robot: Robot, *, title: str | None = None) -> Picture:
 
 
 def _facts(joint: Joint) -> list[str]:
-    """What stands beside a joint's line."""
+    """Return the lines beside a joint's edge."""
     facts = [joint.name, joint.type]
     if joint.limit is not None and joint.type in {"revolute", "prismatic"}:
         unit = "rad" if joint.type == "revolute" else "m"
@@ -58,7 +58,7 @@ def _facts(joint: Joint) -> list[str]:
 
 
 def _place(joint: Joint) -> str:
-    """Where a child stands, in words."""
+    """Describe the pose of a child."""
     turned = any(abs(angle) > 1e-9 for angle in joint.origin.rpy)
     at = f", at ({', '.join(fixed(value, 3) for value in joint.origin.xyz)}) m"
     return at + (f", rpy ({', '.join(fixed(value, 3) for value in joint.origin.rpy)})" if turned else "")

@@ -1,4 +1,4 @@
-"""Chains of causes as pictures: the first cause above, what it led to below."""
+"""Chains of causes as pictures: the first cause at the top, its effects below."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ __all__ = ["why_picture"]
 
 COLOURS = ["page", "ink", "line", "muted", "node-fill", "node-line"]
 GAP = 30.0
-"""Between two boxes [px]."""
+"""Space between two boxes [px]."""
 PADDING = 12.0
 LONGEST = 90
-"""How many characters of a line are shown."""
+"""Maximum number of characters of a line that are shown."""
 
 
 def why_picture(why: Why, *, title: str | None = None) -> Picture:
-    """Draw why something happened: a box for each step, and an arrow from each to what it led to.
+    """Draw why something happened: a box for each step, and an arrow from each step to its effect.
 
-    The first box also says why nothing is known that came before, and what its node had heard if it acted by itself.
+    The first box also explains why earlier causes are unknown, and lists what its node received if it acted by itself.
 
     Args:
         why: the chain of causes.

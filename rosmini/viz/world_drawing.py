@@ -1,6 +1,6 @@
-"""Drawing on the axes of a map: walls and obstacles, a robot from above, what its laser sees, where it was.
+"""Draw on the axes of a map: walls and obstacles, a robot from above, its laser scan, and its path.
 
-Everything is in metres in the frame of the world and rounded to millimetres; `scale` is how many pixels a metre has.
+Everything is in metres in the frame of the world and rounded to millimetres; `scale` is in pixels per metre.
 """
 
 from __future__ import annotations
@@ -28,25 +28,25 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 TINT = 0.32
-"""How strong the fill of an obstacle is."""
+"""Opacity of the fill of an obstacle."""
 DARKEST, LIGHTEST = 0.2, 0.7
-"""A colour whose luma (ITU-R BT.601, 0 to 1) is beyond these is hard to see on a dark or on a light page."""
+"""A colour whose luma (ITU-R BT.601, 0 to 1) is outside these limits is hard to see on a dark or on a light page."""
 SEEN, ONE_BEAM = 0.11, 0.5
-"""How strong the fill of what a laser sees is."""
+"""Opacity of the area of a scan, and of a single beam."""
 TRAIL_WIDTH = 2.0
 DASHES = (6.0, 4.0)
 LEAST_ROBOT = 16.0
-"""A robot is drawn to scale, but never shorter than this [px]."""
+"""Minimum length of a robot, which is otherwise drawn to scale [px]."""
 TOLERANCE = 0.137
-"""By how much a line may be drawn too straight [px]: nobody sees it, and most of its points need not be written."""
+"""Maximum deviation of a drawn line [px]: it is invisible, and saves most points."""
 WHEEL_WIDTH = 0.55
-"""The width of a wheel by its radius."""
+"""Width of a wheel relative to its radius."""
 LASER_BY = 0.2
-"""A laser is drawn by its robot's length, but of one that is longer [m] as if it were so long: it is the same laser."""
+"""Maximum length of a robot from which the size of its laser is derived [m]: larger robots have the same laser."""
 
 
 def draw_world(axes: Axes, world: World, scale: float) -> None:
-    """Walls and obstacles. Walls that go round something solid, as those of a traced map, are filled."""
+    """Draw walls and obstacles. Walls that enclose solid areas, like those of a traced map, are filled."""
     for obstacle in world.obstacles:
         _obstacle(axes, obstacle)
     if len(world.walls):
@@ -61,7 +61,7 @@ def draw_world(axes: Axes, world: World, scale: float) -> None:
 def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
     solid = obstacle.colour == "wall"
     colour = "muted" if solid else "line" if obstacle.colour == "grey" else obstacle.colour
-    over = obstacle.bottom > 0.0  # a robot may pass under it, as under the top of a table
+    over = obstacle.bottom > 0.0  # a robot may pass below it, such as below a table top
     shapes = [_shape_path(shape, pose) for shape, pose in obstacle.parts()]
     for shape in shapes:
         _patch(
@@ -88,12 +88,12 @@ def _shape_path(shape: Simple, pose: Pose) -> Path:
 
 
 def _paint(colour: str) -> str:
-    """A colour of the palette by its name, or any other as it is."""
+    """Return a colour of the palette by its name, or any other colour unchanged."""
     return LIGHT.get(colour, colour)
 
 
 def _edge(colour: str) -> str:
-    """The colour of a thing's outline: its own, if that shows on light and on dark pages, else a neutral one."""
+    """Return the colour of an outline: the object's own if visible on light and dark pages, otherwise a neutral one."""
     from matplotlib.colors import to_rgb
 
     if colour in LIGHT:
@@ -103,7 +103,7 @@ def _edge(colour: str) -> str:
 
 
 def draw_scan(axes: Axes, beams: Beams, laser: Pose, scale: float) -> None:
-    """Draw what a laser at the pose `laser` sees: the area its beams pass, or its only beam, and a dot for each hit."""
+    """Draw the scan of a laser at the pose `laser`: the area of its beams, or its only beam, and a dot for each hit."""
     ends = snap(transform_points(laser, beams.points()))
     if len(ends) == 1:
         axes.plot(
@@ -124,39 +124,39 @@ def draw_scan(axes: Axes, beams: Beams, laser: Pose, scale: float) -> None:
 
 
 def draw_dots(axes: Axes, points: Floats, colour: str, width: float) -> None:
-    """Round dots at points (n, 2), as one path."""
+    """Draw round dots at points (n, 2), as one path."""
     if len(points):
         draw_strokes(axes, np.stack([points, points], axis=1), colour, width, cap="round")
 
 
 def draw_strokes(axes: Axes, lines: Floats, colour: str, width: float, cap: Any = "butt") -> None:
-    """Lines (n, 2, 2), as one path."""
+    """Draw lines (n, 2, 2), as one path."""
     _patch(axes, _path(lines), edge=colour, width=width, cap=cap, z=5.0)
 
 
 def draw_trail(
     axes: Axes, points: Floats, scale: float, *, colour: str = "blue", dashed: bool = False
 ) -> None:
-    """A line through points (n, 2)."""
+    """Draw a line through points (n, 2)."""
     line = _thinned(snap(points), scale)
     dashes: dict[str, Any] = {"dashes": DASHES} if dashed else {}
     axes.plot(*line.T, color=LIGHT[colour], linewidth=TRAIL_WIDTH, zorder=4.0, clip_on=False, **dashes)
 
 
 def draw_start(axes: Axes, point: ArrayLike, scale: float, *, colour: str = "blue") -> None:
-    """A ring where a way begins."""
+    """Draw a ring at the start of a path."""
     _patch(axes, _circle(point, 4.5 / scale), fill="page", edge=colour, opacity=1.0, width=2.0, z=4.5)
 
 
 def draw_place(axes: Axes, obstacle: Obstacle) -> None:
-    """Where a thing stood before it was moved: a dashed outline."""
+    """Draw the former place of an object that was moved: a dashed outline."""
     colour = "line" if obstacle.colour in ("grey", "wall") else obstacle.colour
     for shape, pose in obstacle.parts():
         _patch(axes, _shape_path(shape, pose), edge=_edge(colour), width=1.2, dash=(3.0, 2.0), z=2.6)
 
 
 def draw_way(axes: Axes, points: Floats, colour: str, scale: float) -> None:
-    """Where a thing was moved along: a fine line through points (n, 2)."""
+    """Draw the path of an object that was moved: a fine line through points (n, 2)."""
     line = _thinned(snap(points), scale)
     colour = "line" if colour in ("grey", "wall") else colour
     paint = _paint(_edge(colour))
@@ -166,7 +166,7 @@ def draw_way(axes: Axes, points: Floats, colour: str, scale: float) -> None:
 def name_box(
     model: RobotModel, pose: Pose, name: str, scale: float, *, above: bool
 ) -> tuple[float, float, float, float]:
-    """The box of a robot's name, x0, y0, x1, y1 [px], seen from the origin of the world."""
+    """Return the box of a robot's name, x0, y0, x1, y1 [px], relative to the origin of the world."""
     x, y = scale * pose[0], scale * pose[1]
     half, height = text_width(name, LABEL_SIZE) / 2, 1.2 * LABEL_SIZE
     bottom = y + _aside(model, scale) if above else y - _aside(model, scale) - height
@@ -176,7 +176,7 @@ def name_box(
 def draw_name(
     axes: Axes, model: RobotModel, pose: Pose, name: str, colour: str, scale: float, *, above: bool
 ) -> None:
-    """A robot's name below or above it."""
+    """Draw a robot's name below or above it."""
     aside = _aside(model, scale)
     axes.annotate(
         name,
@@ -193,14 +193,14 @@ def draw_name(
 
 
 def _aside(model: RobotModel, scale: float) -> float:
-    """How far from a robot its name is written [px]."""
+    """Return the distance of a robot's name from the robot [px]."""
     return max(model.reach * scale, LEAST_ROBOT) + 3.0
 
 
 def draw_robot(
     axes: Axes, model: RobotModel, pose: Pose, scale: float, *, ghost: bool = False, colour: str = "blue"
 ) -> None:
-    """The robot from above: plate, wheels, laser, and a nose that says where ahead is. A ghost is a dashed outline."""
+    """Draw a robot from above: plate, wheels, laser, and a nose that points ahead. A ghost is a dashed outline."""
     xs, ys = np.array(model.footprint).T
     length = float(xs.max() - xs.min())
     grown = max(1.0, LEAST_ROBOT / (length * scale))
@@ -266,7 +266,7 @@ def _patch(
 
 
 def _path(lines: Any, *, closed: bool = False) -> Path:
-    """Lines, each (n, 2), as one path."""
+    """Return lines, each (n, 2), as one path."""
     from matplotlib.path import Path
 
     vertices: list[Any] = []
@@ -286,7 +286,7 @@ def _circle(centre: ArrayLike, radius: float) -> Path:
 
 
 def _rounded(corners: Floats, radius: float) -> Path:
-    """A polygon with round corners."""
+    """Return a polygon with round corners."""
     from matplotlib.path import Path
 
     vertices: list[Floats] = []
@@ -307,7 +307,7 @@ def _rounded(corners: Floats, radius: float) -> Path:
 
 
 def _chained(segments: list[list[float]]) -> list[list[tuple[float, float]]]:
-    """Segments of which each begins where the last one ended, as lines; a line ends where it closes."""
+    """Join segments that begin at the end of the previous one to lines; a line ends where it closes."""
     lines: list[list[tuple[float, float]]] = []
     for x1, y1, x2, y2 in segments:
         if not lines or lines[-1][-1] != (x1, y1) or lines[-1][0] == lines[-1][-1]:
@@ -317,5 +317,5 @@ def _chained(segments: list[list[float]]) -> list[list[tuple[float, float]]]:
 
 
 def _thinned(line: Floats, scale: float) -> Floats:
-    """A line without the points that nobody would miss."""
+    """Return a line without the points that make no visible difference."""
     return line[kept(line, TOLERANCE / scale)]

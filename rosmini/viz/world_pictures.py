@@ -1,4 +1,4 @@
-"""A world from above: walls and obstacles, and, if given, a robot, what its laser sees, and where it was."""
+"""A world from above: walls and obstacles, with an optional robot, its laser scan, and its path."""
 
 from __future__ import annotations
 
@@ -54,13 +54,13 @@ LEFT, RIGHT, TOP, LEGEND, BOTTOM = 46.0, 8.0, 8.0, 28.0, 40.0
 """The margins around a map [px]; LEGEND is added to TOP."""
 HEIGHT = 540.0
 SMALLEST = 200.0
-"""What a picture measures at least, either way [px]."""
+"""Minimum width and height of a picture [px]."""
 FLATTEST = 0.2
-"""The least height of what is seen by its width, and the other way round."""
+"""Minimum ratio of the shorter side to the longer side of the visible area."""
 
 
 COLOURS = ("green", "purple", "sky", "vermilion", "orange")
-"""Of robots beside the first one, which is blue."""
+"""Colours of robots other than the first one, which is blue."""
 
 
 def world_picture(
@@ -80,20 +80,20 @@ def world_picture(
     """Draw a world from above, in metres, to scale.
 
     Args:
-        world: what to draw.
-        robot: where the robot is: x [m], y [m], heading [rad], in the world's frame.
-        model: which robot; TurtleBot3 Burger if not given.
-        scan: what its laser sees: a `sensor_msgs/LaserScan`, or ranges [m] of which beam i looks at 2 pi i / beams.
-        scan_from: the pose of the robot when it saw that, or at each beam (beams, 3); by default its pose now.
-        trail: where the robot was, (n, 2) or (n, 3), in the world's frame: a solid line.
-        odom: where its odometry believes that it was, likewise: a dashed line.
-        others: more robots, each an `Other`: they are drawn in other colours, with their names.
-        name: of the robot, where there are others.
+        world: the world to draw.
+        robot: the robot's pose: x [m], y [m], heading [rad], in the world's frame.
+        model: the robot's model; by default the TurtleBot3 Burger.
+        scan: its laser scan: a `sensor_msgs/LaserScan`, or ranges [m], where beam i has the direction 2 pi i / beams.
+        scan_from: the robot's pose at the scan, or at each beam (beams, 3); by default its current pose.
+        trail: past positions of the robot, (n, 2) or (n, 3), in the world's frame: a solid line.
+        odom: the same according to its odometry: a dashed line.
+        others: further robots, each an `Other`: they are drawn in other colours, with their names.
+        name: the robot's name, used if there are others.
         title: a caption under the picture, and the first words of its text form.
         size: the largest width and height [CSS px].
 
     Raises:
-        ViewError: a pose, a scan or a trail is not one; the message says what is wrong with it.
+        ViewError: a pose, a scan or a trail is invalid; the message says what is wrong with it.
 
     """
     if not isinstance(world, World):
@@ -116,49 +116,49 @@ class Other:
     model: RobotModel
     pose: Pose
     trail: Floats | None = None
-    """Where it was, (n, 2) or (n, 3)."""
+    """Past positions, (n, 2) or (n, 3)."""
 
     def checked(self) -> Other:
-        """Itself, if it can be drawn. Raises `ViewError`."""
+        """Return a validated copy. Raises `ViewError` if it cannot be drawn."""
         what = f"of the robot {self.name!r}"
         trail = None if self.trail is None else line_of(self.trail, f"the trail {what}")
         return replace(self, pose=pose_of(self.pose, f"the pose {what}"), trail=trail)
 
 
 def colour_of(number: int) -> str:
-    """The colour of the robot of this number among the others."""
+    """Return the colour of the other robot with this index."""
     return COLOURS[number % len(COLOURS)]
 
 
 class Scene:
-    """What there is to see in a world, and how it is drawn and said."""
+    """The contents of a picture of a world, with its drawing and its texts."""
 
     def __init__(self, world: World, model: RobotModel = BURGER) -> None:
         self.world = world
         self.model = model
         self.robot: Pose | None = None
         self.ghost: Pose | None = None
-        """Where odometry believes that the robot is."""
+        """The robot's pose according to odometry."""
         self.beams: Beams | None = None
         self.laser: Pose = (0.0, 0.0, 0.0)
         self.trail: Floats | None = None
         self.odom: Floats | None = None
         self.name = ""
-        """Of the robot, where there are others."""
+        """The robot's name, used if there are others."""
         self.alone_too = False
-        """Whether its name is written and said where there are no others, too."""
+        """True to use its name even if there are no others."""
         self.others: list[Other] = []
         self.places: list[Obstacle] = []
-        """Things where they stood before they were moved."""
+        """Objects at their places before they were moved."""
         self.ways: list[tuple[Floats, str]] = []
-        """Where things were moved along, (n, 2), and their colours."""
+        """Paths of moved objects, (n, 2), and their colours."""
 
     def fill(
         self, *, robot: Sequence[float] | None, model: RobotModel | None, scan: Any,
         scan_from: Sequence[float] | Floats | None, trail: ArrayLike | None, odom: ArrayLike | None,
         others: Iterable[Other], name: str,
     ) -> None:  # fmt: skip
-        """Add robots and what they saw and did, as `world_picture` takes them. Raises `ViewError`."""
+        """Add robots, their scans and paths, in the forms that `world_picture` takes. Raises `ViewError`."""
         self.model = model or BURGER
         if robot is not None:
             self.robot = pose_of(robot, "the robot's pose")
@@ -174,14 +174,14 @@ class Scene:
         self.others, self.name = [other.checked() for other in others], name
 
     def look(self, beams: Beams, robot: Pose, each: Floats | None) -> None:
-        """Add what the laser of a robot saw from the pose `robot`, or at each beam from one of `each` (beams, 3)."""
+        """Add the scan of a robot at the pose `robot`, or with one of the poses `each` (beams, 3) per beam."""
         self.laser = laser_pose(robot, self.model)
         x, y, _ = self.model.laser.mount
         starts = None if each is None else compose(inverse(self.laser), compose(each, (x, y, 0.0)))
         self.beams = replace(beams, starts=starts)
 
     def picture(self, title: str | None, size: tuple[float, float]) -> Picture:
-        """The drawing of it."""
+        """Return the drawing."""
         with house_style():
             handles = self._legend()
             figure, axes, scale = map_axes(self.bounds(), size, legend_width(handles))
@@ -218,7 +218,7 @@ class Scene:
         self._draw_names(axes, scale)
 
     def _draw_names(self, axes: Axes, scale: float) -> None:
-        """The robots' names, where they have others; of those that would cover one another the first."""
+        """Draw the robots' names, if there are several; of overlapping ones only the first."""
         named = [(other.name, other.model, other.pose, colour_of(i)) for i, other in enumerate(self.others)]
         if (named or self.alone_too) and self.name and self.robot is not None:
             named.insert(0, (self.name, self.model, self.robot, "blue"))
@@ -247,7 +247,7 @@ class Scene:
         return handles
 
     def bounds(self) -> Bounds:
-        """The rectangle that has to be seen: the world, the robot, its trails and what its laser hits."""
+        """Return the visible rectangle: the world, the robot, its trails and the hits of its laser."""
         x0, y0, x1, y1 = self.world.bounds
         points = [np.array([(x0, y0), (x1, y1)])]
         for pose in (self.robot, self.ghost):
@@ -264,7 +264,7 @@ class Scene:
                 self.laser[:2] + np.column_stack([reach * np.cos(heading), reach * np.sin(heading)])
             )
         every = np.vstack(points)
-        # what goes beyond the world widens the view by steps of 10 cm, which no last bit changes
+        # contents outside the world widen the view in steps of 10 cm, which rounding errors do not affect
         low = np.floor(every.min(axis=0) * 10 + 0.01237) / 10
         high = np.ceil(every.max(axis=0) * 10 - 0.01237) / 10
         return (
@@ -275,7 +275,7 @@ class Scene:
         )
 
     def text(self, title: str | None) -> str:
-        """A line for each thing that is drawn."""
+        """Return a line for each thing that is drawn."""
         lines = [f"{title or f'world {self.world.name}'}: {contents(self.world)}"]
         if self.robot is not None:
             named = self.name and (self.others or self.alone_too)
@@ -296,7 +296,7 @@ class Scene:
         return "\n".join(lines)
 
     def alt(self) -> str:
-        """A sentence for each thing that matters."""
+        """Return a sentence for each important thing."""
         said = [f"The world {self.world.name} from above: {contents(self.world, ' by ')}."]
         if self.robot is not None:
             x, y, heading = self.robot
@@ -322,7 +322,7 @@ class Scene:
 
 
 def _others_sentence(others: list[Other]) -> str:
-    """Where the other robots are, in words; of many only how many they are."""
+    """Describe where the other robots are; of many, only their number."""
     if len(others) > 6:
         return f"There are {len(others)} more robots, each in a colour of its own."
     places = [f"{o.name} at x {fixed(o.pose[0], 2)} m, y {fixed(o.pose[1], 2)} m" for o in others]
@@ -330,13 +330,13 @@ def _others_sentence(others: list[Other]) -> str:
 
 
 def laser_pose(robot: Pose, model: RobotModel) -> Pose:
-    """Where the laser of a robot at the pose `robot` is."""
+    """Return the pose of the laser of a robot at the pose `robot`."""
     x, y, _ = model.laser.mount
     return compose(robot, (x, y, 0.0))
 
 
 def map_axes(bounds: Bounds, size: tuple[float, float], legend_width: float) -> tuple[Figure, Axes, float]:
-    """A figure with axes in metres, equal in x and y, a grid, and room for a legend; and its pixels a metre."""
+    """Return a figure with axes in metres, equal in x and y, a grid, and room for a legend; and pixels per metre."""
     for side in size:
         if not SMALLEST <= side <= LARGEST:
             raise ViewError(f"the size of a picture must be {SMALLEST:g} to {LARGEST:g} pixels, not {side}")
@@ -359,13 +359,13 @@ def map_axes(bounds: Bounds, size: tuple[float, float], legend_width: float) -> 
 
 
 def _wide(low: float, high: float, extent: float) -> tuple[float, float]:
-    """From where to where one axis goes: what there is, with a margin, and wide enough to look at."""
+    """Return the limits of an axis: its contents, with a margin, and not too narrow."""
     spare = max(0.0, FLATTEST * extent - (high - low)) / 2 + 0.02 * extent
     return low - spare, high + spare
 
 
 def contents(world: World, by: str = " x ") -> str:
-    """The size of a world and what is in it, in words."""
+    """Describe the size of a world and its contents."""
     x0, y0, x1, y1 = world.bounds
     size = f"{fixed(x1 - x0, 2)}{by}{fixed(y1 - y0, 2)} m"
     walls = sum(o.colour == "wall" for o in world.obstacles)
@@ -395,17 +395,17 @@ def _sentence(clause: str) -> str:
 
 
 def pose_text(pose: Sequence[float]) -> str:
-    """A pose as `(1.20, 0.40, 90.0 deg)`."""
+    """Return a pose as `(1.20, 0.40, 90.0 deg)`."""
     return f"({fixed(pose[0], 2)}, {fixed(pose[1], 2)}, {degrees(pose[2])} deg)"
 
 
 def length_of(line: Floats) -> float:
-    """The length [m] of a line (n, 2) or (n, 3)."""
+    """Return the length [m] of a line (n, 2) or (n, 3)."""
     return float(norms(np.diff(line[:, :2], axis=0)).sum())
 
 
 def pose_of(given: Sequence[float], what: str) -> Pose:
-    """A pose as a tuple. Raises `ViewError` if it is invalid."""
+    """Return a pose as a tuple. Raises `ViewError` if it is invalid."""
     try:
         x, y, heading = (float(v) for v in given)
     except (TypeError, ValueError) as error:
@@ -416,7 +416,7 @@ def pose_of(given: Sequence[float], what: str) -> Pose:
 
 
 def line_of(given: ArrayLike, what: str) -> Floats:
-    """Points (n, 2) or (n, 3) as an array. Raises `ViewError` if they are none."""
+    """Return points (n, 2) or (n, 3) as an array. Raises `ViewError` if they are invalid."""
     try:
         line = np.array(given, dtype=float)
     except (TypeError, ValueError) as error:

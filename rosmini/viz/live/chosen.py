@@ -142,7 +142,7 @@ class Chosen:
         """Reset everything to its initial pose."""
         self.simulation.reset()
 
-    # -- what a page shows of it ---------------------------------------------------------------------------------
+    # -- for a page ----------------------------------------------------------------------------------------------
 
     def moving(self) -> list[Obstacle]:
         """Return all obstacles that can move: pushable boxes, self-moving obstacles and other robots."""

@@ -175,10 +175,10 @@ class PageServer:
                 try:
                     page.put_nowait(event)
                 except queue.Full:
-                    self._pages.discard(page)  # its thread finds nothing more, and ends the connection
+                    self._pages.discard(page)  # its thread then ends the connection
                     _drain(page)
 
-    # -- from the pages, each in a thread of the server's ---------------------------------------------------------
+    # -- from the pages, each in a thread of the server -----------------------------------------------------------
 
     def opened(self) -> queue.Queue[str | None]:
         """Register a page that has started to listen, and return its queue."""
@@ -219,7 +219,7 @@ def _drain(page: queue.Queue[str | None]) -> None:
 
 
 def _packed(value: Any) -> dict[str, str]:
-    """Encode bytes as base64, for `json.dumps`."""
+    """Return bytes encoded as base64; the `default` of `json.dumps`."""
     if isinstance(value, bytes | bytearray | memoryview):
         return {"base64": base64.b64encode(value).decode()}
     raise TypeError(f"a page is sent {type(value).__name__}, which JSON does not have")
@@ -246,7 +246,7 @@ class _Server(ThreadingHTTPServer):
                 oldest = next(iter(self._strangers), None)
             if oldest is not None:
                 self.known(oldest)
-                with suppress(OSError):  # it may have ended in this moment
+                with suppress(OSError):  # it may have just ended
                     oldest.shutdown(socket.SHUT_RDWR)
             if oldest is None or not self._free.acquire(timeout=END_S):
                 self.shutdown_request(request)
@@ -376,7 +376,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _answer(self, status: HTTPStatus, kind: str, body: bytes) -> None:
         if status not in (HTTPStatus.OK, HTTPStatus.NO_CONTENT):
-            self.close_connection = True  # what it may still send is not read
+            self.close_connection = True  # further input is not read
         self.send_response(status)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(body)))

@@ -79,7 +79,7 @@ class TeleopPad(LiveView):
         title: caption under the pad, and first line of its text form.
 
     Raises:
-        TeleopError: `driven` is none of these, or there is no such robot or program.
+        TeleopError: `driven` is not one of these, or the robot or program does not exist.
 
     """
 
@@ -99,7 +99,7 @@ class TeleopPad(LiveView):
         self.sight: Chosen | None = None
         self.turtle: DrivenTurtle | None = None
         self.chosen = ""
-        """Which of the `choices` is driven."""
+        """Name of the one of `choices` that is driven."""
         self.hold = hold
         self.solid = solid
         self._driven, self._limits = driven, limits
@@ -156,7 +156,7 @@ class TeleopPad(LiveView):
                 raise
             except (
                 ROSException
-            ):  # a listener that does not answer: the publisher warns of lost messages itself
+            ):  # no subscriber answered in time: the publisher itself warns of messages that are lost
                 pass
 
     # -- driving -------------------------------------------------------------------------------------------------
@@ -232,7 +232,7 @@ class TeleopPad(LiveView):
         if isinstance(self._driven, Simulation | TurtleSim):
             kind = Chosen if isinstance(self._driven, Simulation) else DrivenTurtle
             if name not in self.choices:
-                kind(self._driven, name)  # type: ignore[arg-type]  # which says what there is
+                kind(self._driven, name)  # type: ignore[arg-type]  # raises an error with the available names
             self._rest()
             topic = self._see(self._driven, name).topic
         else:
@@ -297,7 +297,7 @@ class TeleopPad(LiveView):
         if self.teleop.repeats:
             self._publish(self.teleop.cycle())
         else:
-            self.teleop.stop()  # what is driven has forgotten the message by now
+            self.teleop.stop()  # the robot or turtle no longer follows the message by now
 
     # -- the robot -----------------------------------------------------------------------------------------------
 
@@ -337,7 +337,7 @@ class TeleopPad(LiveView):
         if why is not None:
             lines.append(f"nothing to drive: {why}")
         elif self.sight is not None or self.turtle is not None:
-            lines.append((self.sight or self.turtle).describe())  # type: ignore[union-attr]  # one of them is there
+            lines.append((self.sight or self.turtle).describe())  # type: ignore[union-attr]  # one of them exists
         return "\n".join(lines)
 
     @property

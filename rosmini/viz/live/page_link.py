@@ -111,7 +111,7 @@ class PageLink(ABC):
         graph.scheduler.call_soon_threadsafe(partial(self._queue, kind, content))
 
     def _queue(self, kind: str | None, content: dict[str, Any]) -> None:
-        """Queue messages in order, although one may wait for the Master: a release must not overtake a press."""
+        """Queue messages in order even if one must wait for the Master: a release must not overtake a press."""
         if self._lane is None or self._lane.dead:
             self._lane = self.node.spawn(f"{self.node.name} page")
         self._lane.submit(partial(self._take, kind, content))

@@ -56,7 +56,7 @@ class SimulationView(LiveView):
         self.message = ""
         """Result of the last drag, turn or button, or the reason why it was refused."""
 
-    # -- what is done --------------------------------------------------------------------------------------------
+    # -- actions -------------------------------------------------------------------------------------------------
 
     @property
     def names(self) -> tuple[str, ...]:

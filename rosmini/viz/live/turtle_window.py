@@ -77,7 +77,7 @@ class PadOnDemand:
         try:
             pad: TeleopPad = self._sim.pad()
             pad.link.widget.elsewhere = self._elsewhere
-        except Exception as error:  # the page's, whose thread waits for it
+        except Exception as error:  # it belongs to the page, whose thread waits for it
             made.set_exception(error)
         else:
             made.set_result(pad)

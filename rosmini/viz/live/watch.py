@@ -1,4 +1,4 @@
-"""What a view shows of a running simulation: its world, the bodies in it and their poses."""
+"""The contents of a view of a running simulation: its world, the bodies in it and their poses."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Body:
 
 
 class Watch:
-    """Observes a running simulation, and changes only what it is told to drag."""
+    """Observes a running simulation, and moves only the bodies that are dragged."""
 
     def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation

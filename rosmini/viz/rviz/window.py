@@ -124,7 +124,7 @@ class RVizWindow(Panel):
             self.fit()
         self._layers = self.scene.update()
         if self._look is None or not self._held or isinstance(self._look, Projection) == self.is_solid:
-            self._look = self._seen_from()  # what a hand holds stays under it
+            self._look = self._seen_from()  # keeps a dragged object under the pointer
         level = max(status.level for status in self.scene.global_status)
         found: list[Part] = [
             bar(*(self._tool(tool.label) for tool in self.tools)),
@@ -232,7 +232,7 @@ class RVizWindow(Panel):
         self._numbered.append(wanted)
         return len(self._numbered) - 1
 
-    # -- what a hand does ----------------------------------------------------------------------------------------
+    # -- pointer and keys ----------------------------------------------------------------------------------------
 
     def _operate(self, key: Sequence[str], value: Any) -> None:
         match key[0]:
@@ -331,7 +331,7 @@ class RVizWindow(Panel):
         place = np.array(look.metres(*self._hand)) if at is None else at
         self._held = kind != "release"
         tool.is_finished = False
-        if kind == "release" and self._is_dragged:  # the last move of a fast hand may not have been told
+        if kind == "release" and self._is_dragged:  # the page may skip the last move of a fast drag
             tool.move(place)
         self._is_dragged = kind == "move"
         self._said = {"press": tool.press, "move": tool.move, "release": tool.release}[kind](place)
@@ -345,7 +345,7 @@ class RVizWindow(Panel):
             self.tools.put_away()
 
     def _point(self, look: Look) -> Floats | None:
-        """Return the scene point under the pointer, for tools that pick objects; else the point on the ground."""
+        """Return the scene point under the pointer if the tool picks objects, otherwise the point on the ground."""
         if self.tools.current.needs_object:
             return hit(self._layers, look, self._hand)
         return np.array(look.metres(*self._hand))
