@@ -121,8 +121,8 @@ def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
         last = first
     if not all(map(math.isfinite, (first, step, last))) or not step:
         raise ViewError(
-            f"a scan needs an angle_min and an angle_increment, not {first} and {step} rad: without them nobody "
-            "knows where its beams look"
+            f"the angles of a scan must be finite and its increment not 0: angle_min is {first} rad, angle_increment "
+            f"{step} rad, angle_max {last} rad"
         )
     expected = round((last - first) / step) + 1
     # some drivers set angle_max to the end of the last beam's sector, some to the last beam itself

@@ -51,7 +51,7 @@ def byte_map(data: bytes, parts: Iterable[tuple[int, str]], *, title: str) -> Pi
     if total != len(data) or any(size < 0 for size, _ in found):
         raise ViewError(f"the parts have {total} bytes together, but the data have {len(data)}")
     if not found:
-        raise ViewError("a map of bytes needs at least one part: (how many bytes, what they mean)")
+        raise ViewError("a byte map needs at least one part: (number of bytes, meaning)")
     rows: list[_Row] = []
     offset = 0
     for size, meaning in found:

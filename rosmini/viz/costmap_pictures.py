@@ -93,7 +93,7 @@ def cells_of(grid: Costmap2D, window: Sequence[int] | None = None) -> Cells:
     """Return the costs of a costmap, or of a window of it, and their position. Raises `ViewError`."""
     if not isinstance(grid, Costmap2D):
         raise ViewError(
-            f"a costmap is a Costmap2D, not a {type(grid).__name__}: that of a Costmap2DROS is its grid"
+            f"a costmap must be a Costmap2D, not a {type(grid).__name__}; for a Costmap2DROS, use its grid"
         )
     if window is None:
         window = (0, 0, grid.width, grid.height)
@@ -102,7 +102,7 @@ def cells_of(grid: Costmap2D, window: Sequence[int] | None = None) -> Cells:
     if xn <= x0 or yn <= y0:
         raise ViewError(
             f"there is nothing to draw: the costmap has {grid.width} x {grid.height} cells, and the window is "
-            f"{tuple(window)} (first column, first row, and the ones behind the last)"
+            f"{tuple(window)} (first column, first row, and the column and row after the last)"
         )
     origin = grid.origin[0] + x0 * grid.resolution, grid.origin[1] + y0 * grid.resolution
     return Cells(grid.costs[y0:yn, x0:xn], grid.resolution, (*origin, 0.0))

@@ -77,7 +77,7 @@ def embed(
     """
     for what, given in (("a title", title), ("alt text", alt), ("a still picture", fallback_html)):
         if not given.strip():
-            raise ViewError(f"a picture that moves needs {what}")
+            raise ViewError(f"a moving picture needs {what}")
     if not _CALL.fullmatch(call):
         raise ViewError(f"{call!r} is not the name of a function: give one such as 'rosminiReplay.mount'")
     for name in (*script_names, *assets):
@@ -150,7 +150,7 @@ def _live(script_names: Sequence[str], assets: Sequence[str]) -> str:
         f"(() => {{{asset_path(name).read_text(encoding='utf-8')}\n}})();" for name in script_names
     )
     if "</script" in scripts.lower():
-        raise ViewError(f"one of the scripts {', '.join(script_names)} holds the end of a script element")
+        raise ViewError(f"one of the scripts {', '.join(script_names)} contains the end of a script element")
     return _ALONE % {"scripts": scripts, "unpacking": unpacking(assets)}
 
 

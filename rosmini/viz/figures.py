@@ -103,7 +103,7 @@ def place(figure: Figure, left: float, top: float, width: float, height: float) 
     full_width, full_height = figure.get_size_inches() * 72
     if width <= 0 or height <= 0:
         raise ViewError(
-            f"a picture of {full_width:.0f} by {full_height:.0f} pixels has no room for what is in it: make it wider"
+            f"a picture of {full_width:.0f} by {full_height:.0f} pixels is too small for its contents: make it wider"
         )
     axes = figure.add_axes(
         (left / full_width, 1 - (top + height) / full_height, width / full_width, height / full_height)

@@ -33,12 +33,14 @@ def grid(*views: View, columns: int = 2, title: str | None = None) -> View:
 
     """
     if not views or columns < 1:
-        raise ViewError(f"a grid has one view or more in one column or more, not {len(views)} in {columns}")
+        raise ViewError(
+            f"a grid needs at least one view and one column, not {len(views)} views in {columns} columns"
+        )
     for view in views:
         if view.html is None or _svg_of(view) is None:
             first = view.text.partition("\n")[0]
             raise ViewError(
-                f"{first!r} has no vector form (SVG), so it cannot stand in a grid; show it by itself"
+                f"{first!r} has no vector form (SVG), so it cannot be part of a grid; show it by itself"
             )
     return _Grid(views, min(columns, len(views)), title)
 
@@ -110,7 +112,7 @@ def _svg_of(view: View) -> str | None:
 def _size(svg: str) -> tuple[float, float]:
     found = _SIZE.search(svg)
     if found is None:  # each of our pictures has one
-        raise ViewError("an SVG without a viewBox cannot stand in a grid")
+        raise ViewError("an SVG without a viewBox cannot be part of a grid")
     return float(found[1]), float(found[2])
 
 

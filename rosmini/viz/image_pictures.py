@@ -92,7 +92,7 @@ def pixels_of(message: Any) -> NDArray[Any]:
     if encoding is None:
         hint = nearest(str(message.encoding), ENCODINGS)
         raise ViewError(
-            f"an image with the encoding {message.encoding!r} cannot be shown, but {', '.join(ENCODINGS)}. "
+            f"the encoding {message.encoding!r} of an image is not supported, only {', '.join(ENCODINGS)}. "
             f"{hint}".rstrip()
         )
     values = values_of(message, encoding)

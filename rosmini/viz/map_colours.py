@@ -42,7 +42,7 @@ def colours_of(scheme: str = "map") -> Colours:
     if scheme not in SCHEMES:
         there = ", ".join(SCHEMES)
         hint = nearest(scheme, SCHEMES) or ""
-        raise ViewError(f"grids have no colour scheme {scheme!r}, but {there}. {hint}".rstrip())
+        raise ViewError(f"grids have no colour scheme {scheme!r}, only {there}. {hint}".rstrip())
     table = np.zeros((256, 4), dtype=np.uint8)
     grey = np.arange(256)
     if scheme == "raw":

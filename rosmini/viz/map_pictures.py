@@ -82,7 +82,7 @@ def map_picture(
     """
     if not isinstance(grid, GridMap):
         raise ViewError(
-            f"a map is a GridMap, not a {type(grid).__name__}: load_map reads one, GridMap.from_message takes a message"
+            f"a map must be a GridMap, not a {type(grid).__name__}: use load_map or GridMap.from_message"
         )
     pose = None if robot is None else pose_of(robot, "the robot's pose")
     dots = None if points is None else line_of(points, "points")

@@ -75,7 +75,7 @@ def _tree(source: object, namespace: str) -> dict[str, Any]:
     if code != 1:
         raise ViewError(status)
     if not isinstance(found, dict):
-        raise ViewError(f"{namespace} is no namespace but a parameter, {_shown(found)}")
+        raise ViewError(f"{namespace} is a parameter, {_shown(found)}, not a namespace")
     return found
 
 

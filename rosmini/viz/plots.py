@@ -79,9 +79,11 @@ def _points(name: str, values: tuple[ArrayLike, ArrayLike]) -> Floats:
         along_x, along_y = (np.asarray(part, dtype=float) for part in values)
         points: Floats = np.column_stack([along_x, along_y])
     except (TypeError, ValueError) as error:
-        raise ViewError(f"series {name!r} has to be two lists of numbers of one length: {error}") from error
+        raise ViewError(
+            f"series {name!r} must be two lists of numbers of the same length: {error}"
+        ) from error
     if not len(points) or points.shape[1] != 2 or not np.isfinite(points).all():
-        raise ViewError(f"series {name!r} has to be two lists of finite numbers, with at least one in each")
+        raise ViewError(f"series {name!r} must be two lists of finite numbers, with at least one in each")
     return points
 
 

@@ -50,7 +50,7 @@ class RunScene(Scene):
         self.ways = [(thing.poses[:, :2], thing.obstacle.colour) for thing in moved]
         if scan:
             if not len(recording.scans):
-                raise ViewError("no scan was recorded: leave scan=True out, or let the simulation run longer")
+                raise ViewError("no scan was recorded: omit scan=True, or let the simulation run longer")
             each = recording.scan_poses(-1)
             self.look(beams_of(recording.scans[-1], self.model.laser), _pose(each[0]), each)
 
@@ -141,7 +141,7 @@ def recording_plots(
     """
     run = _checked(recording)
     if not run.duration:
-        raise ViewError("a run of a single moment cannot be plotted over time: let the simulation run longer")
+        raise ViewError("a run without duration cannot be plotted over time: let the simulation run longer")
     with house_style():
         figure = _plots(run, width, odometry=odometry)
         text, alt = _plots_text(run, title, odometry=odometry), _plots_alt(run, odometry=odometry)

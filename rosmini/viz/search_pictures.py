@@ -44,11 +44,11 @@ def search_picture(
 
     """
     if not isinstance(search, Search):
-        raise ViewError(f"a search is a NavfnSearch or the like, not a {type(search).__name__}")
+        raise ViewError(f"a search must be a NavfnSearch or another Search, not a {type(search).__name__}")
     cells = search.width * search.height
     if parents and cells > MANY:
         raise ViewError(
-            f"parents of {cells} cells cannot be seen: take a grid of {MANY} at most, or parents=False"
+            f"the parents of {cells} cells would be too small: use at most {MANY} cells, or parents=False"
         )
     scale = min(width / search.width, HEIGHT / search.height)
     w, h = search.width * scale, search.height * scale

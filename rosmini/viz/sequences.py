@@ -39,7 +39,7 @@ def sequence_diagram(calls: Iterable[Call], *, title: str) -> Picture:
     for who, whom, what, _ in made:
         if who == whom:
             raise ViewError(
-                f"{who} cannot call itself ({what}): a sequence diagram shows what goes between two"
+                f"{who} cannot call itself ({what}): a sequence diagram shows calls between two participants"
             )
     actors = list(dict.fromkeys(one for call in made for one in call[:2]))
     arrows = [one for call in made for one in _arrows(call)]

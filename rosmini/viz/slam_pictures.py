@@ -49,14 +49,14 @@ def slam_picture(
     """
     if not isinstance(slam, GridSlam):
         raise ViewError(
-            f"a GridSlam is drawn, not a {type(slam).__name__}: of a node it is node.program.slam"
+            f"slam_picture needs a GridSlam, not a {type(slam).__name__}; for a node, use node.program.slam"
         )
     count = len(slam.poses)
     which = slam.best if particle is None else particle
     if not 0 <= which < count:
         raise ViewError(f"there are particles 0 to {count - 1}, not {particle}")
     if not slam.processed:
-        raise ViewError("no scan has been taken in yet: there is no map to draw")
+        raise ViewError("no scan has been processed yet: there is no map to draw")
     shares, extent = known(slam, which)
     cells = np.where(shares < 0, 255, np.where(shares > threshold, 100, 0)).astype(np.uint8)
     delta = slam.settings.delta
@@ -105,10 +105,10 @@ def slam_film(film: Film, *, title: str | None = None) -> ReplayView:
     """
     if not isinstance(film, Film):
         raise ViewError(
-            f"a Film is played, not a {type(film).__name__}: it gets what GridSlam.process reports"
+            f"slam_film needs a Film, not a {type(film).__name__}; add the reports of GridSlam.process to it"
         )
     if not film.frames:
-        raise ViewError("nothing was taken: call film.take(report) for each scan that was taken in")
+        raise ViewError("the film is empty: call film.take(report) for each processed scan")
     times = np.array([frame.time for frame in film.frames])
     delta = film.slam.settings.delta
     grids = tuple(Grid(frame.cells.view(np.uint8), delta, (*frame.corner, 0.0)) for frame in film.frames)

@@ -100,7 +100,7 @@ def state_machine(
     for state in visited:
         if state not in states:
             hint = nearest(state, states)
-            raise ViewError(f"{state} is no state of this machine: {hint or ', '.join(states)}")
+            raise ViewError(f"{state} is not a state of this machine: {hint or ', '.join(states)}")
     ends = {state for state in states if all(source != state for source, _ in labels)}
     text = _text(title, labels, ends, visited)
     alt = alt or _alt(states, ends, visited)

@@ -282,7 +282,7 @@ def search_steps(searches: Mapping[str, Search], *, title: str | None = None) ->
         )
     for name, each in searches.items():
         if each.expanded:
-            raise ViewError(f"the search {name!r} has begun: give one that has not been expanded")
+            raise ViewError(f"the search {name!r} has started: give one that has not been expanded")
     reached_after = [_recorded(each) for each in searches.values()]
     longest = max(each.expanded for each in searches.values())
     step = max(1, math.ceil(longest / SEARCH_FRAMES))
@@ -597,12 +597,12 @@ def _filter_frame(
     poses = np.asarray(particles, dtype=float)
     if poses.ndim != 2 or poses.shape[1] != 3 or not len(poses) or not np.isfinite(poses).all():
         raise ViewError(
-            f"particles of the step {name!r} are rows of finite x, y and heading, not {poses.shape}"
+            f"particles of the step {name!r} must be rows of finite x, y and heading, not {poses.shape}"
         )
     given = np.ones(len(poses)) if weights is None else np.asarray(weights, dtype=float)
     if given.shape != (len(poses),) or not np.isfinite(given).all() or (given < 0).any() or given.sum() <= 0:
         raise ViewError(
-            f"weights of the step {name!r} are {len(poses)} numbers, none below 0 and one above, not {given.shape}"
+            f"weights of the step {name!r} must be {len(poses)} numbers >= 0, at least one above 0, not {given.shape}"
         )
     pose = None if truth is None else pose_of(truth, "the true pose")
     portions = given / given.sum()

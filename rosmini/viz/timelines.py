@@ -69,7 +69,7 @@ def timeline(
     unknown = sorted({span.state for span in spans} - set(states))
     if unknown or len(states) > len(COLOURS):
         raise ViewError(
-            f"a timeline has up to {len(COLOURS)} rows, one for each state; {unknown} have none of {list(states)}"
+            f"a timeline has up to {len(COLOURS)} rows, one for each state; {unknown} are not in {list(states)}"
         )
     zero = spans[0].begin
     spans = [Span(span.state, span.begin - zero, span.end - zero) for span in spans]

@@ -69,7 +69,7 @@ def _points(source: Any) -> Floats:
         missing = [name for name in COLUMNS if name not in source]
         if missing:
             raise ViewError(
-                f"a table without the column {missing[0]} has no way in it: give the table of a topic with "
+                f"the table has no column {missing[0]}, so it contains no path: give the table of a topic with "
                 "nav_msgs/Odometry"
             )
         source = np.stack([np.asarray(source[name], dtype=float) for name in COLUMNS], axis=-1)

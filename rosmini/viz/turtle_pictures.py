@@ -35,7 +35,7 @@ def turtle_picture(frame: Frame, *, title: str | None = None, size: float = 360.
 
     """
     if not size > 0:
-        raise ViewError(f"a picture's size is a positive number of pixels, not {size}")
+        raise ViewError(f"the size of a picture must be a positive number of pixels, not {size}")
     text = "\n".join([f"{title or 'turtlesim'}: {_contents(frame)}", *_told(frame)])
     turtles = list(frame.turtles.values())
     alt = f"A window of turtlesim: {_contents(frame)}. " + " ".join(f"{_line(each)}." for each in turtles[:3])

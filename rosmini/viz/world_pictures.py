@@ -411,7 +411,7 @@ def pose_of(given: Sequence[float], what: str) -> Pose:
     except (TypeError, ValueError) as error:
         raise ViewError(f"{what} must be x [m], y [m] and heading [rad], not {given!r}") from error
     if not all(map(math.isfinite, (x, y, heading))):
-        raise ViewError(f"{what} is ({x}, {y}, {heading}): there is no such place to draw it at")
+        raise ViewError(f"{what} is ({x}, {y}, {heading}), which is not finite")
     return (x, y, heading)
 
 
@@ -425,5 +425,5 @@ def line_of(given: ArrayLike, what: str) -> Floats:
         raise ViewError(f"{what} must be an array (n, 2) or (n, 3) with at least one point, not {line.shape}")
     bad = ~np.isfinite(line).all(axis=1)
     if bad.any():
-        raise ViewError(f"{what}[{np.flatnonzero(bad)[0]}] is {line[bad][0].tolist()}, which is no place")
+        raise ViewError(f"{what}[{np.flatnonzero(bad)[0]}] is {line[bad][0].tolist()}, which is not finite")
     return line

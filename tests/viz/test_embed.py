@@ -78,7 +78,7 @@ def test_the_same_picture_has_the_same_mark_and_another_has_another():
     [
         ({"script_names": ["tset.js"]}, "no script 'tset.js'.*test.js"),
         ({"script_names": ["../embed.py"]}, "no script"),
-        ({"script_names": ["closing.js"], "book": False}, "closing.js holds the end of a script element"),
+        ({"script_names": ["closing.js"], "book": False}, "closing.js contains the end of a script element"),
         ({"assets": ["other.js"]}, "no script 'other.js'"),
         ({"call": "alert(1)"}, "not the name of a function"),
         ({"alt": " "}, "needs alt text"),

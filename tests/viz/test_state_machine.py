@@ -51,7 +51,7 @@ def test_the_same_picture_whatever_the_order():
     once = state_machine(steps, title="t")
     assert once.svg == state_machine(steps[::-1], title="t").svg
     assert "&lt;back&gt;" in once.svg
-    with pytest.raises(ViewError, match=r"PENDIN is no state of this machine: did you mean PENDING\?"):
+    with pytest.raises(ViewError, match=r"PENDIN is not a state of this machine: did you mean PENDING\?"):
         action_states(visited=["PENDIN"])
 
 

@@ -262,7 +262,7 @@ def test_a_map_of_many_cells_is_drawn_with_the_points_that_can_be_seen():
         ({"robot": (0, 0, 0), "scan": np.ones((2, 360))}, r"array \(n,\), not \(2, 360\)"),
         ({"robot": (0, 0, 0), "scan": "scan"}, "not a str"),
         ({"trail": np.empty((0, 3))}, r"trail must be an array .* with at least one point, not \(0, 3\)"),
-        ({"trail": [(0, 0), (0, math.inf)]}, r"trail\[1\] is \[0.0, inf\], which is no place"),
+        ({"trail": [(0, 0), (0, math.inf)]}, r"trail\[1\] is \[0.0, inf\], which is not finite"),
         ({"odom": [1, 2, 3]}, r"odom must be an array"),
         ({"odom": "here"}, "odom must be an array of points, not a str"),
         ({"size": (10, 10)}, "200 to 4000 pixels, not 10"),

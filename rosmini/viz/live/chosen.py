@@ -46,7 +46,7 @@ class Chosen:
         if name not in drives and (name or not drives):
             hint = nearest(name, drives) or f"robots that can: {', '.join(drives) or 'none'}"
             raise TeleopError(
-                f"no robot {name!r} in the world {simulation.engine.world.name!r} listens to velocities; {hint}"
+                f"no robot {name!r} in the world {simulation.engine.world.name!r} subscribes to velocities; {hint}"
             )
         self.simulation = simulation
         self.node = simulation.node

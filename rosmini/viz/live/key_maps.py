@@ -125,8 +125,8 @@ def key_map(name: str = "turtlebot3_teleop_key") -> KeyMap:
         buttons = ("", "ArrowUp", "", "ArrowLeft", " ", "ArrowRight", "", "ArrowDown", "")
         scale = told["SCALE"]
         return KeyMap(name, MappingProxyType(moves), scale, scale, (" ",), buttons, holds=told["HOLD"])
-    guess = nearest(name, NAMES) or f"there are those of {', '.join(NAMES)}"
-    raise TeleopError(f"there are no keys of a program {name!r}; {guess}")
+    guess = nearest(name, NAMES) or f"the programs are {', '.join(NAMES)}"
+    raise TeleopError(f"no program {name!r} with keys is known; {guess}")
 
 
 def burger_limits() -> tuple[float, float]:

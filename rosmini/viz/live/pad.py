@@ -113,7 +113,7 @@ class TeleopPad(LiveView):
             topic = chosen.topic if topic is None else driven.node.resolve(topic)
         else:
             raise TeleopError(
-                f"a pad drives the robot of a simulator, a turtle, or what listens on a graph, not a "
+                f"a pad drives the robot of a simulator, a turtle, or the subscribers of a graph, not a "
                 f"{type(driven).__name__}. Give it rosrun('rosmini_sim', 'simulator').instance(), that of stageros, "
                 "gzserver or turtlesim_node, or a Graph."
             )
@@ -181,7 +181,7 @@ class TeleopPad(LiveView):
         """
         named = self.teleop.keys.named(key)
         if times < 1:
-            raise TeleopError(f"a key is pressed once or more often, not {times} times")
+            raise TeleopError(f"a key must be pressed at least once, not {times} times")
         self._require_robot()
         for _ in range(times):
             self._publish(self.teleop.press(named))
@@ -237,7 +237,9 @@ class TeleopPad(LiveView):
             topic = self._see(self._driven, name).topic
         else:
             if name not in self.choices:
-                raise TeleopError(f"nobody hears {name!r}; {', '.join(self.choices)} can be driven")
+                raise TeleopError(
+                    f"no node subscribes to {name!r}; the pad can drive {', '.join(self.choices)}"
+                )
             self._rest()
             topic = self.chosen = name
         self.teleop = Teleop(self._limits_now(), self.teleop.keys)
@@ -264,7 +266,7 @@ class TeleopPad(LiveView):
             return
         if self.sight is None:
             raise TeleopError(
-                "this pad has no simulator, so it cannot put a robot back; give it one: TeleopPad(simulator)"
+                "this pad has no simulator, so it cannot reset a robot; give it one: TeleopPad(simulator)"
             )
         self.stop()
         self.sight.reset()
@@ -317,7 +319,7 @@ class TeleopPad(LiveView):
         why = self.gone
         if why is not None:
             self.teleop.stop()
-            raise TeleopError(f"the pad has nothing to drive: {why} The graph goes on.")
+            raise TeleopError(f"the pad has nothing to drive: {why} The graph keeps running.")
 
     # -- to look at ----------------------------------------------------------------------------------------------
 

@@ -48,7 +48,7 @@ class SimulationView(LiveView):
     def __init__(self, simulation: Simulation, *, title: str | None = None) -> None:
         if not isinstance(simulation, Simulation):
             raise ViewError(
-                f"a running simulation is viewed, not a {type(simulation).__name__}. Give the view "
+                f"the view needs a running simulation, not a {type(simulation).__name__}. Give it "
                 "rosrun('rosmini_sim', 'simulator').instance(), or that of stageros or gzserver."
             )
         self.watch = Watch(simulation)

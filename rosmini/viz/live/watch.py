@@ -138,7 +138,7 @@ class Watch:
         if name not in bodies:
             hint = nearest(name, bodies) or f"there are: {', '.join(bodies) or 'none'}"
             raise ViewError(
-                f"the world {self.engine.world.name!r} has no {name!r} that could be dragged; {hint}"
+                f"the world {self.engine.world.name!r} has nothing named {name!r} that can be dragged; {hint}"
             )
         return bodies[name]
 

@@ -100,10 +100,10 @@ def _close(
     if name not in models:
         hint = nearest(name, models) or f"the models are: {', '.join(models) or 'none'}"
         raise ViewError(
-            f"the focus of a 3D picture of Gazebo is 'world' or the name of a model, not {name!r}; {hint}"
+            f"the focus of a 3D picture of Gazebo must be 'world' or the name of a model, not {name!r}; {hint}"
         )
     if distance is not None and not 0 < distance < 1e4:
-        raise ViewError(f"the distance of the camera is a number of metres above 0, not {distance!r}")
+        raise ViewError(f"the distance of the camera must be a number of metres above 0, not {distance!r}")
     points = _corners(models[name])
     low, high = points.min(axis=0), points.max(axis=0)
     size = float(snap(norm(high - low), 0.01))

@@ -107,7 +107,7 @@ def lathe(profile: list[tuple[float, float]], corners: int = ROUND) -> Surface:
 
 def _mesh(mesh: Mesh) -> list[Surface]:
     if mesh.path is None:
-        raise ViewError(f"the mesh {mesh.filename} was not looked for: load the robot with meshes=True")
+        raise ViewError(f"the mesh {mesh.filename} was not loaded: load the robot with meshes=True")
     scale = np.diag([*mesh.scale, 1.0])
     return [surface.moved(scale) for surface in read(mesh.path)]
 

@@ -32,7 +32,7 @@ def urdf_3d(
 
     """
     if distance is not None and not 0 < distance < 1e4:
-        raise ViewError(f"the distance of the camera is a number of metres above 0, not {distance!r}")
+        raise ViewError(f"the distance of the camera must be a number of metres above 0, not {distance!r}")
     shapes = {name: link_surfaces(robot, name, collisions=collisions) for name in robot.links}
     places = robot.transforms(joints)
     corners = [

@@ -119,9 +119,9 @@ def camera_for(
 
     """
     if focus not in {"robot", "world"}:
-        raise ViewError(f"the focus of a 3D picture is 'robot' or 'world', not {focus!r}")
+        raise ViewError(f"the focus of a 3D picture must be 'robot' or 'world', not {focus!r}")
     if distance is not None and not 0 < distance < 1e4:
-        raise ViewError(f"the distance of the camera is a number of metres above 0, not {distance!r}")
+        raise ViewError(f"the distance of the camera must be a number of metres above 0, not {distance!r}")
     x0, y0, x1, y1 = world.bounds
     if focus == "robot" and pose is not None:
         middle = (pose[0], pose[1], 0.09)

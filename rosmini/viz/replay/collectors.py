@@ -104,7 +104,7 @@ class ShapeCollector(Collector):
         array = np.asarray(points, dtype=float).reshape(-1, 3 if mode == "arrows" else 2)
         good = np.isfinite(array).all(axis=1)
         if len(array) and not good.any():
-            raise ViewError("all points are no numbers (nan or infinite)")
+            raise ViewError("no point is finite: all are nan or infinite")
         place = self.place(header)
         moved = compose(place, array[good]) if mode == "arrows" else transform_points(place, array[good])
         return Shape(mode, np.asarray(moved), colour or self.colour)
@@ -260,7 +260,7 @@ class GridCollector(Collector):
             where = compose(self.place(message.header), flat(info.origin))
             if not cells.size or not (math.isfinite(info.resolution) and info.resolution > 0):
                 raise ViewError(
-                    f"a map of {info.width} x {info.height} cells, {info.resolution:g} m wide, shows nothing"
+                    f"a map of {info.width} x {info.height} cells, {info.resolution:g} m wide, has nothing to show"
                 )
             self._now = cells, float(info.resolution), where
         elif self._now is None:
@@ -324,11 +324,11 @@ class ScanCollector(Collector):
             float(message.range_max),
         )
         if not len(ranges) or not all(math.isfinite(part) for part in fan[:3]):
-            raise ViewError("a scan has no beams, or angles that are no numbers")
+            raise ViewError("a scan has no beams, or angles that are not finite")
         if self._fan is None:
             self._fan = fan
         elif self._fan[:3] != fan[:3]:
-            raise ViewError("a scan has other beams than the first one")
+            raise ViewError("the beams of a scan differ from those of the first one")
         seen = (ranges >= message.range_min) & (ranges <= message.range_max)
         self._rows.append((time, self.place(message.header), np.where(seen, ranges, np.inf)[::every]))
 
@@ -359,7 +359,7 @@ class ImageCollector(Collector):
         """Store a small copy."""
         image = small(pixels_of(message))
         if self._images and image.shape != self._images[0].shape:
-            raise ViewError("an image has another size than the first one")
+            raise ViewError("an image differs in size from the first one")
         self._times.append(time)
         self._images.append(image)
 
@@ -390,7 +390,7 @@ class TrackCollector(Collector):
         if hasattr(message, "theta"):
             pose = (float(message.x), float(message.y), float(message.theta))
             if not all(math.isfinite(part) for part in pose):
-                raise ViewError("a pose is no number (nan or infinite)")
+                raise ViewError("a pose is not finite (nan or infinite)")
         else:
             header = message.header
             pose = flat(message.pose.pose)

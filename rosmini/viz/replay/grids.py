@@ -40,9 +40,11 @@ class Grid(NamedTuple):
 def grid(cells: NDArray[Any], resolution: float, origin: Pose) -> Grid:
     """Return a grid of at most `MOST_CELLS` a side. Raises `ViewError` if it has no cells or an invalid resolution."""
     if cells.ndim != 2 or not cells.size:
-        raise ViewError(f"a map of {' x '.join(str(n) for n in cells.shape[::-1])} cells shows nothing")
+        raise ViewError(f"a map of {' x '.join(str(n) for n in cells.shape[::-1])} cells has nothing to show")
     if not (np.isfinite([resolution, *origin]).all() and resolution > 0):
-        raise ViewError(f"a map whose cells are {resolution} m wide, at {origin}, is nowhere")
+        raise ViewError(
+            f"a map needs finite numbers and cells of a positive size, not of {resolution} m, at {origin}"
+        )
     factor = -(-max(cells.shape) // MOST_CELLS)
     if factor > 1:
         cells, resolution = coarse(cells, factor), resolution * factor

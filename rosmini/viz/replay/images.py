@@ -30,7 +30,7 @@ def small(pixels: NDArray[Any], most: int = MOST_PIXELS) -> Pixels:
 
     """
     if not pixels.size:
-        raise ViewError("an image without pixels shows nothing")
+        raise ViewError("an image has no pixels")
     every = -(-max(pixels.shape[:2]) // most)
     thin = pixels[every // 2 :: every, every // 2 :: every]
     if thin.ndim == 2:
@@ -53,7 +53,7 @@ class Images(Frames):
     def __post_init__(self) -> None:
         super().__post_init__()
         if len({image.shape for image in self.images}) > 1 or len(self.images) != len(self.times):
-            raise ViewError(f"the pictures of {self.name!r} must be as many as times, and all of one size")
+            raise ViewError(f"the layer {self.name!r} needs one image for each time, all of the same size")
 
     def at(self, which: NDArray[np.intp]) -> Self:
         """Return the layer with only these moments."""

@@ -57,7 +57,7 @@ class BagLog:
         self.name = (bag.filename or "the bag").replace("\\", "/").rpartition("/")[2]
         self.topics = {conn.topic: conn.type for conn in bag.connections()}
         if index.start is None or index.end is None:
-            raise ViewError(f"there is no message in {self.name}, so there is nothing to play")
+            raise ViewError(f"{self.name} contains no messages, so there is nothing to play")
         self.start, self.end = index.start / 1e9, index.end / 1e9
         self._bag = bag
 
@@ -162,7 +162,7 @@ def _nothing(log: Log, notes: list[str]) -> str:
     there = ", ".join(f"{topic} [{kind}]" for topic, kind in sorted(log.topics.items())[:8]) or "no topics"
     said = f" {' '.join(notes)}" if notes else ""
     return (
-        f"nothing of {log.name} can be shown from above: it has {there}. A player shows poses (tf, nav_msgs/Odometry), "
+        f"nothing in {log.name} can be shown from above: it has {there}. A player shows poses (tf, nav_msgs/Odometry), "
         f"maps, plans, particles, scans, markers and images.{said}"
     )
 

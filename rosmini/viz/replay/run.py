@@ -124,7 +124,7 @@ class Run:
     def __post_init__(self) -> None:
         if not math.isfinite(self.start) or not math.isfinite(self.end) or self.end < self.start:
             raise ViewError(
-                f"the run {self.name!r} goes from {self.start} s to {self.end} s: that is no time span"
+                f"the run {self.name!r} has no valid time span: it goes from {self.start} s to {self.end} s"
             )
         if not self.bodies and not self.layers:
             raise ViewError(

@@ -60,7 +60,9 @@ class Standing:
         there = [*self.tree, *(name.lstrip("/") for name in others if name)]
         if frame is not None and frame.lstrip("/") not in there:
             names = ", ".join(sorted(set(there))) or "none at all"
-            raise ViewError(f"there is no frame {frame!r} to draw the run in: the messages have {names}")
+            raise ViewError(
+                f"no message contains the frame {frame!r} to draw the run in; the frames are {names}"
+            )
         usual = [name for name in USUAL if name in there]
         self.fixed = frame.lstrip("/") if frame is not None else next(iter([*usual, *there]), "")
 
@@ -109,8 +111,8 @@ def flat(pose: Any) -> Pose:
     q = pose.orientation
     turn = (float(q.x), float(q.y), float(q.z), float(q.w))
     if not all(math.isfinite(part) for part in turn):
-        raise ViewError("a quaternion is no number (nan or infinite)")
+        raise ViewError("a quaternion is not finite (nan or infinite)")
     found = (float(pose.position.x), float(pose.position.y), yaw_from_quaternion(*turn) if any(turn) else 0.0)
     if not all(math.isfinite(part) for part in found):
-        raise ViewError("a pose is no number (nan or infinite)")
+        raise ViewError("a pose is not finite (nan or infinite)")
     return found

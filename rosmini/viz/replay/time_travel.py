@@ -135,7 +135,7 @@ def what_if(setup: Setup, change: Change, *, at: float, seconds: float, seed: in
 
     """
     if not 0 <= at <= seconds:
-        raise TimeTravelError(f"the change has to come within the run of {seconds} s, not at {at} s")
+        raise TimeTravelError(f"the change must be within the run of {seconds} s, not at {at} s")
     before = _made(setup, None, at, seconds, seed)
     after = _made(setup, change, at, seconds, seed)
     _check(before, after)
@@ -206,7 +206,7 @@ def _check(before: Made, after: Made) -> None:
             shown = one or other
             assert shown is not None  # noqa: S101 - one of the two exists
             raise TimeTravelError(
-                f"the run is not the same when it is made again: message {number + 1}, on {shown.topic} at "
+                f"the run differs when it is repeated: message {number + 1}, on {shown.topic} at "
                 f"{shown.time / 1e9:.3f} s, differs before the change. Something in it depends on more than simulated "
                 "time and seeds: wall time, unseeded random numbers, a file, another process"
             )

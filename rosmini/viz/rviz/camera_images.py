@@ -53,7 +53,9 @@ def pin_hole(info: Any, width: int, height: int) -> PinHole:
     if len(p) != 12 or not np.isfinite(p).all():
         raise DisplayError("Contains invalid floating point values (nans or infs)")
     if p[0] <= 0 or p[5] <= 0:
-        raise DisplayError(f"CameraInfo/P has the focal lengths {p[0]:g} and {p[5]:g}; they are more than 0")
+        raise DisplayError(
+            f"the focal lengths in CameraInfo/P must be more than 0, not {p[0]:g} and {p[5]:g}"
+        )
     if max(info.width, info.height) > MOST_SIDE:
         raise DisplayError(f"an image of {info.width} x {info.height} pixels is too large to draw")
     return PinHole(
@@ -117,7 +119,7 @@ def depths(message: Any) -> Floats:
     check_image(message)
     if ENCODINGS[message.encoding].order:
         raise DisplayError(
-            f"an image of the encoding [{message.encoding}] has no depths: 32FC1 and 16UC1 have"
+            f"an image with the encoding [{message.encoding}] has no depths; use 32FC1 or 16UC1"
         )
     try:
         return np.asarray(pixels_of(message), dtype=float)

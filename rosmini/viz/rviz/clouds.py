@@ -76,7 +76,7 @@ def unpacked(values: NDArray[Any]) -> Floats:
     """Unpack colours (n,), the bytes of a float or an integer, to red, green and blue (n, 3) from 0 to 1."""
     native = values.astype(values.dtype.newbyteorder("="))
     if native.dtype.str[1:] not in (_FLOAT, *_INTS):
-        raise DisplayError(f"packed colours are 4 bytes, a float or an integer, not {native.dtype}")
+        raise DisplayError(f"packed colours must be 4 bytes, a float or an integer, not {native.dtype}")
     bits = np.ascontiguousarray(native).view(np.uint32)
     return np.stack([(bits >> shift & 255) / 255.0 for shift in (16, 8, 0)], axis=1)
 

@@ -107,7 +107,7 @@ class Config:
         found = [value for value, _ in documents(text, source, _failure)]
         tree = found[0] if len(found) == 1 else None
         if not isinstance(tree, dict) or not isinstance(tree.get(MANAGER), dict):
-            raise ConfigError(f"{source} is no configuration of RViz: it has no mapping {MANAGER!r}")
+            raise ConfigError(f"{source} is not a configuration of RViz: it has no mapping {MANAGER!r}")
         if _depth(tree) > DEEPEST:
             raise ConfigError(f"{source}: values are nested deeper than {DEEPEST}")
         return cls(tree, source)

@@ -133,7 +133,7 @@ def _mesh_file(resource: str) -> Path:
         return PackageIndex().resolve(resource)
     if resource.startswith("file://"):
         return Path(files.path_of(resource))
-    raise DisplayError("an address begins with package:// or file://")
+    raise DisplayError("a mesh URL must begin with package:// or file://")
 
 
 def _array(points: Sequence[Any]) -> Floats:

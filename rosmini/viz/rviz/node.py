@@ -43,7 +43,7 @@ class RViz:
             file = given.display_config and f"-d {address_of(Path(given.display_config))}"
             frame = given.fixed_frame and f"-f {given.fixed_frame}"
             node.loginfo(
-                f"This graph opens no window. To look: {' '.join(filter(None, ('%rviz', file, frame)))}"
+                f"This graph opens no window. To see RViz, run: {' '.join(filter(None, ('%rviz', file, frame)))}"
             )
             return
         self.window = RVizWindow(cast("Graph", node.graph), config, fixed_frame=given.fixed_frame, node=node)

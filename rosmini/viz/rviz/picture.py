@@ -65,7 +65,7 @@ def rviz(
 
     """
     if not 0 < duration < float("inf"):
-        raise ViewError(f"a duration is a positive number of seconds, not {duration!r:.40}")
+        raise ViewError(f"the duration must be a positive number of seconds, not {duration!r:.40}")
     chosen = suggested(graph, fixed_frame) if config is None else config
     with Scene(graph, chosen, fixed_frame=fixed_frame) as scene:
         graph.run(duration)
@@ -151,7 +151,7 @@ def _drawn(
 ) -> str:
     for name, value in (("width", width), ("height", height)):
         if value is not None and not 100 <= value <= TALLEST:
-            raise ViewError(f"the {name} of a picture is 100 to {TALLEST:g} pixels, not {value}")
+            raise ViewError(f"the {name} of a picture must be 100 to {TALLEST:g} pixels, not {value}")
     look: Look = look_at(scene, layers, width, height, fit=fit)
     sight = None if scene.view is None or fit else scene.view.sight(scene.context)
     if sight is not None and not sight.is_flat:

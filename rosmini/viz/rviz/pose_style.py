@@ -84,7 +84,7 @@ def covariance_shape(pose: Floats, covariance: ArrayLike, display: Any, heard: H
             vectors[:, 0] *= -1
         sigma = np.sqrt(np.maximum(values, 0.0)) * display[f"{group}/Scale"]
         if (sigma > UNKNOWN).any():
-            heard.note(f"a standard deviation of more than {UNKNOWN:g} m, which means unknown, is not drawn")
+            heard.note(f"a standard deviation above {UNKNOWN:g} m, which means unknown, is not drawn")
             sigma[sigma > UNKNOWN] = 0.0
         at = np.eye(4)
         at[:3, :3], at[:3, 3] = matrix_product(pose[:3, :3], vectors), pose[:3, 3]

@@ -52,7 +52,7 @@ def finite(values: ArrayLike, width: int) -> Floats:
     if not np.isfinite(array).all():
         raise DisplayError(INVALID)
     if np.abs(array).max() > FAR:
-        raise DisplayError(f"a coordinate is farther than {FAR:g} m away")
+        raise DisplayError(f"a coordinate is larger than {FAR:g} m")
     return array
 
 
@@ -65,7 +65,7 @@ def rgba(colours: ArrayLike, count: int) -> Floats:
     """
     array = np.asarray(colours, dtype=np.float64)
     if array.shape not in {(4,), (count, 4)}:
-        raise DisplayError(f"colours have the shape (4,) or ({count}, 4), not {array.shape}")
+        raise DisplayError(f"colours must have the shape (4,) or ({count}, 4), not {array.shape}")
     if not np.isfinite(array).all():
         raise DisplayError(INVALID)
     return np.clip(array, 0.0, 1.0)
@@ -139,7 +139,7 @@ class Mesh:
         vertices = finite(self.vertices, 3)
         faces = np.asarray(self.faces, dtype=np.int64).reshape(-1, 3)
         if len(faces) and not (faces.min() >= 0 and faces.max() < len(vertices)):
-            raise DisplayError(f"a face names a vertex that is not among the {len(vertices)}")
+            raise DisplayError(f"a face refers to a vertex that does not exist; there are {len(vertices)}")
         object.__setattr__(self, "vertices", vertices)
         object.__setattr__(self, "faces", faces)
         object.__setattr__(self, "colours", rgba(self.colours, len(faces)))
@@ -170,7 +170,7 @@ class Texture:
     def __post_init__(self) -> None:
         pixels = np.asarray(self.pixels, dtype=np.uint8)
         if pixels.ndim != 3 or pixels.shape[2] != 4 or not pixels.size:
-            raise DisplayError(f"pixels have the shape (h, w, 4), not {pixels.shape}")
+            raise DisplayError(f"pixels must have the shape (h, w, 4), not {pixels.shape}")
         if pixels.shape[0] * pixels.shape[1] > MOST_POINTS:
             raise DisplayError(
                 f"{pixels.shape[1]} x {pixels.shape[0]} pixels are too many to draw: thin them"
@@ -220,5 +220,5 @@ class Pane:
 def _length(value: float, what: str) -> float:
     value = float(value)
     if not 0.0 <= value <= FAR:
-        raise DisplayError(f"{what} is a number of 0 to {FAR:g}, not {value:g}")
+        raise DisplayError(f"{what} must be 0 to {FAR:g}, not {value:g}")
     return value

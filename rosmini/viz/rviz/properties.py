@@ -69,10 +69,10 @@ class Property:
         if found is None:
             kind = type(self.default).__name__
             raise DisplayError(
-                f"{self.name} is {given!r:.60}; it is a {kind} such as {self.written(self.default)!r}"
+                f"{self.name} is {given!r:.60}; it must be a {kind} such as {self.written(self.default)!r}"
             )
         if self.choices and found not in self.choices:
-            hint = nearest(str(found), self.choices) or f"it has to be one of {', '.join(self.choices)}"
+            hint = nearest(str(found), self.choices) or f"it must be one of {', '.join(self.choices)}"
             raise DisplayError(f"{self.name} is {found!r:.60}; {hint}")
         if isinstance(found, int | float) and not isinstance(found, bool):
             low = found if self.minimum is None else max(found, self.minimum)

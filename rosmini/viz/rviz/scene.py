@@ -205,7 +205,7 @@ class Scene:
         view = self.config.mapping("Views", "Current").get("Class")
         parts += [f"view {view}"] if view and self.view is None else []
         wrong = [f"{each.name}: {text}" for each in displays for text in each.wrong] + self.options.wrong
-        said = f"not known here, and kept: {', '.join(parts)}" if parts else ""
+        said = f"unknown, but preserved: {', '.join(parts)}" if parts else ""
         return "; ".join(filter(None, [said, *wrong]))
 
     def saved(self) -> Config:

@@ -122,7 +122,7 @@ def point(given: Point) -> Floats:
     except (TypeError, ValueError):
         found = []
     if len(found) not in (2, 3):
-        raise DisplayError(f"a point is two or three numbers, x, y and z [m], not {given!r:.60}")
+        raise DisplayError(f"a point must be two or three numbers, x, y and z [m], not {given!r:.60}")
     checked: Floats = finite([[*found, 0.0][:3]], 3)[0]
     return checked
 

@@ -306,7 +306,7 @@ class RVizWindow(Panel):
             self._has_webgl, self._said = False, NO_WEBGL
             return
         if len(numbers) != WORDS.get(kind, -1) + (kind == "orbit") or not np.isfinite(numbers).all():
-            raise ViewError(f"a hand does {', '.join(WORDS)} or key on a picture, not {text!r:.60}")
+            raise ViewError(f"a pointer action on a picture is {', '.join(WORDS)} or key, not {text!r:.60}")
         if kind == "orbit":
             self._solid.turns = int(numbers[0])
             turn(self.scene, numbers[1:])

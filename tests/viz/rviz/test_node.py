@@ -25,7 +25,7 @@ def test_in_a_graph_with_others_it_opens_nothing_and_says_how_to_look(capsys):
     assert made.window is None
     said = capsys.readouterr().out
     assert (
-        "This graph opens no window. To look: "
+        "This graph opens no window. To see RViz, run: "
         "%rviz -d package://turtlebot3_navigation/rviz/turtlebot3_navigation.rviz -f odom\n" in said
     )
 

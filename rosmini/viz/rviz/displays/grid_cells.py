@@ -32,7 +32,7 @@ class GridCells(TopicDisplay, plugin="rviz/GridCells"):
         points = heard.points(found.cells)
         known = np.isfinite(points).all(axis=1)
         if not known.all():
-            heard.note(f"{int((~known).sum())} cells have no place: nans or infs")
+            heard.note(f"{int((~known).sum())} cells have invalid positions (nans or infs)")
         self.set_status(Level.OK, "Cells", f"{int(known.sum())} cells")
         side = float(found.cell_width + found.cell_height) / 2
         yield Points(points[known], self["Color"].rgba(self["Alpha"]), side, "Tiles")

@@ -262,7 +262,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         if chosen.command_type != MenuEntry.FEEDBACK:
             tool = "rosrun" if chosen.command_type == MenuEntry.ROSRUN else "roslaunch"
             raise DisplayError(
-                f"on real ROS this runs {tool} {chosen.command!r:.80}; here nothing that comes by a topic runs"
+                f"in real ROS this runs {tool} {chosen.command!r:.80}; rosmini runs no program named in a message"
             )
         self._say(Feedback.MENU_SELECT, handle, None, menu_entry_id=found)
 

@@ -57,7 +57,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
                 f"Data size doesn't match width*height: width = {width}, height = {height}, data size = {count}"
             )
         if not 0 < info.resolution < 1e6:
-            raise DisplayError(f"a resolution of {info.resolution:g} m is none")
+            raise DisplayError(f"a resolution of {info.resolution:g} m is invalid")
         self._cells: Pixels = (
             np.array(heard.message.data, dtype=np.int8).view(np.uint8).reshape(height, width)
         )

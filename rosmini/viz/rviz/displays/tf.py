@@ -64,7 +64,7 @@ class TF(Display, plugin="rviz/TF"):
                 self.set_status(Level.WARN, frame, text)
                 continue
             if self._is_dead(frame, context):
-                self.set_status(Level.WARN, frame, "No news for longer than the Frame Timeout")
+                self.set_status(Level.WARN, frame, "Not updated for longer than the Frame Timeout")
                 del poses[frame]
                 continue
             self.set_status(Level.OK, frame, "Transform OK")

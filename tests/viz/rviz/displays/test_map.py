@@ -55,7 +55,7 @@ def test_updates_change_a_part(stage, statuses):
     [
         (lambda m: setattr(m.info, "width", 0), "Map is zero-sized (0x2)"),
         (lambda m: setattr(m.info, "width", 5), "Data size doesn't match width*height"),
-        (lambda m: setattr(m.info, "resolution", float("nan")), "a resolution of nan m is none"),
+        (lambda m: setattr(m.info, "resolution", float("nan")), "a resolution of nan m is invalid"),
         (lambda m: setattr(m.info.origin.position, "x", float("inf")), "nans or infs"),
     ],
 )

@@ -49,7 +49,7 @@ def test_cells_that_have_no_place_are_left_out(stage, statuses):
     (points,) = scene.update()[0].primitives
     assert points.points == pytest.approx(np.array([(1, 0, 0), (3, 0, 0)]))
     assert (points.style, points.size) == ("Tiles", pytest.approx(0.1))
-    assert statuses(display)["Message"] == ("Warn", "1 cells have no place: nans or infs")
+    assert statuses(display)["Message"] == ("Warn", "1 cells have invalid positions (nans or infs)")
     stage.publish("/obstacles", GridCells(cells=cells), "map")
     scene.update()
     assert statuses(display)["Topic"] == ("Error", "Cell width is 0, cells will be invisible")
