@@ -82,7 +82,7 @@ class Hand:
 
     def at(self, x, y, z=0.0):
         """Where in the page a point of the map is seen."""
-        (pixel,) = self.window._look.pixels(np.array([[x, y, z]]))
+        (pixel,) = self.window._projection.pixels(np.array([[x, y, z]]))
         box = self.page.locator("[data-points] > svg, .rq-solid iframe").first.bounding_box()
         width, height = self.window._size
         return box["x"] + pixel[0] / width * box["width"], box["y"] + pixel[1] / height * box["height"]
@@ -167,7 +167,7 @@ def test_each_tool_is_used_with_the_mouse_from_above_and_a_display_with_the_keyb
         hand.take("Focus Camera")
         hand.drag((1.0, 3.0))
         assert (window.scene.view["X"], window.scene.view["Y"]) == pytest.approx((1.0, 3.0), abs=0.05)
-        hand.until(lambda: window._look.ground[:2] == pytest.approx((1.0, 3.0), abs=0.05))
+        hand.until(lambda: window._projection.ground[:2] == pytest.approx((1.0, 3.0), abs=0.05))
         hand.take("Move Camera")
         hand.drag((1.0, 3.0), (2.0, 2.0))
         assert (window.scene.view["X"], window.scene.view["Y"]) == pytest.approx((0.0, 4.0), abs=0.1)
@@ -202,7 +202,7 @@ def test_in_three_dimensions_the_mouse_turns_the_scene_or_uses_the_tool(use, win
         hand.until(
             lambda: np.allclose(
                 page.evaluate(camera),
-                view.sight(window.scene.context).target + window._look.eye - window._look.target,
+                view.viewpoint(window.scene.context).target + window._projection.eye - window._projection.target,
                 atol=0.02,
             )
         )
@@ -211,12 +211,12 @@ def test_in_three_dimensions_the_mouse_turns_the_scene_or_uses_the_tool(use, win
         hand.until(lambda: view["Distance"] < 0.97 * distance)
         page.get_by_role("button", name="Show all").click()
         hand.until(lambda: view["Focal Point"][:2] == pytest.approx((2.0, 2.0), abs=0.3))
-        hand.until(lambda: np.allclose(page.evaluate(camera), window._look.eye, atol=0.02))
+        hand.until(lambda: np.allclose(page.evaluate(camera), window._projection.eye, atol=0.02))
         publishing(hand)
         looking(hand)
         hand.take("Focus Camera")
         hand.drag((1.0, 3.0))
-        hand.until(lambda: np.allclose(window._look.target[:2], (1.0, 3.0), atol=0.05))
+        hand.until(lambda: np.allclose(window._projection.target[:2], (1.0, 3.0), atol=0.05))
         shown = f"globalThis.rosminiMeshcat.find({VIEWER}, '/meshcat/rviz/1').children.length"
         assert page.evaluate(shown) == 1
         page.get_by_role("checkbox", name="/map").click()

@@ -14,9 +14,9 @@ from .primitives import DisplayError, Floats, Pixels
 
 RANGED = ("32FC1", "16UC1", "16SC1", "mono16")
 """Encodings whose minimum and maximum are shown as black and white."""
-MOST_SIDE = 10_000
-MOST_PIXELS = 25_000_000
-MOST_SHOWN = 320 * 240
+MAX_SIDE = 10_000
+MAX_PIXELS = 25_000_000
+MAX_SHOWN = 320 * 240
 """Maximum number of pixels of an image in a page; a larger one is reduced by an integer factor."""
 
 
@@ -56,7 +56,7 @@ def pin_hole(info: Any, width: int, height: int) -> PinHole:
         raise DisplayError(
             f"the focal lengths in CameraInfo/P must be more than 0, not {p[0]:g} and {p[5]:g}"
         )
-    if max(info.width, info.height) > MOST_SIDE:
+    if max(info.width, info.height) > MAX_SIDE:
         raise DisplayError(f"an image of {info.width} x {info.height} pixels is too large to draw")
     return PinHole(
         p[0],
@@ -81,7 +81,7 @@ def check_image(message: Any) -> None:
     if message.encoding not in ENCODINGS:
         raise DisplayError(f"Unsupported image encoding [{message.encoding:.50}]")
     size = int(message.width) * int(message.height)
-    if not 0 < size <= MOST_PIXELS or max(message.width, message.height) > MOST_SIDE:
+    if not 0 < size <= MAX_PIXELS or max(message.width, message.height) > MAX_SIDE:
         raise DisplayError(f"an image of {message.width} x {message.height} pixels cannot be drawn")
 
 
@@ -128,9 +128,9 @@ def depths(message: Any) -> Floats:
 
 
 def thinned_image(pixels: Pixels) -> Pixels:
-    """Return the means of square blocks of pixels (h, w, 3), so that there are at most `MOST_SHOWN` pixels."""
+    """Return the means of square blocks of pixels (h, w, 3), so that there are at most `MAX_SHOWN` pixels."""
     height, width = pixels.shape[:2]
-    factor = max(1, math.ceil(math.sqrt(height * width / MOST_SHOWN)))
+    factor = max(1, math.ceil(math.sqrt(height * width / MAX_SHOWN)))
     while factor > 1 and (height // factor) * (width // factor) == 0:
         factor -= 1
     if factor == 1:

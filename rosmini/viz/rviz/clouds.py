@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from .primitives import DisplayError, Floats
 
-MOST_BYTES = 1 << 30
-MOST_SHOWN = 1_000_000
+MAX_BYTES = 1 << 30
+MAX_SHOWN = 1_000_000
 """Maximum number of points; of larger clouds only every second, third ... point is shown."""
 
 _TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
@@ -27,7 +27,7 @@ def read_cloud(cloud: Any) -> dict[str, NDArray[Any]]:
     """
     width, height, step = int(cloud.width), int(cloud.height), int(cloud.point_step)
     data = np.frombuffer(bytes(cloud.data), dtype=np.uint8)
-    if len(data) != width * height * step or len(data) > MOST_BYTES:
+    if len(data) != width * height * step or len(data) > MAX_BYTES:
         raise DisplayError(
             f"Data size ({len(data)} bytes) does not match width ({width}) times height ({height}) times point_step "
             f"({step}).  Dropping message."
@@ -35,7 +35,7 @@ def read_cloud(cloud: Any) -> dict[str, NDArray[Any]]:
     order = ">" if cloud.is_bigendian else "<"
     found: dict[str, NDArray[Any]] = {}
     rows = data.reshape(width * height, step) if len(data) else np.empty((0, step), np.uint8)
-    rows = rows[:: -(-len(rows) // MOST_SHOWN) or 1]
+    rows = rows[:: -(-len(rows) // MAX_SHOWN) or 1]
     for field in cloud.fields:
         kind = _TYPES.get(field.datatype)
         if kind is None:

@@ -20,8 +20,8 @@ from rosmini.viz.view import ViewError
 
 from .properties import Colour, Properties, Property
 
-MOST_BYTES = 4_000_000
-DEEPEST = 40
+MAX_BYTES = 4_000_000
+MAX_DEPTH = 40
 """Maximum nesting depth of mappings and lists."""
 
 MANAGER = "Visualization Manager"
@@ -96,7 +96,7 @@ class Config:
         except RosminiError as error:
             raise ConfigError(f"the configuration {path} cannot be read: {error}") from error
         try:
-            data = files.read(path, MOST_BYTES)
+            data = files.read(path, MAX_BYTES)
         except OSError as error:
             raise ConfigError(f"the configuration {path} cannot be read: {error.strerror}") from error
         return cls.parse(data.decode(errors="replace"), Path(path).name)
@@ -108,8 +108,8 @@ class Config:
         tree = found[0] if len(found) == 1 else None
         if not isinstance(tree, dict) or not isinstance(tree.get(MANAGER), dict):
             raise ConfigError(f"{source} is not a configuration of RViz: it has no mapping {MANAGER!r}")
-        if _depth(tree) > DEEPEST:
-            raise ConfigError(f"{source}: values are nested deeper than {DEEPEST}")
+        if _depth(tree) > MAX_DEPTH:
+            raise ConfigError(f"{source}: values are nested deeper than {MAX_DEPTH}")
         return cls(tree, source)
 
     @property
@@ -138,7 +138,7 @@ class Config:
         """The Global Options."""
         return Properties(OPTIONS, self.mapping("Global Options"))
 
-    def strangers(self) -> list[str]:
+    def unknown_classes(self) -> list[str]:
         """Return the classes of panels and tools that are unknown here."""
         kinds: list[tuple[str, tuple[str, ...], str]] = [
             (kind_of(each), PANELS, "panel") for each in self.panels
@@ -196,7 +196,7 @@ def _depth(value: Any) -> int:
     while todo:
         node, depth = todo.pop()
         deepest = max(deepest, depth)
-        if depth > DEEPEST:
+        if depth > MAX_DEPTH:
             break
         inside = node.values() if isinstance(node, dict) else node if isinstance(node, list) else ()
         todo += [(each, depth + 1) for each in inside]

@@ -19,11 +19,11 @@ FIXED_FRAME = "<Fixed Frame>"
 """The fixed frame, as the value of a property that names a frame."""
 
 
-class Silence(NamedTuple):
+class NoMessages(NamedTuple):
     """The reason why no message arrives on a topic, and whether waiting would be pointless."""
 
     text: str
-    hopeless: bool = False
+    is_permanent: bool = False
 
 
 class Context:
@@ -92,7 +92,7 @@ class Context:
             )
         return f"For frame [{name}]: {reason}"
 
-    def silence(self, topic: str, kind: str) -> Silence:
+    def why_no_messages(self, topic: str, kind: str) -> NoMessages:
         """Return the reason why no message of a type arrived on a topic, as far as the Master knows."""
         if self._types is None:
             try:
@@ -106,10 +106,12 @@ class Context:
         publishers = self._publishers.get(name, [])
         found = self._types.get(name, kind)
         if publishers and found not in (kind, "*"):
-            return Silence(f"{name} has the type {found}, and this display shows {kind}", hopeless=True)
+            return NoMessages(
+                f"{name} has the type {found}, and this display shows {kind}", is_permanent=True
+            )
         if not publishers:
-            return Silence(f"nobody publishes {name}")
-        return Silence(f"{', '.join(sorted(publishers))} published nothing yet")
+            return NoMessages(f"nobody publishes {name}")
+        return NoMessages(f"{', '.join(sorted(publishers))} published nothing yet")
 
     def subscribe(
         self, topic: str, kind: str, callback: Callable[[Any], object], queue_size: int | None

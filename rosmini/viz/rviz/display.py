@@ -101,7 +101,7 @@ class Display(Plugin, ABC):
         return ()
 
     def start(self, context: Context) -> None:
-        """Start, when the display is switched on. Subscribe here, through `listen`."""
+        """Start, when the display is switched on. Subscribe here, through `subscribe`."""
 
     def reset(self) -> None:
         """Discard received messages: time jumped back, or the fixed frame changed."""
@@ -128,9 +128,9 @@ class Display(Plugin, ABC):
         """React to a change of a property; earlier drawings are obsolete in any case."""
 
     @property
-    def wrong(self) -> list[str]:
+    def errors(self) -> list[str]:
         """Errors in its part of a file, in words."""
-        return self._values.wrong
+        return self._values.errors
 
     def unknown(self) -> list[str]:
         """Return the undeclared properties in its part of a file; they are preserved."""
@@ -192,7 +192,7 @@ class Display(Plugin, ABC):
             self._context.refresh()
             self.attach(self._context)
 
-    def listen(
+    def subscribe(
         self,
         context: Context,
         topic: str,

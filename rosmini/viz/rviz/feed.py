@@ -8,7 +8,7 @@ import numpy as np
 
 from rosmini.viz.meshcat.scene3d import Camera
 
-from .labels import MOST
+from .labels import MAX_LABELS
 from .primitives import Lines, Mesh, Points, Primitive, Text, Texture
 from .solid import Drawing, RvizScene
 
@@ -66,7 +66,7 @@ class Feed:
 
 def texts(drawn: Iterable[Primitive]) -> list[Text]:
     """Return the texts among primitives, as many as a page shows."""
-    return [each for each in drawn if isinstance(each, Text)][:MOST]
+    return [each for each in drawn if isinstance(each, Text)][:MAX_LABELS]
 
 
 def same_shape(one: Primitive, other: Primitive) -> bool:

@@ -18,28 +18,28 @@ from rosmini.viz.rounding import snap
 from rosmini.viz.style import LABEL_SIZE, variable
 from rosmini.viz.svg import document, element, escape
 
-from .before_eye import rectangles, seen
+from .clipping import clipped, rectangles
 from .gifs import gif
-from .labels import placed
-from .primitives import MOST_POINTS, Floats, Ints, Lines, Mesh, Pane, Points, Primitive, Text, Texture
-from .projection import Look, Perspective
+from .labels import place_labels
+from .primitives import MAX_POINTS, Floats, Ints, Lines, Mesh, Pane, Points, Primitive, Text, Texture
+from .projection import Perspective, Projection
 from .properties import Colour
 
 KIND = "rosmini-rviz"
-LEAST_DOT, LEAST_LINE = 1.8, 1.0
+MIN_DOT, MIN_LINE = 1.8, 1.0
 """Minimum size of points and minimum width of lines [px]."""
-MOST_DOTS = 8000
+MAX_DOTS = 8000
 """Maximum number of points of a display in a picture: of several points on nearly the same pixel one is drawn."""
-MOST_RECTANGLES = 450
+MAX_RECTANGLES = 450
 """Maximum number of rectangles of a map in perspective; above this, colours and then cells are joined."""
 MANY_FACES = 80
 """A mesh with more faces than this is drawn as its outline from this side."""
-MOST_FACES = 600
+MAX_FACES = 600
 """Maximum number of faces of a mesh in a picture; smaller ones become dots."""
-GAP, HIGHEST_PANE = 12.0, 300.0
+GAP, MAX_PANE_HEIGHT = 12.0, 300.0
 """Gap between panes, and maximum height of their pictures [px]."""
 OPAQUE = 0.99
-MOST_COLOURS = 300
+MAX_COLOURS = 300
 LEVELS = 32
 """Number of steps of each colour channel."""
 GROUND = 0.01
@@ -49,7 +49,7 @@ SUN = np.array([0.25, -0.42, 0.87])
 
 def draw(
     shown: Sequence[Primitive],
-    look: Look,
+    projection: Projection,
     background: Colour,
     *,
     title: str,
@@ -57,25 +57,25 @@ def draw(
     panes: Sequence[Pane] = (),
 ) -> str:
     """Draw primitives as an SVG: textures first, the rest from far to near, texts last; panes in rows below."""
-    if isinstance(look, Perspective):
-        shown = [seen(each, look) for each in shown]
+    if isinstance(projection, Perspective):
+        shown = [clipped(each, projection) for each in shown]
     behind = [each for each in shown if isinstance(each, Texture) and each.behind]
     maps = [each for each in shown if isinstance(each, Texture) and not each.behind]
     words = [each for each in shown if isinstance(each, Text)]
     others = [each for each in shown if not isinstance(each, Texture | Text)]
-    rest = _joined(sorted(others, key=lambda each: (_is_raised(each), _nearest(each, look))))
-    width, height = look.width, look.height
+    rest = _joined(sorted(others, key=lambda each: (_is_raised(each), _nearness(each, projection))))
+    width, height = projection.width, projection.height
     parts = [element("rect", width=width, height=height, fill=_hex(background.rgba()), rx=4.0)]
     for each in (*behind, *maps, *rest):
-        parts += _drawn(each, look)
+        parts += _elements(each, projection)
     ink = _hex(background.rgba())
     parts += [
         element(
-            "text", escape(each.said), x=each.x, y=each.base, font_size=each.size, text_anchor="middle",
+            "text", escape(each.shown_text), x=each.x, y=each.base, font_size=each.size, text_anchor="middle",
             fill=_hex(each.text.colour), opacity=_opacity(each.text.colour[3]), stroke=ink, stroke_width=2.5,
             paint_order="stroke",
         )
-        for each in placed(words, look)
+        for each in place_labels(words, projection)
     ]  # fmt: skip
     body = element(
         "svg", "".join(parts), width=width, height=height, overflow="hidden", stroke_linejoin="round",
@@ -95,7 +95,7 @@ def _panes(panes: Sequence[Pane], width: float, top: float) -> tuple[str, float]
         highest = 0.0
         for i, pane in enumerate(row):
             tall, across = pane.pixels.shape[:2]
-            scale = min(wide / across, HIGHEST_PANE / tall)
+            scale = min(wide / across, MAX_PANE_HEIGHT / tall)
             x = i * (wide + GAP)
             opaque = np.dstack([pane.pixels[..., :3], np.full((tall, across), 255, np.uint8)])
             data, _ = gif(opaque)
@@ -115,15 +115,15 @@ def _url(data: bytes) -> str:
     return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
 
-def _drawn(primitive: Primitive, look: Look) -> Iterator[str]:
+def _elements(primitive: Primitive, projection: Projection) -> Iterator[str]:
     if isinstance(primitive, Texture):
-        yield from _texture(primitive, look)
+        yield from _texture(primitive, projection)
     elif isinstance(primitive, Points):
-        yield from _points(primitive, look)
+        yield from _points(primitive, projection)
     elif isinstance(primitive, Lines):
-        yield from _lines(primitive, look)
+        yield from _lines(primitive, projection)
     elif isinstance(primitive, Mesh):
-        yield from _mesh(primitive, look)
+        yield from _mesh(primitive, projection)
 
 
 def _joined(shown: Sequence[Primitive]) -> Iterator[Primitive]:
@@ -133,7 +133,7 @@ def _joined(shown: Sequence[Primitive]) -> Iterator[Primitive]:
     ):
         several = list(group)
         clouds = [each for each in several if isinstance(each, Points)]
-        if alike is None or len(clouds) == 1 or sum(len(each.points) for each in clouds) > MOST_POINTS:
+        if alike is None or len(clouds) == 1 or sum(len(each.points) for each in clouds) > MAX_POINTS:
             yield from several
             continue
         points = np.vstack([each.points for each in clouds])
@@ -141,32 +141,32 @@ def _joined(shown: Sequence[Primitive]) -> Iterator[Primitive]:
         yield Points(points, colours, clouds[0].size, clouds[0].style)
 
 
-def _of(primitive: Primitive) -> Floats:
+def _points_of(primitive: Primitive) -> Floats:
     """Return its points (n, 3)."""
     return primitive.placed if isinstance(primitive, Mesh) else getattr(primitive, "points", np.empty((0, 3)))
 
 
 def _is_raised(primitive: Primitive) -> bool:
     """Return False if it lies entirely on the ground, behind everything else."""
-    points = _of(primitive)
+    points = _points_of(primitive)
     return bool(len(points) and snap(points[:, 2].max()) > GROUND)
 
 
-def _nearest(primitive: Primitive, look: Look) -> float:
+def _nearness(primitive: Primitive, projection: Projection) -> float:
     """Return the nearness of its nearest point."""
-    points = _of(primitive)
-    return float(look.nearness(points).max()) if len(points) else -np.inf
+    points = _points_of(primitive)
+    return float(projection.nearness(points).max()) if len(points) else -np.inf
 
 
-def _texture(texture: Texture, look: Look) -> Iterator[str]:
-    if isinstance(look, Perspective):
+def _texture(texture: Texture, projection: Projection) -> Iterator[str]:
+    if isinstance(projection, Perspective):
         alphas = texture.pixels[..., 3][texture.pixels[..., 3] > 0] / 255
-        found = rectangles(texture, look, MOST_RECTANGLES)
+        found = rectangles(texture, projection, MAX_RECTANGLES)
         warped = "".join(_filled(outlines, colour) for colour, outlines in found)
         if warped:
             yield element("g", warped, opacity=_opacity(float(alphas.mean())))
         return
-    origin, right, _, up = look.pixels(texture.corners)
+    origin, right, _, up = projection.pixels(texture.corners)
     data, opacity = gif(texture.pixels)
     if not opacity:
         return
@@ -181,15 +181,15 @@ def _texture(texture: Texture, look: Look) -> Iterator[str]:
     )  # fmt: skip
 
 
-def _points(points: Points, look: Look) -> Iterator[str]:
-    flat = look.pixels(points.points)
-    colours = _steps(points.colours, len(flat))
-    inside = ((flat >= 0) & (flat <= (look.width, look.height))).all(axis=1)
-    size = points.size if points.style == "Points" else points.size * look.scale_at(points.points)
+def _points(points: Points, projection: Projection) -> Iterator[str]:
+    flat = projection.pixels(points.points)
+    colours = _quantised(points.colours, len(flat))
+    inside = ((flat >= 0) & (flat <= (projection.width, projection.height))).all(axis=1)
+    size = points.size if points.style == "Points" else points.size * projection.scale_at(points.points)
     cap = "round" if points.style == "Spheres" else "square"
-    width = max(LEAST_DOT, min(float(snap(size, 0.1)), look.width))
+    width = max(MIN_DOT, min(float(snap(size, 0.1)), projection.width))
     flat, colours = _thinned(flat[inside], colours[inside], width)
-    for colour, among in _alike(_few(colours)):
+    for colour, among in _by_colour(_with_few_colours(colours)):
         path = "".join(f"M{x:.5g},{y:.5g}h0" for x, y in flat[among].tolist())
         yield _path(path, colour, width, cap)
 
@@ -200,11 +200,11 @@ def _thinned(flat: Floats, colours: Floats, width: float) -> tuple[Floats, Float
     Wide points are thinned to a third of their width.
     """
     quantum = max(0.5, width / 3)
-    kept = _first(flat, quantum)
+    kept = _one_per_cell(flat, quantum)
     return flat[kept], colours[kept]
 
 
-def _first(flat: Floats, quantum: float) -> Ints:
+def _one_per_cell(flat: Floats, quantum: float) -> Ints:
     """Return the first of the rows (n, 2 or 4) in each cell of `quantum` pixels; cells grow if there are too many."""
     kept = np.arange(len(flat))
     while True:
@@ -213,28 +213,30 @@ def _first(flat: Floats, quantum: float) -> Ints:
         for column in cells.T:
             keys = (keys << 16) | (column & 0xFFFF)
         kept = kept[np.sort(np.unique(keys, return_index=True)[1])]
-        if len(kept) <= MOST_DOTS:
+        if len(kept) <= MAX_DOTS:
             return kept
         quantum *= 1.5
 
 
-def _lines(lines: Lines, look: Look) -> Iterator[str]:
-    width = max(LEAST_LINE, min(float(snap(lines.width * look.scale_at(lines.points), 0.1)), look.width))
+def _lines(lines: Lines, projection: Projection) -> Iterator[str]:
+    width = max(
+        MIN_LINE, min(float(snap(lines.width * projection.scale_at(lines.points), 0.1)), projection.width)
+    )
     if lines.strip and lines.colours.ndim == 1:
-        flat = look.pixels(lines.points)
-        data = _way(_smoothed(flat))
+        flat = projection.pixels(lines.points)
+        data = _path_data(_smoothed(flat))
         if data:
-            yield _path(data, _steps(lines.colours, 1)[0], width, "round")
+            yield _path(data, _quantised(lines.colours, 1)[0], width, "round")
         return
-    ends = look.pixels(lines.segments().reshape(-1, 3)).reshape(-1, 2, 2)
-    seen = ((ends.max(axis=1) >= 0) & (ends.min(axis=1) <= (look.width, look.height))).all(axis=1)
-    colours = _steps(lines.segment_colours(), len(ends))
+    ends = projection.pixels(lines.segments().reshape(-1, 3)).reshape(-1, 2, 2)
+    seen = ((ends.max(axis=1) >= 0) & (ends.min(axis=1) <= (projection.width, projection.height))).all(axis=1)
+    colours = _quantised(lines.segment_colours(), len(ends))
     ends, colours = ends[seen], colours[seen]
-    if len(ends) > MOST_DOTS:
-        kept = _first(ends.reshape(-1, 4), max(0.5, width / 3))
+    if len(ends) > MAX_DOTS:
+        kept = _one_per_cell(ends.reshape(-1, 4), max(0.5, width / 3))
         ends, colours = ends[kept], colours[kept]
-    for colour, among in _alike(colours):
-        yield _path("".join(_way(each) for each in _chains(ends[among])), colour, width, "butt")
+    for colour, among in _by_colour(colours):
+        yield _path("".join(_path_data(each) for each in _chains(ends[among])), colour, width, "butt")
 
 
 def _smoothed(flat: Floats) -> Floats:
@@ -243,35 +245,35 @@ def _smoothed(flat: Floats) -> Floats:
     new[1:] = (np.abs(np.diff(flat, axis=0)) >= 0.1).any(axis=1)
     flat = flat[new]
     quantum = 0.5
-    while len(flat) > MOST_DOTS and quantum < 4.0:
+    while len(flat) > MAX_DOTS and quantum < 4.0:
         cells = np.floor(flat / quantum)
         new = np.ones(len(flat), dtype=bool)
         new[1:-1] = (np.diff(cells, axis=0) != 0).any(axis=1)[:-1]
         flat = flat[new]
         quantum *= 1.5
-    step = -(-len(flat) // MOST_DOTS) or 1
+    step = -(-len(flat) // MAX_DOTS) or 1
     return flat if step == 1 else np.vstack([flat[:-1:step], flat[-1:]])
 
 
-def _mesh(mesh: Mesh, look: Look) -> Iterator[str]:
+def _mesh(mesh: Mesh, projection: Projection) -> Iterator[str]:
     placed = mesh.placed
     if not len(mesh.faces):
         return
-    flat = look.pixels(placed)
+    flat = projection.pixels(placed)
     if len(mesh.faces) > MANY_FACES and mesh.lit:
         colour = mesh.colours if mesh.colours.ndim == 1 else mesh.colours.mean(axis=0)
-        yield _filled([convex_hull(flat)], _steps(colour, 1)[0])
+        yield _filled([convex_hull(flat)], _quantised(colour, 1)[0])
         return
     triangles = placed[mesh.faces]
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     sizes = norms(normals)
-    towards = (normals * look.towards(triangles[:, 0])).sum(axis=1)
+    towards = (normals * projection.towards(triangles[:, 0])).sum(axis=1)
     seen = np.flatnonzero((sizes > 1e-12) & (towards > 1e-9 * sizes if mesh.lit else sizes > 0))
-    if len(seen) > MOST_FACES:
-        seen, small = _largest(triangles, seen, look)
+    if len(seen) > MAX_FACES:
+        seen, small = _largest(triangles, seen, projection)
         rest = mesh.colours[small] if mesh.colours.ndim == 2 else mesh.colours
-        yield from _points(Points(triangles[small].mean(axis=1), rest, LEAST_DOT, "Points"), look)
-    order = seen[np.argsort(look.nearness(triangles[seen].mean(axis=1)), kind="stable")]
+        yield from _points(Points(triangles[small].mean(axis=1), rest, MIN_DOT, "Points"), projection)
+    order = seen[np.argsort(projection.nearness(triangles[seen].mean(axis=1)), kind="stable")]
     light = np.ones(len(order))
     see_through = mesh.colours.ndim == 1 and mesh.colours[3] < OPAQUE
     if mesh.lit and not see_through:  # otherwise edges would be visible where faces overlap
@@ -280,7 +282,7 @@ def _mesh(mesh: Mesh, look: Look) -> Iterator[str]:
         mesh.colours[order] if mesh.colours.ndim == 2 else np.tile(mesh.colours, (len(order), 1))
     ).copy()
     colours[:, :3] *= light[:, None]
-    steps = _steps(colours, len(order))
+    steps = _quantised(colours, len(order))
     start = 0
     while start < len(order):
         end = start + 1
@@ -290,30 +292,30 @@ def _mesh(mesh: Mesh, look: Look) -> Iterator[str]:
         start = end
 
 
-def _largest(triangles: Floats, seen: Ints, look: Look) -> tuple[Ints, Ints]:
-    """Return the `MOST_FACES` of the faces `seen` that are largest in the picture, and the others, both in order."""
-    flat = look.pixels(triangles[seen].reshape(-1, 3)).reshape(-1, 3, 2)
+def _largest(triangles: Floats, seen: Ints, projection: Projection) -> tuple[Ints, Ints]:
+    """Return the `MAX_FACES` of the faces `seen` that are largest in the picture, and the others, both in order."""
+    flat = projection.pixels(triangles[seen].reshape(-1, 3)).reshape(-1, 3, 2)
     sizes = np.ptp(flat, axis=1).sum(axis=1)
     by_size = np.argsort(-sizes, kind="stable")
-    return np.sort(seen[by_size[:MOST_FACES]]), np.sort(seen[by_size[MOST_FACES:]])
+    return np.sort(seen[by_size[:MAX_FACES]]), np.sort(seen[by_size[MAX_FACES:]])
 
 
-def _steps(colours: Floats, count: int) -> Floats:
+def _quantised(colours: Floats, count: int) -> Floats:
     """Return colours (count, 4) in few steps, so that similar ones share a path."""
     found = np.round(snap(np.atleast_2d(colours) * LEVELS, 0.01)) / LEVELS
     return np.broadcast_to(found, (count, 4)) if len(found) == 1 else found
 
 
-def _few(colours: Floats) -> Floats:
-    """Reduce colours (n, 4) to at most `MOST_COLOURS` different ones, since each needs a separate path."""
+def _with_few_colours(colours: Floats) -> Floats:
+    """Reduce colours (n, 4) to at most `MAX_COLOURS` different ones, since each needs a separate path."""
     levels = LEVELS
-    while levels > 4 and len(np.unique(colours, axis=0)) > MOST_COLOURS:
+    while levels > 4 and len(np.unique(colours, axis=0)) > MAX_COLOURS:
         levels //= 2
         colours = np.round(colours * levels) / levels
     return colours
 
 
-def _alike(colours: Floats) -> Iterator[tuple[Floats, Ints]]:
+def _by_colour(colours: Floats) -> Iterator[tuple[Floats, Ints]]:
     """Yield each colour and the indices of the items that have it, sorted by colour."""
     if not len(colours):
         return
@@ -331,7 +333,7 @@ def _chains(segments: Floats) -> Iterator[Floats]:
             yield np.vstack([several[0, :1], several[:, 1]])
 
 
-def _way(flat: Floats) -> str:
+def _path_data(flat: Floats) -> str:
     """Return a line (n, 2) as path data: its start, and steps in tenths of a pixel."""
     if len(flat) < 2:
         return ""
@@ -349,7 +351,7 @@ def _path(data: str, colour: Floats, width: float, cap: str) -> str:
 
 
 def _filled(outlines: Iterable[Floats], colour: Floats) -> str:
-    data = "".join(_way(each) + "z" for each in outlines if len(each) > 2)
+    data = "".join(_path_data(each) + "z" for each in outlines if len(each) > 2)
     paint = _hex(colour)
     opacity = _opacity(colour[3])
     return (

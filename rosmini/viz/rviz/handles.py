@@ -16,12 +16,12 @@ from rosmini.ros.interactive_markers import auto_complete, title_control
 
 from .context import Context
 from .display import Level
-from .gaze import Gaze, depths, on_axis, on_plane
 from .marker_checks import Marker, check
 from .marker_shapes import marker_primitives
 from .primitives import DisplayError, Floats, Mesh, Primitive
+from .rays import Ray, depths, on_axis, on_plane
 from .shapes import axes
-from .topic_display import Heard
+from .topic_display import Received
 
 Control = message_class("visualization_msgs/InteractiveMarkerControl")
 
@@ -40,10 +40,10 @@ class Handle:
     def __init__(self, message: Any, arrived_ns: int, *, transparent: bool = True) -> None:
         auto_complete(message, transparent=transparent)
         self.message = message
-        self.heard = Heard(message, arrived_ns)
-        self.pose: Floats = matrix(self.heard.local(message.pose))
+        self.received = Received(message, arrived_ns)
+        self.pose: Floats = matrix(self.received.local(message.pose))
         """The marker's pose (4, 4) in its frame."""
-        self.is_locked = self.heard.stamp_ns == 0
+        self.is_locked = self.received.stamp_ns == 0
         """True if it moves with its frame."""
         self.is_placed = False
         """True if its frame's pose is known."""
@@ -51,7 +51,7 @@ class Handle:
     @property
     def frame(self) -> Floats:
         """The pose (4, 4) of the marker's frame in the fixed frame."""
-        return matrix(self.heard.place)
+        return matrix(self.received.place)
 
     def control(self, name: str) -> Any:
         """Return the control with this name; for an empty name, the first that reacts. Raises `DisplayError`."""
@@ -88,7 +88,7 @@ class Handle:
         for shape in control.markers:
             level, text = check(shape)
             if level is Level.ERROR:
-                self.heard.note(f"{control.name or 'a control'}: {text}")
+                self.received.note(f"{control.name or 'a control'}: {text}")
                 continue
             base = placed
             if shape.header.frame_id:
@@ -97,7 +97,7 @@ class Handle:
                 base = matrix_product(self.frame, self.pose)
             elif faces and shape.type == Marker.TEXT_VIEW_FACING:
                 base = matrix_product(self.frame, self._upright())
-            yield from marker_primitives(shape, matrix_product(base, matrix(self.heard.local(shape.pose))))
+            yield from marker_primitives(shape, matrix_product(base, matrix(self.received.local(shape.pose))))
 
     def _upright(self) -> Floats:
         found: Floats = np.eye(4)
@@ -111,7 +111,7 @@ class Handle:
             yield from marker_primitives(
                 text,
                 matrix_product(
-                    matrix_product(self.frame, self._upright()), matrix(self.heard.local(text.pose))
+                    matrix_product(self.frame, self._upright()), matrix(self.received.local(text.pose))
                 ),
             )
 
@@ -120,7 +120,7 @@ class Handle:
         size = abs(self.message.scale)
         yield from axes(matrix_product(self.frame, self.pose), size, 0.05 * size)
 
-    def under(self, gaze: Gaze, context: Context) -> list[tuple[float, Any]]:
+    def under(self, ray: Ray, context: Context) -> list[tuple[float, Any]]:
         """Return the controls that a line of sight in the fixed frame meets, each with its distance [m]."""
         found = []
         for control in self.message.controls:
@@ -130,51 +130,51 @@ class Handle:
                 depth
                 for shape in self.shapes(control, context)
                 if isinstance(shape, Mesh)
-                for depth in depths(shape, gaze, _EDGE)
+                for depth in depths(shape, ray, _EDGE)
             ]
             if away:
                 found.append((min(away), control))
         return found
 
 
-class Grip:
+class Drag:
     """The mouse holding a control: it moves the marker from the point (3,) of the fixed frame where it was pressed.
 
     With a line of sight, the mouse is where that meets the control's axis or plane, as in RViz.
     """
 
-    def __init__(self, handle: Handle, control: Any, at: Floats, gaze: Gaze | None = None) -> None:
+    def __init__(self, handle: Handle, control: Any, at: Floats, ray: Ray | None = None) -> None:
         self.handle = handle
         self.control = control
         self._start = handle.pose.copy()
         self._axis = handle.axis(control)
-        self._grab = self._local(self.cursor(at, gaze))
+        self._grab = self._local(self.cursor(at, ray))
         self._last = self._grab
 
-    def cursor(self, at: Floats, gaze: Gaze | None) -> Floats:
+    def cursor(self, at: Floats, ray: Ray | None) -> Floats:
         """Return the position of the mouse in space (3,), in the fixed frame; `at` if the line of sight gives none."""
-        if gaze is None:
+        if ray is None:
             return at
         origin = matrix_product(self.handle.frame, self._start)[:3, 3]
         axis = matrix_product(self.handle.frame[:3, :3], self._axis)
         mode = self.control.interaction_mode
         if mode == Control.MOVE_AXIS:
-            found = on_axis(gaze, origin, axis)
+            found = on_axis(ray, origin, axis)
         else:
             is_free = mode in (Control.MOVE_3D, Control.MOVE_ROTATE_3D)
-            found = on_plane(gaze, origin, gaze[1] if is_free else axis)
+            found = on_plane(ray, origin, ray[1] if is_free else axis)
         return at if found is None else found
 
     def _local(self, at: Floats) -> Floats:
         found: Floats = matrix_product(inverse_matrix(self.handle.frame)[:3], np.append(at, 1.0))
         return found
 
-    def move(self, at: Floats, gaze: Gaze | None = None) -> bool:
+    def move(self, at: Floats, ray: Ray | None = None) -> bool:
         """Follow the mouse to a point (3,) of the fixed frame, or along a line of sight; True if the marker moved.
 
         As in RViz, the marker moves along the axis, in the plane across it, around it, or both.
         """
-        to, pose = self._local(self.cursor(at, gaze)), self._start.copy()
+        to, pose = self._local(self.cursor(at, ray)), self._start.copy()
         mode = self.control.interaction_mode
         shift = to - self._grab
         if mode == Control.MOVE_AXIS:

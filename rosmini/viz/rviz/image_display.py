@@ -14,7 +14,7 @@ from .context import Context
 from .display import Level, Shown
 from .primitives import Pane, Pixels, Primitive
 from .properties import Property
-from .topic_display import Heard, TopicDisplay
+from .topic_display import Received, TopicDisplay
 
 
 class ImageDisplay(TopicDisplay):
@@ -38,11 +38,11 @@ class ImageDisplay(TopicDisplay):
         super().reset()
         self._ranges.clear()
 
-    def accept(self, heard: Heard, context: Context) -> bool:
+    def accept(self, received: Received, context: Context) -> bool:
         """Accept an image that can be shown."""
         del context
-        check_image(heard.message)
-        found = image_range(heard.message)
+        check_image(received.message)
+        found = image_range(received.message)
         if found is not None:
             self._ranges.append(found)
         return True
@@ -53,9 +53,9 @@ class ImageDisplay(TopicDisplay):
         low, high = np.median(np.array(last or [(0.0, 1.0)]), axis=0)
         return float(low), float(high)
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Return nothing: images are not part of the scene."""
-        del heard, context
+        del received, context
         return ()
 
     @abstractmethod
@@ -64,15 +64,15 @@ class ImageDisplay(TopicDisplay):
 
     def panes(self, context: Context, shown: Sequence[Shown] = ()) -> Iterable[Pane]:
         """Return the picture of the last image."""
-        if not self.kept:
+        if not self.stored:
             self.set_status(Level.WARN, "Image", "No Image received")
             return ()
         try:
-            found = self.pane(self.kept[-1].message, context, shown)
+            found = self.pane(self.stored[-1].message, context, shown)
         except Exception as error:  # an error in one image must not stop the scene
             self.fail("Image", error)
             return ()
-        self.set_status(Level.OK, "Image", f"{self.received} images received")
+        self.set_status(Level.OK, "Image", f"{self.message_count} images received")
         return () if found is None else (found,)
 
 

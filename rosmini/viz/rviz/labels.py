@@ -9,12 +9,12 @@ from rosmini.viz.metrics import text_width
 from rosmini.viz.rounding import snap
 
 from .primitives import Text
-from .projection import Look
+from .projection import Projection
 
 SMALLEST, LARGEST = 10.0, 15.0
 """Limits of the font size [px]."""
-MOST = 300
-MOST_SHIFTS = 3
+MAX_LABELS = 300
+MAX_SHIFTS = 3
 """Maximum number of lines by which a label may be moved down; labels without room are only counted."""
 
 
@@ -30,7 +30,7 @@ class Label:
     """Number of texts that found no room beside this one."""
 
     @property
-    def said(self) -> str:
+    def shown_text(self) -> str:
         """The text to write."""
         return f"{self.text.text} +{self.more}" if self.more else self.text.text
 
@@ -40,20 +40,20 @@ class Label:
         return abs(self.x - other.x) < halves and abs(self.base - other.base) < self.size
 
 
-def placed(words: Sequence[Text], look: Look, shifts: int = MOST_SHIFTS) -> list[Label]:
+def place_labels(words: Sequence[Text], projection: Projection, shifts: int = MAX_SHIFTS) -> list[Label]:
     """Place texts below their points, or further down if others are in the way; those without room are counted."""
     found: list[Label] = []
-    for text in words[:MOST]:
-        x, y = look.pixels(text.position[None])[0].tolist()
-        if not (0 <= x <= look.width and 0 <= y <= look.height):
+    for text in words[:MAX_LABELS]:
+        x, y = projection.pixels(text.position[None])[0].tolist()
+        if not (0 <= x <= projection.width and 0 <= y <= projection.height):
             continue
-        size = min(max(float(snap(1.4 * text.height * look.scale, 0.1)), SMALLEST), LARGEST)
+        size = min(max(float(snap(1.4 * text.height * projection.scale, 0.1)), SMALLEST), LARGEST)
         label = Label(text, x, y + size, size)
         for _ in range(shifts):
-            if _above(label, found) is None:
+            if _overlapped(label, found) is None:
                 break
             label = replace(label, base=label.base + 1.05 * size)
-        above = _above(label, found)
+        above = _overlapped(label, found)
         if above is None:
             found.append(label)
         else:
@@ -61,6 +61,6 @@ def placed(words: Sequence[Text], look: Look, shifts: int = MOST_SHIFTS) -> list
     return found
 
 
-def _above(label: Label, found: list[Label]) -> int | None:
+def _overlapped(label: Label, found: list[Label]) -> int | None:
     """Return the index of the label that is in the way."""
     return next((i for i, other in enumerate(found) if other.covers(label)), None)

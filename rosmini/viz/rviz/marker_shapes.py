@@ -15,10 +15,10 @@ from rosmini.core.packages import SCHEME, PackageIndex
 from rosmini.sim.urdf.meshes import read
 
 from .marker_checks import LINES, SOLIDS, Marker
-from .primitives import MOST_POINTS, DisplayError, Floats, Lines, Mesh, Points, Primitive, Text, finite
+from .primitives import MAX_POINTS, DisplayError, Floats, Lines, Mesh, Points, Primitive, Text, finite
 from .shapes import arrow, ball, box, cylinder, surface_mesh
 
-MOST_SOLIDS = 500
+MAX_SOLIDS = 500
 """A list of more boxes or balls than this is drawn as points of their mean size."""
 SHAFT, HEAD = 0.77, 0.23
 """Length of an arrow's shaft and of its head, as a share of its length."""
@@ -78,7 +78,7 @@ def _list(marker: Any, pose: Floats, scale: Floats, colour: Floats) -> Iterator[
 def _solids(boxes: bool, points: Floats, pose: Floats, scale: Floats, colours: Floats) -> Iterator[Primitive]:
     even = float(np.ptp(scale)) < _UNEVEN * max(float(scale.max()), _UNEVEN)
     turned = boxes and not np.allclose(pose[:3, :3], np.eye(3))
-    if len(points) > MOST_SOLIDS or (even and not turned):
+    if len(points) > MAX_SOLIDS or (even and not turned):
         yield Points(points, colours, float(scale.mean()), "Boxes" if boxes else "Spheres")
         return
     for i, point in enumerate(points):
@@ -137,8 +137,8 @@ def _mesh_file(resource: str) -> Path:
 
 
 def _array(points: Sequence[Any]) -> Floats:
-    if len(points) > MOST_POINTS:
-        raise DisplayError(f"{len(points)} points are too many to draw: at most {MOST_POINTS}")
+    if len(points) > MAX_POINTS:
+        raise DisplayError(f"{len(points)} points are too many to draw: at most {MAX_POINTS}")
     return finite([(each.x, each.y, each.z) for each in points], 3)
 
 

@@ -18,9 +18,9 @@ from .camera_images import PinHole
 from .primitives import Lines, Mesh, Pixels, Points, Primitive, Texture
 
 NEAR = 0.02
-MOST_DRAWN = 20_000
+MAX_DRAWN = 20_000
 """Maximum number of points, segments or faces of a primitive; of more, every second, third ... is drawn."""
-MOST_PIECES = 24
+MAX_PIECES = 24
 """Maximum number of pieces of a line that leads away; other things may hide each piece."""
 
 Mark = tuple[Any, ...]
@@ -102,7 +102,7 @@ class Overlay:
                 cut = first + share * (second - first)
                 first, second = (cut, second) if first[2] < NEAR else (first, cut)
             steep = abs(second[2] - first[2]) / (0.2 * min(first[2], second[2]))
-            count = int(np.clip(math.ceil(steep), 1, MOST_PIECES))
+            count = int(np.clip(math.ceil(steep), 1, MAX_PIECES))
             pieces = first + np.linspace(0.0, 1.0, count + 1)[:, None] * (second - first)
             at, ink = self._pixels(pieces).tolist(), _ink(colour)
             for k in range(count):
@@ -148,7 +148,7 @@ class Overlay:
 
 
 def _some(chosen: Any) -> Any:
-    return chosen[:: -(-len(chosen) // MOST_DRAWN) or 1]
+    return chosen[:: -(-len(chosen) // MAX_DRAWN) or 1]
 
 
 def _rows(colours: Floats, count: int) -> Floats:

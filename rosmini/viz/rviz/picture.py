@@ -18,20 +18,20 @@ from .context import FIXED_FRAME
 from .display import Display, Level
 from .displays.group import Group
 from .flat import draw
-from .labels import placed
+from .labels import place_labels
 from .primitives import Primitive, Text
-from .projection import Look, Perspective, Projection, projection
+from .projection import ParallelProjection, Perspective, Projection, parallel_projection
 from .scene import Layer, Scene
-from .solid import Drawing, RvizScene, camera_of, words_in
+from .solid import Drawing, RvizScene, camera_of, text_labels
 from .suggestions import suggested
-from .views import Sight, view_like
+from .views import Viewpoint, view_like
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Graph
 
 BACKDROP = ("rviz/Grid",)
 """Displays that do not enlarge a picture if there are others."""
-TALLEST = 2000.0
+MAX_HEIGHT = 2000.0
 STEP = 0.1
 """Resolution to which a picture in perspective is rounded [px]."""
 STEEP = 1.5
@@ -84,8 +84,8 @@ def look_from(scene: Scene, kind: str) -> None:
 
     """
     view, scene.view = scene.view, None
-    look = look_at(scene, scene.update(), WIDTH, None)
-    around = Sight(look.ground, -math.pi / 2, math.pi / 2, look.width / look.scale)
+    projection = flat_projection(scene, scene.update(), WIDTH, None)
+    around = Viewpoint(projection.ground, -math.pi / 2, math.pi / 2, projection.width / projection.scale)
     try:
         scene.view = view_like(f"rviz/{kind}", around, FIXED_FRAME, scene.context)
     except PluginError as error:
@@ -115,10 +115,10 @@ def turnable(
     layers = scene.update()
     svg = _drawn(scene, layers, title, WIDTH, height, fit=fit)
     text, alt = words(scene, layers, title), alt_text(scene, layers)
-    look = look_at(scene, layers, WIDTH, height, fit=fit)
-    reach = max(WIDTH, STEEP * look.height) / look.scale
-    around = Sight(look.ground, -math.pi / 2, math.radians(50.0), reach)
-    given = None if scene.view is None or fit else scene.view.sight(scene.context)
+    projection = flat_projection(scene, layers, WIDTH, height, fit=fit)
+    reach = max(WIDTH, STEEP * projection.height) / projection.scale
+    around = Viewpoint(projection.ground, -math.pi / 2, math.radians(50.0), reach)
+    given = None if scene.view is None or fit else scene.view.viewpoint(scene.context)
     made = RvizScene(camera_of(around if given is None or not given.width else given, reach))
     drawing = Drawing(made)
     for layer in layers:
@@ -130,7 +130,7 @@ def turnable(
     high = round(height or DEFAULT_HEIGHT)
     view = RvizView(made, label=title or "RViz", text=text, alt=alt, height=high)
     view.title, view.still = title, svg
-    labels = words_in(placed(texts, look, shifts=0), made.camera)
+    labels = text_labels(place_labels(texts, projection, shifts=0), made.camera)
     view.extra = {"background": [background, background, ink], "labels": labels}
     return view
 
@@ -150,26 +150,28 @@ def _drawn(
     scene: Scene, layers: Sequence[Layer], title: str | None, width: float, height: float | None, *, fit: bool
 ) -> str:
     for name, value in (("width", width), ("height", height)):
-        if value is not None and not 100 <= value <= TALLEST:
-            raise ViewError(f"the {name} of a picture must be 100 to {TALLEST:g} pixels, not {value}")
-    look: Look = look_at(scene, layers, width, height, fit=fit)
-    sight = None if scene.view is None or fit else scene.view.sight(scene.context)
-    if sight is not None and not sight.is_flat:
-        look = Perspective.of(sight, look.width, look.height, STEP)
+        if value is not None and not 100 <= value <= MAX_HEIGHT:
+            raise ViewError(f"the {name} of a picture must be 100 to {MAX_HEIGHT:g} pixels, not {value}")
+    projection: Projection = flat_projection(scene, layers, width, height, fit=fit)
+    viewpoint = None if scene.view is None or fit else scene.view.viewpoint(scene.context)
+    if viewpoint is not None and not viewpoint.is_flat:
+        projection = Perspective.of(viewpoint, projection.width, projection.height, STEP)
     shown = [each for layer in layers for each in layer.primitives]
     panes = [each for layer in layers for each in layer.panes]
     alt = alt_text(scene, layers)
-    return draw(shown, look, scene.options["Background Color"], title=title or "RViz", alt=alt, panes=panes)
+    return draw(
+        shown, projection, scene.options["Background Color"], title=title or "RViz", alt=alt, panes=panes
+    )
 
 
-def look_at(
+def flat_projection(
     scene: Scene, layers: Sequence[Layer], width: float, height: float | None, *, fit: bool = False
-) -> Projection:
+) -> ParallelProjection:
     """Return the projection in which a scene is drawn without perspective."""
-    sight = None if scene.view is None or fit else scene.view.sight(scene.context)
+    viewpoint = None if scene.view is None or fit else scene.view.viewpoint(scene.context)
     fronts = [layer for layer in layers if layer.display.plugin_name not in BACKDROP and layer.primitives]
     shown: list[Primitive] = [each for layer in fronts or layers for each in layer.primitives]
-    return projection(sight, shown, width, height)
+    return parallel_projection(viewpoint, shown, width, height)
 
 
 def words(scene: Scene, layers: Sequence[Layer], title: str | None = None) -> str:

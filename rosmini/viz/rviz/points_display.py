@@ -22,7 +22,7 @@ class PointsDisplay(TopicDisplay):
         """Return the points of all stored messages."""
         found = list(super().primitives(context))
         count = sum(len(each.points) for each in found if isinstance(each, Points))
-        if self.kept:
-            text = f"Showing [{count}] points from [{len(self.kept)}] messages"
+        if self.stored:
+            text = f"Showing [{count}] points from [{len(self.stored)}] messages"
             self.set_status(Level.OK if count else Level.WARN, "Points", text)
         return found

@@ -14,7 +14,7 @@ from rosmini.core.geometry.products import determinant, eigen, matrix_product
 from .primitives import INVALID, DisplayError, Floats, Mesh, Primitive
 from .properties import Colour, Property
 from .shapes import arrow, axes, ball
-from .topic_display import Heard
+from .topic_display import Received
 
 RED = Colour(255, 25, 0)
 UNKNOWN = 100.0
@@ -63,7 +63,9 @@ def pose_shape(pose: Floats, display: Any, prefix: str = "") -> Iterator[Primiti
     yield arrow(pose, display[f"{prefix}Color"].rgba(display[f"{prefix}Alpha"]), *sizes)
 
 
-def covariance_shape(pose: Floats, covariance: ArrayLike, display: Any, heard: Heard) -> Iterator[Primitive]:
+def covariance_shape(
+    pose: Floats, covariance: ArrayLike, display: Any, received: Received
+) -> Iterator[Primitive]:
     """Draw the covariance (36) of x, y, z and rotations about x, y, z at a pose: an ellipsoid and a sector of yaws.
 
     Raises:
@@ -84,7 +86,7 @@ def covariance_shape(pose: Floats, covariance: ArrayLike, display: Any, heard: H
             vectors[:, 0] *= -1
         sigma = np.sqrt(np.maximum(values, 0.0)) * display[f"{group}/Scale"]
         if (sigma > UNKNOWN).any():
-            heard.note(f"a standard deviation above {UNKNOWN:g} m, which means unknown, is not drawn")
+            received.note(f"a standard deviation above {UNKNOWN:g} m, which means unknown, is not drawn")
             sigma[sigma > UNKNOWN] = 0.0
         at = np.eye(4)
         at[:3, :3], at[:3, 3] = matrix_product(pose[:3, :3], vectors), pose[:3, 3]

@@ -20,11 +20,11 @@ Ints = NDArray[np.int64]
 Pixels = NDArray[np.uint8]
 Style = Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"]
 
-MOST_POINTS = 2_000_000
+MAX_POINTS = 2_000_000
 """Maximum number of points, vertices or pixels of a primitive; displays thin larger ones."""
 
-LONGEST_TEXT = 1000
-FAR = 1e7
+MAX_TEXT = 1000
+MAX_DISTANCE = 1e7
 """Maximum distance of drawn things [m]: beyond it, single precision no longer resolves centimetres."""
 
 INVALID = "Message contained invalid floating point values (nans or infs)"
@@ -47,12 +47,12 @@ def finite(values: ArrayLike, width: int) -> Floats:
         return np.empty((0, width))
     if array.ndim != 2 or array.shape[1] != width:
         raise DisplayError(f"an array of shape (n, {width}) is needed, not {array.shape}")
-    if len(array) > MOST_POINTS:
-        raise DisplayError(f"{len(array)} points are too many to draw: at most {MOST_POINTS}")
+    if len(array) > MAX_POINTS:
+        raise DisplayError(f"{len(array)} points are too many to draw: at most {MAX_POINTS}")
     if not np.isfinite(array).all():
         raise DisplayError(INVALID)
-    if np.abs(array).max() > FAR:
-        raise DisplayError(f"a coordinate is larger than {FAR:g} m")
+    if np.abs(array).max() > MAX_DISTANCE:
+        raise DisplayError(f"a coordinate is larger than {MAX_DISTANCE:g} m")
     return array
 
 
@@ -171,7 +171,7 @@ class Texture:
         pixels = np.asarray(self.pixels, dtype=np.uint8)
         if pixels.ndim != 3 or pixels.shape[2] != 4 or not pixels.size:
             raise DisplayError(f"pixels must have the shape (h, w, 4), not {pixels.shape}")
-        if pixels.shape[0] * pixels.shape[1] > MOST_POINTS:
+        if pixels.shape[0] * pixels.shape[1] > MAX_POINTS:
             raise DisplayError(
                 f"{pixels.shape[1]} x {pixels.shape[0]} pixels are too many to draw: thin them"
             )
@@ -199,7 +199,7 @@ class Text:
     """(4,)"""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "text", self.text[:LONGEST_TEXT])
+        object.__setattr__(self, "text", self.text[:MAX_TEXT])
         object.__setattr__(self, "position", finite(np.reshape(self.position, (1, -1)), 3)[0])
         object.__setattr__(self, "colour", rgba(self.colour, 0))
         object.__setattr__(self, "height", _length(self.height, "the height of text"))
@@ -219,6 +219,6 @@ class Pane:
 
 def _length(value: float, what: str) -> float:
     value = float(value)
-    if not 0.0 <= value <= FAR:
-        raise DisplayError(f"{what} must be 0 to {FAR:g}, not {value:g}")
+    if not 0.0 <= value <= MAX_DISTANCE:
+        raise DisplayError(f"{what} must be 0 to {MAX_DISTANCE:g}, not {value:g}")
     return value

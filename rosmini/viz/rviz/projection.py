@@ -9,20 +9,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
 from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.viz.rounding import snap
 
-from .gaze import HIGH, Gaze
 from .primitives import Floats, Mesh, Primitive, Text, Texture
-from .views import Sight
+from .rays import HIGH, Ray
+from .views import Viewpoint
 
 MARGIN = 0.05
 """Margin around the fitted content, as a share of its size."""
-LEAST = 1.0
+MIN_EXTENT = 1.0
 """Minimum size of the area that a picture shows [m]."""
 HORIZON = 1000.0
 """Distance at which a pixel above the horizon is taken to meet the ground [m]."""
@@ -30,42 +29,8 @@ NOWHERE = -1e9
 """Position in the picture of points behind the eye [px]."""
 
 
-class Look(Protocol):
-    """The mapping from a scene to a picture of some size."""
-
-    @property
-    def width(self) -> float:
-        """Width of the picture [px]."""
-
-    @property
-    def height(self) -> float:
-        """Height of the picture [px]."""
-
-    def pixels(self, points: Floats) -> Floats:
-        """Return the positions of points (n, 3) in the picture (n, 2) [px], from its upper left corner."""
-
-    def metres(self, x: float, y: float) -> tuple[float, float, float]:
-        """Return the point of the ground that is visible at a pixel."""
-
-    def gaze(self, x: float, y: float) -> Gaze:
-        """Return the line of sight through a pixel."""
-
-    @property
-    def scale(self) -> float:
-        """Pixels per metre, in the middle of the picture."""
-
-    def scale_at(self, points: Floats) -> float:
-        """Return the mean number of pixels per metre at points (n, 3)."""
-
-    def nearness(self, points: Floats) -> Floats:
-        """Return the nearness (n,) of points (n, 3) to the viewer [m], rounded to a millimetre."""
-
-    def towards(self, points: Floats) -> Floats:
-        """Return directions (n, 3) or (3,) from points (n, 3) to the viewer."""
-
-
 @dataclass(frozen=True)
-class Projection:
+class ParallelProjection:
     """A parallel projection: `axes` (3, 3) are the directions right, up and towards the viewer in the fixed frame."""
 
     axes: Floats
@@ -112,7 +77,7 @@ class Projection:
         found = start - towards * start[2] / towards[2]
         return (float(found[0]), float(found[1]), 0.0)
 
-    def gaze(self, x: float, y: float) -> Gaze:
+    def ray(self, x: float, y: float) -> Ray:
         """Return the line of sight through a pixel; all of them are parallel."""
         return np.array(self.metres(x, y)) + HIGH * self.axes[2], -self.axes[2]
 
@@ -130,10 +95,10 @@ class Perspective:
     """Resolution to which pixels are rounded, for a picture; 0 for no rounding."""
 
     @classmethod
-    def of(cls, sight: Sight, width: float, height: float, step: float = 0.0) -> Perspective:
+    def of(cls, viewpoint: Viewpoint, width: float, height: float, step: float = 0.0) -> Perspective:
         """Return the perspective of a view."""
-        eye = sight.target + sight.distance * _axes(sight.yaw, sight.pitch)[2]
-        return cls(eye, sight.target, sight.field_of_view, width, height, step)
+        eye = viewpoint.target + viewpoint.distance * _axes(viewpoint.yaw, viewpoint.pitch)[2]
+        return cls(eye, viewpoint.target, viewpoint.field_of_view, width, height, step)
 
     @property
     def _focal(self) -> float:
@@ -176,38 +141,44 @@ class Perspective:
 
     def metres(self, x: float, y: float) -> tuple[float, float, float]:
         """Return the point of the ground z = 0 that is visible at a pixel; above the horizon, a distant one."""
-        eye, ahead = self.gaze(x, y)
+        eye, ahead = self.ray(x, y)
         reach = -eye[2] / ahead[2] if eye[2] * ahead[2] < 0 else math.inf
         flat = math.hypot(ahead[0], ahead[1])
         if reach * flat > HORIZON:
             reach = HORIZON / max(flat, 1e-9)
         return (float(eye[0] + reach * ahead[0]), float(eye[1] + reach * ahead[1]), 0.0)
 
-    def gaze(self, x: float, y: float) -> Gaze:
+    def ray(self, x: float, y: float) -> Ray:
         """Return the line of sight through a pixel, from the eye."""
         seen = np.array([x - self.width / 2, self.height / 2 - y, -self._focal])
         ahead = matrix_product(seen, self.axes)
         return self.eye, ahead / norm(ahead)
 
 
-def projection(
-    sight: Sight | None, shown: Iterable[Primitive], width: float, height: float | None
-) -> Projection:
+Projection = ParallelProjection | Perspective
+"""The mapping from a scene to a picture of some size."""
+
+
+def parallel_projection(
+    viewpoint: Viewpoint | None, shown: Iterable[Primitive], width: float, height: float | None
+) -> ParallelProjection:
     """Return the projection of a view; without a view, or if it has no width, one around everything shown."""
-    yaw, pitch = (-math.pi / 2, math.pi / 2) if sight is None else (sight.yaw, sight.pitch)
+    yaw, pitch = (-math.pi / 2, math.pi / 2) if viewpoint is None else (viewpoint.yaw, viewpoint.pitch)
     axes = _axes(yaw, pitch)
-    if sight is not None and sight.width > 0:
+    if viewpoint is not None and viewpoint.width > 0:
         high = 0.62 * width if height is None else height
-        return Projection(axes, matrix_product(axes[:2], sight.target), width / sight.width, width, high)
+        return ParallelProjection(
+            axes, matrix_product(axes[:2], viewpoint.target), width / viewpoint.width, width, high
+        )
     found = [corners(each) for each in shown]
     flat = matrix_product(np.vstack([np.empty((0, 3)), *found]), axes[:2].T)
     if not len(flat):
-        flat = np.array([(-LEAST, -LEAST), (LEAST, LEAST)])
+        flat = np.array([(-MIN_EXTENT, -MIN_EXTENT), (MIN_EXTENT, MIN_EXTENT)])
     low, high_corner = snap(flat.min(axis=0)), snap(flat.max(axis=0))
-    size = np.maximum(high_corner - low, LEAST) * (1 + 2 * MARGIN)
+    size = np.maximum(high_corner - low, MIN_EXTENT) * (1 + 2 * MARGIN)
     tall = float(np.clip(width * size[1] / size[0], 0.4 * width, 0.85 * width)) if height is None else height
     scale = min(width / size[0], tall / size[1])
-    return Projection(axes, (low + high_corner) / 2, float(scale), width, float(np.round(tall)))
+    return ParallelProjection(axes, (low + high_corner) / 2, float(scale), width, float(np.round(tall)))
 
 
 def _axes(yaw: float, pitch: float) -> Floats:

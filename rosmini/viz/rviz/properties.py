@@ -134,7 +134,7 @@ class Properties:
         self.declared = {each.name: each for each in declared}
         self._tree: dict[str, Any] = deepcopy(dict(tree or {}))
         self._values: dict[str, Value] = {each.name: each.default for each in declared}
-        self.wrong: list[str] = []
+        self.errors: list[str] = []
         """Errors in values of the file, in words."""
         for each in declared:
             written = self._find(each.name)
@@ -142,7 +142,7 @@ class Properties:
                 try:
                     self._values[each.name] = each.value(written)
                 except DisplayError as error:
-                    self.wrong.append(str(error))
+                    self.errors.append(str(error))
 
     def __getitem__(self, name: str) -> Any:
         return self._values[self._known(name)]

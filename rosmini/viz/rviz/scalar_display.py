@@ -14,7 +14,7 @@ from .points_display import PointsDisplay
 from .points_style import styled
 from .primitives import INVALID, DisplayError, Primitive
 from .properties import Property
-from .topic_display import Heard
+from .topic_display import Received
 
 
 def bounds(channel: str, low: float, high: float, *, invert: bool = False) -> tuple[Property, ...]:
@@ -35,12 +35,12 @@ class ScalarDisplay(PointsDisplay):
     field: ClassVar[str] = ""
     unit: ClassVar[str] = ""
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the point."""
         del context
-        value = float(getattr(heard.message, self.field))
+        value = float(getattr(received.message, self.field))
         if not math.isfinite(value):
             raise DisplayError(INVALID)
         self.set_status(Level.OK, "Value", f"{value:.6g} {self.unit}".rstrip())
         origin = np.zeros((1, 3))
-        yield styled(heard.points(origin), self, {self.field: np.array([value])}, origin)
+        yield styled(received.points(origin), self, {self.field: np.array([value])}, origin)

@@ -200,13 +200,13 @@ class Scene:
         """The unknown contents of the file, in one line; empty if there are none."""
         displays = list(self.root.walk())
         parts = [f"display {each.kind} ({each.name})" for each in displays if isinstance(each, FailedDisplay)]
-        parts += self.config.strangers()
+        parts += self.config.unknown_classes()
         parts += [f"property {each.name}/{path}" for each in displays for path in each.unknown()]
         view = self.config.mapping("Views", "Current").get("Class")
         parts += [f"view {view}"] if view and self.view is None else []
-        wrong = [f"{each.name}: {text}" for each in displays for text in each.wrong] + self.options.wrong
+        errors = [f"{each.name}: {text}" for each in displays for text in each.errors] + self.options.errors
         said = f"unknown, but preserved: {', '.join(parts)}" if parts else ""
-        return "; ".join(filter(None, [said, *wrong]))
+        return "; ".join(filter(None, [said, *errors]))
 
     def saved(self) -> Config:
         """Return the current configuration."""

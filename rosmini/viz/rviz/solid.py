@@ -18,21 +18,21 @@ from rosmini.viz.rounding import snap
 from .gifs import gif
 from .labels import Label
 from .primitives import Floats, Lines, Mesh, Points, Primitive, Texture
-from .views import Sight
+from .views import Viewpoint
 
-MOST_POINTS = 20_000
+MAX_POINTS = 20_000
 """Maximum number of points of a display in a page; of more, an evenly spaced selection is shown."""
-MOST_SEGMENTS, MOST_RIBBONS = 40_000, 6_000
+MAX_SEGMENTS, MAX_RIBBONS = 40_000, 6_000
 """Maximum numbers of thin and of wide lines of a primitive; longer strips skip points, and pairs skip pairs."""
-MOST_TRIANGLES = 8_000
+MAX_TRIANGLES = 8_000
 """Maximum number of loose triangles of a mesh; of more, the largest are shown."""
-LEAST_POINT = 0.02
+MIN_POINT = 0.02
 """Minimum size of a point [m]; smaller ones would hardly be visible."""
 PIXEL = 0.004
 """Size of a pixel of the style "Points", relative to the camera's distance."""
 LIFT = 0.001
 """Distance of a map below things on the ground, and below the next map [m]."""
-LEAST_LETTER = 0.013
+MIN_LETTER = 0.013
 """Minimum height of letters, relative to the camera's distance."""
 
 
@@ -45,25 +45,25 @@ class RvizScene(Scene3D):
         return {"light": {}, "dark": {}}
 
 
-def camera_of(sight: Sight, reach: float) -> Camera:
+def camera_of(viewpoint: Viewpoint, reach: float) -> Camera:
     """Return the camera of a view; from above it looks down steeply, from where it shows the same width."""
-    x, y, z = (round(part, 3) for part in snap(sight.target).tolist())
-    wide = sight.width or reach
-    angle = min(max(sight.field_of_view, 10.0), 100.0)
+    x, y, z = (round(part, 3) for part in snap(viewpoint.target).tolist())
+    wide = viewpoint.width or reach
+    angle = min(max(viewpoint.field_of_view, 10.0), 100.0)
     distance = 0.62 * wide / 2 / math.tan(math.radians(angle / 2))
-    pitch = min(max(math.degrees(sight.pitch), 5.0), 88.0)
-    return Camera((x, y, z), max(round(float(distance), 3), 0.2), math.degrees(sight.yaw), pitch, angle)
+    pitch = min(max(math.degrees(viewpoint.pitch), 5.0), 88.0)
+    return Camera((x, y, z), max(round(float(distance), 3), 0.2), math.degrees(viewpoint.yaw), pitch, angle)
 
 
-def words_in(labels: Iterable[Label], camera: Camera) -> list[dict[str, Any]]:
+def text_labels(labels: Iterable[Label], camera: Camera) -> list[dict[str, Any]]:
     """Return the texts for the viewer, large enough to read from the camera."""
-    least = LEAST_LETTER * camera.distance
+    least = MIN_LETTER * camera.distance
     found: list[dict[str, Any]] = []
     for label in labels:
         colour = "#" + "".join(f"{int(part * 255 + 0.5371):02x}" for part in label.text.colour[:3])
         at = [round(float(each), 4) for each in rounded(label.text.position)]
         height = float(snap(max(label.text.height, least)))
-        found.append({"text": label.said, "at": at, "height": height, "colour": colour})
+        found.append({"text": label.shown_text, "at": at, "height": height, "colour": colour})
     return found
 
 
@@ -107,7 +107,7 @@ class Drawing:
     def _mesh(self, mesh: Mesh, path: str, *, shared: bool) -> None:
         if not len(mesh.faces):
             return
-        if len(mesh.faces) > MOST_TRIANGLES and not mesh.lit:
+        if len(mesh.faces) > MAX_TRIANGLES and not mesh.lit:
             mesh = _largest(mesh)
         vertices = rounded(mesh.vertices)
         if not shared:
@@ -126,7 +126,7 @@ class Drawing:
         self.scene.visualizer[path].set_object(geometry, material)
 
     def _lines(self, lines: Lines, path: str) -> None:
-        most = MOST_RIBBONS if lines.width > 0 else MOST_SEGMENTS
+        most = MAX_RIBBONS if lines.width > 0 else MAX_SEGMENTS
         step = -(-len(lines.segments()) // most)
         if not step:
             return
@@ -155,7 +155,7 @@ class Drawing:
         )
 
     def _points(self, points: Points, path: str) -> None:
-        step = -(-len(points.points) // MOST_POINTS)
+        step = -(-len(points.points) // MAX_POINTS)
         if not step:
             return
         shown = points.points[::step]
@@ -174,7 +174,7 @@ class Drawing:
             size *= PIXEL * self.scene.camera.distance
         cloud = geometry.PointCloud(
             rounded(shown).T.astype(np.float32), rounded(colours[:, :3]).T.astype(np.float32),
-            size=float(snap(max(size, LEAST_POINT))),
+            size=float(snap(max(size, MIN_POINT))),
         )  # fmt: skip
         self.scene.visualizer[path].set_object(cloud)
 
@@ -246,7 +246,7 @@ def _largest(mesh: Mesh) -> Mesh:
     """Return the largest triangles of a mesh, without the vertices of the others."""
     corners = mesh.vertices[mesh.faces]
     areas = norms(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-    kept = np.sort(np.argsort(-areas, kind="stable")[:MOST_TRIANGLES])
+    kept = np.sort(np.argsort(-areas, kind="stable")[:MAX_TRIANGLES])
     colours = mesh.colours if mesh.colours.ndim == 1 else mesh.colours[kept]
     faces = np.arange(3 * len(kept)).reshape(-1, 3)
     return replace(mesh, vertices=corners[kept].reshape(-1, 3), faces=faces, colours=colours)

@@ -17,7 +17,7 @@ from rosmini.viz.meshcat.scene3d import Camera
 from rosmini.viz.rviz.displays.interactive_markers import InteractiveMarkers
 from rosmini.viz.rviz.feed import Feed, texts
 from rosmini.viz.rviz.labels import Label
-from rosmini.viz.rviz.solid import words_in
+from rosmini.viz.rviz.solid import text_labels
 from rosmini.viz.rviz.tools import Interact, MoveCamera, Tool
 from rosmini.viz.rviz.views import Orbit
 
@@ -85,11 +85,17 @@ class SolidPage:
         camera: list[float] = []
         distance = 1.0
         if view is not None:
-            sight = view.sight(scene.context)
-            distance = sight.distance
+            viewpoint = view.viewpoint(scene.context)
+            distance = viewpoint.distance
             camera = [
                 round(float(each), 5)
-                for each in (*sight.target, sight.yaw, sight.pitch, distance, sight.field_of_view)
+                for each in (
+                    *viewpoint.target,
+                    viewpoint.yaw,
+                    viewpoint.pitch,
+                    distance,
+                    viewpoint.field_of_view,
+                )
             ]
         words = [each for layer in layers for each in texts(layer.primitives)]
         step = Camera((0.0, 0.0, 0.0), 2.0 ** round(math.log2(max(distance, 0.05))))
@@ -98,7 +104,7 @@ class SolidPage:
         colour = scene.options["Background Color"]
         return {
             "camera": [self.turns, *camera],
-            "labels": words_in([Label(each, 0.0, 0.0, 0.0) for each in words], step),
+            "labels": text_labels([Label(each, 0.0, 0.0, 0.0) for each in words], step),
             "grips": [f"/meshcat/rviz/{i}" for i in numbers] if is_interact else [],
             "turns": isinstance(tool, MoveCamera),
             "background": "#" + "".join(f"{part:02x}" for part in colour),

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
     from .scene import Scene
 
-MOST = 40
+MAX_DISPLAYS = 40
 """Maximum number of displays."""
 SPECIAL = {"tf2_msgs/TFMessage": "rviz/TF"}
-ASKED_FOR = ("rviz/Camera", "rviz/DepthCloud", "rviz/Effort")
+NEVER_SUGGESTED = ("rviz/Camera", "rviz/DepthCloud", "rviz/Effort")
 """Displays that are never suggested: others show their messages more simply, or few robots publish them."""
 INTERACTIVE = "visualization_msgs/InteractiveMarkerUpdate"
-TRUTH = "base_pose_ground_truth"
+GROUND_TRUTH = "base_pose_ground_truth"
 """A simulator's ground truth of a pose, in a frame `map` that does not exist unless the robot is localised."""
 TF_SCALE = 0.35
 """Scale of the axes of frames: at RViz's default they are as long as a TurtleBot3, and hide it."""
@@ -31,7 +31,7 @@ SMALL = {"Shaft Length": 0.25, "Shaft Radius": 0.02, "Head Length": 0.1, "Head R
 """Dimensions of an arrow for robots of the size of a TurtleBot3: RViz's default is longer than a metre [m]."""
 GROUND = ("rviz/Grid", "rviz/Map")
 """Displays that are drawn first, below everything else."""
-LOOK_NS = 1_000_000_000
+INTERVAL_NS = 1_000_000_000
 """Interval at which a window asks the Master for new topics [ns of graph time]."""
 
 
@@ -46,14 +46,14 @@ class Suggestions:
         self._graph, self._scene, self._chosen = graph, scene, fixed_frame
         self._frame = scene.fixed_frame
         self._seen = {(each.plugin_name, each.name) for each in scene}
-        self._next_ns = graph.scheduler.now_ns() + LOOK_NS
+        self._next_ns = graph.scheduler.now_ns() + INTERVAL_NS
 
-    def look(self) -> bool:
+    def add_new(self) -> bool:
         """Ask the Master if an interval has passed, and return True if the scene has new displays."""
         scene, now = self._scene, self._graph.scheduler.now_ns()
         if now < self._next_ns:
             return False
-        self._next_ns = now + LOOK_NS
+        self._next_ns = now + INTERVAL_NS
         if scene.fixed_frame != self._frame:
             self._chosen = scene.fixed_frame
         try:
@@ -67,7 +67,9 @@ class Suggestions:
         trees = {(each["Class"], each["Name"]): each for each in config.mappings("Displays")}
         new = [display_from(tree) for name, tree in trees.items() if name not in self._seen]
         self._seen |= trees.keys()
-        added = [each for each in new if self._shows(each) not in there and len(scene.displays) < MOST]
+        added = [
+            each for each in new if self._shows(each) not in there and len(scene.displays) < MAX_DISPLAYS
+        ]
         for each in added:
             scene.add(each)
         scene.displays.sort(key=lambda each: each.plugin_name not in GROUND)
@@ -89,14 +91,14 @@ def suggested(graph: Graph, fixed_frame: str | None = None, *, apart_from: str =
     kinds: dict[str, type[TopicDisplay]] = {}
     for name in Display.names():
         found = Display.named(name)
-        if issubclass(found, TopicDisplay) and found.message and name not in ASKED_FOR:
+        if issubclass(found, TopicDisplay) and found.message and name not in NEVER_SUGGESTED:
             kinds.setdefault(found.message, found)
     master = graph.ask_as("/rviz")
     types = {str(topic): str(kind) for topic, kind in master.ask("getTopicTypes")}
     published = {str(topic) for topic, nodes in master.ask("getSystemState")[0] if {*nodes} - {apart_from}}
     displays: list[dict[str, Any]] = [{"Class": "rviz/Grid", "Name": "Grid"}]
     for topic, kind in sorted(types.items()):
-        if topic not in published or len(displays) >= MOST:
+        if topic not in published or len(displays) >= MAX_DISPLAYS:
             continue
         single = topic.removesuffix("_array")
         if (
@@ -119,7 +121,7 @@ def suggested(graph: Graph, fixed_frame: str | None = None, *, apart_from: str =
     has_map = any(each["Class"] == "rviz/Map" for each in displays)
     options["Fixed Frame"] = fixed_frame or ("map" if has_map else "odom")
     if options["Fixed Frame"] != "map":
-        displays = [each for each in displays if not each["Name"].endswith(TRUTH)]
+        displays = [each for each in displays if not each["Name"].endswith(GROUND_TRUTH)]
     return config.with_parts(displays, options, None)
 
 

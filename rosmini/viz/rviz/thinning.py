@@ -8,16 +8,16 @@ import numpy as np
 
 from .primitives import Pixels
 
-MOST_SIDE = 640
+MAX_SIDE = 640
 """Maximum number of cells per side of a drawing: a page shows no more."""
 
 
 def thinned(cells: Pixels, scheme: str) -> tuple[Pixels, int]:
-    """Return a map (h, w) with at most `MOST_SIDE` cells a side, and the number of cells per side that each combines.
+    """Return a map (h, w) with at most `MAX_SIDE` cells a side, and the number of cells per side that each combines.
 
     Of several cells, the most occupied one is used, so that walls are preserved; unknown is used last.
     """
-    factor = math.ceil(max(cells.shape) / MOST_SIDE)
+    factor = math.ceil(max(cells.shape) / MAX_SIDE)
     if factor <= 1:
         return cells, 1
     # -1 must not override known cells; as a signed byte it is the minimum

@@ -28,9 +28,9 @@ from rosmini.viz.view import ViewError
 
 from .config import Config, kind_of
 from .displays.interactive_markers import InteractiveMarkers
-from .gaze import Gaze, from_above
 from .primitives import DisplayError, Floats, Lines, Primitive, finite
 from .properties import Properties, Property
+from .rays import Ray, ray_from_above
 from .shapes import arrow
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class Tool(Plugin, ABC):
         self._values = Properties(self.properties, tree)
         self.is_finished = False
         """True if the tool has done its work; a view then selects the first tool again."""
-        self.gaze: Gaze | None = None
+        self.ray: Ray | None = None
         """The line of sight of the mouse, if a live view knows it; otherwise points are seen from above."""
 
     def __getitem__(self, name: str) -> Any:
@@ -70,9 +70,9 @@ class Tool(Plugin, ABC):
         self._values[name] = value
 
     @property
-    def wrong(self) -> list[str]:
+    def errors(self) -> list[str]:
         """Errors in its part of a file, in words."""
-        return self._values.wrong
+        return self._values.errors
 
     def tree(self) -> dict[str, Any]:
         """Return its part of a `.rviz` file."""
@@ -309,7 +309,7 @@ class FocusCamera(Tool, plugin="rviz/FocusCamera"):
         """Move the view there, if there is a view."""
         if self.scene.view is None:
             return "there is no view to turn; the picture is drawn around everything"
-        self.scene.view.look_at(at, self.scene.context)
+        self.scene.view.centre_on(at, self.scene.context)
         self.is_finished = True
         return f"Focused on [{at[0]:.3g},{at[1]:.3g},{at[2]:.3g}]"
 
@@ -354,16 +354,16 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
         for display in self.scene:
             if not isinstance(display, InteractiveMarkers):
                 continue
-            found = display.under(self.gaze or from_above(at), self.scene.context)
+            found = display.under(self.ray or ray_from_above(at), self.scene.context)
             if found is not None:
                 self._marker = display
                 display.hides_inactive = self["Hide Inactive Objects"]
-                return str(display.press(*found, at, self.gaze))
+                return str(display.press(*found, at, self.ray))
         return super().press(at)
 
     def move(self, at: Floats) -> str:
         """Drag the control."""
-        return super().move(at) if self._marker is None else str(self._marker.move(at, self.gaze))
+        return super().move(at) if self._marker is None else str(self._marker.move(at, self.ray))
 
     def release(self, at: Floats) -> str:
         """Release the control."""
@@ -433,18 +433,18 @@ class Tools:
 
     def take(self, name: str) -> Tool:
         """Select a tool. Raises `ViewError` if no tool has this name."""
-        self._hold(self[name])
+        self._set_current(self[name])
         self.current.is_finished = False
         return self.current
 
-    def _hold(self, tool: Tool) -> None:
+    def _set_current(self, tool: Tool) -> None:
         """Make a tool current; controls of interactive markers are shown only with Interact, as in RViz."""
         self.current = tool
         for display in self.scene:
             if isinstance(display, InteractiveMarkers):
                 display.shows_controls = isinstance(tool, Interact)
 
-    def put_away(self) -> None:
+    def finish(self) -> None:
         """Select the first tool again if the current one has done its work."""
         if self.current.is_finished:
-            self._hold(self.all[0])
+            self._set_current(self.all[0])

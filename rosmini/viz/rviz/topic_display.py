@@ -20,14 +20,14 @@ from .display import Display, Level
 from .primitives import INVALID, DisplayError, Primitive
 from .properties import Property
 
-MOST_KEPT = 10_000
+MAX_STORED = 10_000
 """Maximum number of messages that a display stores, whatever its history or decay time."""
-MOST_WAITING = 1000
+MAX_WAITING = 1000
 LENGTH_TOLERANCE = 0.01
 """Deviation of a quaternion's length from 1 that is tolerated without a warning."""
 
 
-class Heard:
+class Received:
     """A message, and the pose of its frame in the fixed frame.
 
     `pose` and `points` transform its contents to the fixed frame, and validate them.
@@ -101,17 +101,17 @@ class TopicDisplay(Display):
     properties: ClassVar[tuple[Property, ...]] = (
         Property("Topic", "", "the topic to subscribe to"),
         Property(
-            "Queue Size", 10, "how many messages wait for their transform", minimum=1, maximum=MOST_WAITING
+            "Queue Size", 10, "how many messages wait for their transform", minimum=1, maximum=MAX_WAITING
         ),
         Property("Unreliable", False, "prefer UDP, which is not to be had here"),
     )
 
     def __init__(self, name: str = "", tree: Any = None) -> None:
         super().__init__(name, tree)
-        self.received = 0
+        self.message_count = 0
         """Number of messages received."""
-        self._waiting: deque[Heard] = deque()
-        self.kept: deque[Heard] = deque(maxlen=MOST_KEPT)
+        self._waiting: deque[Received] = deque()
+        self.stored: deque[Received] = deque(maxlen=MAX_STORED)
         """The messages that are shown, the oldest first."""
 
     @classmethod
@@ -121,23 +121,23 @@ class TopicDisplay(Display):
         return tuple(each for each in found if each.name != "Topic" or cls.topic_property == "Topic")
 
     @abstractmethod
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Return the drawing of a message, in the fixed frame; called once per message, and when a property changed.
 
         May raise `DisplayError`: its text becomes the status, and the message is not shown.
         """
 
-    def accept(self, heard: Heard, context: Context) -> bool:
+    def accept(self, received: Received, context: Context) -> bool:
         """Return True to store a message whose frame is known; a display with its own state processes it here.
 
         May raise `DisplayError`.
         """
-        del heard, context
+        del received, context
         return True
 
-    def moment(self, heard: Heard) -> int:
+    def moment(self, received: Received) -> int:
         """Return the time at which a message's frame is looked up [ns]; 0 to follow the frame as it moves."""
-        return heard.stamp_ns
+        return received.stamp_ns
 
     # -- hearing -------------------------------------------------------------------------------------------------
 
@@ -151,12 +151,12 @@ class TopicDisplay(Display):
         if not self.topic:
             self.set_status(Level.ERROR, "Topic", "Error subscribing: Empty topic name")
             return
-        why = context.silence(self.topic, self.message)
-        if why.hopeless:
+        why = context.why_no_messages(self.topic, self.message)
+        if why.is_permanent:
             self.set_status(Level.ERROR, "Topic", f"No messages received: {why.text}")
             return
         try:
-            self.listen(context, self.topic, self.message, lambda message: self.hear(message, context))
+            self.subscribe(context, self.topic, self.message, lambda message: self.receive(message, context))
         except RosminiError as error:
             said = str(error).partition("\n")[0]
             self.set_status(Level.ERROR, "Topic", f"Error subscribing: {said}")
@@ -170,149 +170,149 @@ class TopicDisplay(Display):
 
     def reset(self) -> None:
         """Discard all messages."""
-        self.received = 0
+        self.message_count = 0
         self._waiting.clear()
-        self.kept.clear()
+        self.stored.clear()
 
-    def hear(self, message: Any, context: Context) -> None:
+    def receive(self, message: Any, context: Context) -> None:
         """Process a message; it is stored as soon as its frame can be transformed to the fixed frame."""
         self.count()
-        heard = Heard(message, context.now_ns)
+        received = Received(message, context.now_ns)
         if not self.needs_transform:
-            self._keep(heard, context)
+            self._store(received, context)
             return
-        self._waiting.append(heard)
+        self._waiting.append(received)
         while len(self._waiting) > self["Queue Size"]:
             dropped = self._waiting.popleft()
-            if not (context.knows(dropped.frame) and self._placed(dropped, context)):
-                self._say_why(dropped, context, is_dropped=True)
-        self._settle(context)
+            if not (context.knows(dropped.frame) and self._try_store(dropped, context)):
+                self._report_transform(dropped, context, is_dropped=True)
+        self._process_waiting(context)
 
     def count(self) -> None:
         """Count a received message in the status."""
-        self.received += 1
-        plural = "" if self.received == 1 else "s"
-        self.set_status(Level.OK, "Topic", f"{self.received} message{plural} received")
+        self.message_count += 1
+        plural = "" if self.message_count == 1 else "s"
+        self.set_status(Level.OK, "Topic", f"{self.message_count} message{plural} received")
 
-    def transform_status(self, heard: Heard) -> str:
+    def transform_status(self, received: Received) -> str:
         """Return the name of the status of a message's transform."""
-        return f"Transform [sender={heard.sender}]"
+        return f"Transform [sender={received.sender}]"
 
-    def _settle(self, context: Context) -> None:
+    def _process_waiting(self, context: Context) -> None:
         """Store waiting messages whose transform is known now, in order of arrival; drop those that are too old."""
-        still: deque[Heard] = deque()
-        lost: Heard | None = None
+        still: deque[Received] = deque()
+        lost: Received | None = None
         while self._waiting:
-            heard = self._waiting.popleft()
-            if not context.knows(heard.frame):
-                still.append(lost := heard)
+            received = self._waiting.popleft()
+            if not context.knows(received.frame):
+                still.append(lost := received)
                 continue
-            if self._placed(heard, context):
+            if self._try_store(received, context):
                 continue
-            self._say_why(heard, context)
-            if not context.is_past(heard.frame, self.moment(heard)):
-                still.append(heard)
+            self._report_transform(received, context)
+            if not context.is_past(received.frame, self.moment(received)):
+                still.append(received)
         self._waiting = still
         if lost is not None:
-            self._say_why(lost, context)
+            self._report_transform(lost, context)
 
-    def _placed(self, heard: Heard, context: Context) -> bool:
+    def _try_store(self, received: Received, context: Context) -> bool:
         try:
-            heard.place = context.place(heard.frame, self.moment(heard))
+            received.place = context.place(received.frame, self.moment(received))
         except TransformException:
             return False
-        self.set_status(Level.OK, self.transform_status(heard), "Transform OK")
-        self._keep(heard, context)
+        self.set_status(Level.OK, self.transform_status(received), "Transform OK")
+        self._store(received, context)
         return True
 
-    def _say_why(self, heard: Heard, context: Context, *, is_dropped: bool = False) -> None:
-        name = self.transform_status(heard)
-        if not context.knows(heard.frame):
-            self.set_status(Level.ERROR, name, context.problem(heard.frame))
+    def _report_transform(self, received: Received, context: Context, *, is_dropped: bool = False) -> None:
+        name = self.transform_status(received)
+        if not context.knows(received.frame):
+            self.set_status(Level.ERROR, name, context.problem(received.frame))
             return
-        if context.is_past(heard.frame, self.moment(heard)):
-            stamp = heard.stamp_ns / 1e9
-            text = f"Message removed because it is too old (frame=[{heard.frame}], stamp=[{stamp:.9f}])"
+        if context.is_past(received.frame, self.moment(received)):
+            stamp = received.stamp_ns / 1e9
+            text = f"Message removed because it is too old (frame=[{received.frame}], stamp=[{stamp:.9f}])"
             self.set_status(Level.ERROR, name, text)
             return
         try:
-            context.place(heard.frame, self.moment(heard))
+            context.place(received.frame, self.moment(received))
         except (LookupException, ConnectivityException) as error:
-            self.set_status(Level.ERROR, name, context.problem(heard.frame, error))
+            self.set_status(Level.ERROR, name, context.problem(received.frame, error))
         except TransformException as error:
-            if is_dropped or not self.kept:  # otherwise the transform will arrive soon, as usual
-                level = Level.ERROR if is_dropped or not heard.frame else Level.WARN
-                self.set_status(level, name, context.problem(heard.frame, error))
+            if is_dropped or not self.stored:  # otherwise the transform will arrive soon, as usual
+                level = Level.ERROR if is_dropped or not received.frame else Level.WARN
+                self.set_status(level, name, context.problem(received.frame, error))
 
-    def _keep(self, heard: Heard, context: Context) -> None:
+    def _store(self, received: Received, context: Context) -> None:
         try:
-            if not self.accept(heard, context):
+            if not self.accept(received, context):
                 return
         except Exception as error:  # an error in one message must not stop the scene
             self.fail("Topic", error)
             return
         if not self._is_endless and not self.history:
-            self.kept.clear()
-        self.kept.append(heard)
-        self._forget(context)
+            self.stored.clear()
+        self.stored.append(received)
+        self._drop_old(context)
 
     @property
     def _is_endless(self) -> bool:
         return "Decay Time" in self and self["Decay Time"] > 0
 
-    def _forget(self, context: Context) -> None:
+    def _drop_old(self, context: Context) -> None:
         """Drop messages beyond the history or the decay time."""
         if self._is_endless:
             oldest = context.now_ns - int(self["Decay Time"] * 1e9)
-            while len(self.kept) > 1 and self.kept[0].arrived_ns < oldest:
-                self.kept.popleft()
+            while len(self.stored) > 1 and self.stored[0].arrived_ns < oldest:
+                self.stored.popleft()
         elif self.history:
-            most = self[self.history] or MOST_KEPT
-            while len(self.kept) > most:
-                self.kept.popleft()
+            most = self[self.history] or MAX_STORED
+            while len(self.stored) > most:
+                self.stored.popleft()
 
-    def _follow(self, context: Context) -> None:
+    def _update_frames(self, context: Context) -> None:
         """Update the poses of frames that the drawing follows."""
-        for heard in self.kept:
-            if self.needs_transform and self.moment(heard) == 0:
+        for received in self.stored:
+            if self.needs_transform and self.moment(received) == 0:
                 try:
-                    place = context.place(heard.frame)
+                    place = context.place(received.frame)
                 except TransformException as error:
-                    name = self.transform_status(heard)
-                    self.set_status(Level.ERROR, name, context.problem(heard.frame, error))
+                    name = self.transform_status(received)
+                    self.set_status(Level.ERROR, name, context.problem(received.frame, error))
                     continue
-                if place != heard.place:
-                    heard.place, heard.drawn = place, None
+                if place != received.place:
+                    received.place, received.drawn = place, None
 
     # -- drawing -------------------------------------------------------------------------------------------------
 
     def update(self, context: Context) -> None:
         """Check messages that wait for a transform, and report why none arrived if that is so."""
         if self._waiting:
-            self._settle(context)
-        self._forget(context)
-        self._follow(context)
+            self._process_waiting(context)
+        self._drop_old(context)
+        self._update_frames(context)
         topic = self._statuses.get("Topic")
-        if not self.received and topic is not None and topic.text.startswith("No messages"):
-            why = context.silence(self.topic, self.message)
-            if topic.level is Level.ERROR and not why.hopeless:
+        if not self.message_count and topic is not None and topic.text.startswith("No messages"):
+            why = context.why_no_messages(self.topic, self.message)
+            if topic.level is Level.ERROR and not why.is_permanent:
                 self.restart()
-            level = Level.ERROR if why.hopeless else Level.WARN
+            level = Level.ERROR if why.is_permanent else Level.WARN
             self.set_status(level, "Topic", f"No messages received: {why.text}")
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
         """Return the drawings of the stored messages."""
         found: list[Primitive] = []
         notes: list[str] = []
-        for heard in self.kept:
-            if heard.drawn is None or heard.version != self.version:
-                heard.version, heard.drawn = self.version, ()
+        for received in self.stored:
+            if received.drawn is None or received.version != self.version:
+                received.version, received.drawn = self.version, ()
                 try:
-                    heard.drawn = tuple(self.draw(heard, context))
+                    received.drawn = tuple(self.draw(received, context))
                 except Exception as error:  # an error in one message must not stop the scene
                     self.fail("Topic", error)
-            found += heard.drawn
-            notes += heard.notes
+            found += received.drawn
+            notes += received.notes
         if notes:
             self.set_status(Level.WARN, "Message", "; ".join(dict.fromkeys(notes)))
         else:

@@ -49,7 +49,7 @@ _FOCUS = (
 
 
 @dataclass(frozen=True)
-class Sight:
+class Viewpoint:
     """A viewpoint: looks at `target` (3,) [m], from the direction `yaw` and the elevation `pitch` [rad]."""
 
     target: Floats
@@ -92,13 +92,13 @@ class ViewController(Plugin):
             "Value": f"{name} (rviz)",
         }
 
-    def sight(self, context: Context) -> Sight:
+    def viewpoint(self, context: Context) -> Viewpoint:
         """Return the current viewpoint. An unknown target frame is replaced by the fixed frame."""
         raise NotImplementedError
 
-    def look_at(self, at: Floats, context: Context) -> None:
+    def centre_on(self, at: Floats, context: Context) -> None:
         """Move a point (3,) of the fixed frame to the middle."""
-        self.pan(at - self.sight(context).target, context)
+        self.pan(at - self.viewpoint(context).target, context)
 
     def pan(self, offset: Floats, context: Context) -> None:
         """Move the middle of the view by `offset` (3,) of the fixed frame [m]."""
@@ -121,7 +121,7 @@ class Orbit(ViewController, plugin="rviz/Orbit"):
 
     properties = (_TARGET, *_FOCUS)
 
-    def sight(self, context: Context) -> Sight:
+    def viewpoint(self, context: Context) -> Viewpoint:
         """Return the viewpoint; the focal point moves with the target frame, but does not rotate with it."""
         origin, _ = self.target(context)
         return self._around(origin + np.array(self["Focal Point"]), self["Yaw"])
@@ -142,16 +142,16 @@ class Orbit(ViewController, plugin="rviz/Orbit"):
         self["Pitch"] = min(max(float(pitch), -STEEPEST), STEEPEST)
         self["Distance"] = float(distance)
 
-    def _around(self, target: Floats, yaw: float) -> Sight:
+    def _around(self, target: Floats, yaw: float) -> Viewpoint:
         angle = self["Field of View"]
         width = 2.0 * self["Distance"] * math.tan(angle / 2) * ASPECT
-        return Sight(target, yaw, self["Pitch"], width, is_flat=False, field_of_view=math.degrees(angle))
+        return Viewpoint(target, yaw, self["Pitch"], width, is_flat=False, field_of_view=math.degrees(angle))
 
 
 class XYOrbit(Orbit, plugin="rviz/XYOrbit"):
     """An orbit whose focal point stays on the ground."""
 
-    def sight(self, context: Context) -> Sight:
+    def viewpoint(self, context: Context) -> Viewpoint:
         """Return the viewpoint like `Orbit`, with the focal point on the ground of the target frame."""
         origin, _ = self.target(context)
         focus = self["Focal Point"]
@@ -161,7 +161,7 @@ class XYOrbit(Orbit, plugin="rviz/XYOrbit"):
 class ThirdPersonFollower(Orbit, plugin="rviz/ThirdPersonFollower"):
     """An orbit that rotates with the target frame."""
 
-    def sight(self, context: Context) -> Sight:
+    def viewpoint(self, context: Context) -> Viewpoint:
         """Return the viewpoint; focal point and yaw are relative to the target frame."""
         origin, heading = self.target(context)
         x, y, z = self["Focal Point"]
@@ -191,11 +191,11 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
         Property("Angle", 0.0, "how far the view is turned about the vertical", unit="rad"),
     )
 
-    def sight(self, context: Context) -> Sight:
+    def viewpoint(self, context: Context) -> Viewpoint:
         """Return the viewpoint; at angle 0, x is to the right and y is up."""
         origin, _ = self.target(context)
         middle = origin + np.array([self["X"], self["Y"], 0.0])
-        return Sight(middle, self["Angle"] - math.pi / 2, math.pi / 2, PIXELS / self["Scale"])
+        return Viewpoint(middle, self["Angle"] - math.pi / 2, math.pi / 2, PIXELS / self["Scale"])
 
     def pan(self, offset: Floats, context: Context) -> None:
         """Move the middle of the view."""
@@ -207,7 +207,7 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
         self["Scale"] = self["Scale"] * factor
 
 
-def view_like(kind: str, before: Sight, frame: str, context: Context) -> ViewController:
+def view_like(kind: str, before: Viewpoint, frame: str, context: Context) -> ViewController:
     """Return a view of another kind that shows the same place from the same distance; an orbit looks from the side.
 
     Raises `PluginError` for an unknown kind.
@@ -219,7 +219,7 @@ def view_like(kind: str, before: Sight, frame: str, context: Context) -> ViewCon
         made.turn(before.yaw, pitch, before.distance or made["Distance"], context)
     elif before.width:
         made["Scale"] = PIXELS / before.width
-    made.look_at(before.target, context)
+    made.centre_on(before.target, context)
     return made
 
 

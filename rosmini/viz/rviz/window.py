@@ -19,9 +19,9 @@ from rosmini.viz.rviz import Config, Level, Scene
 from rosmini.viz.rviz.displays.group import Group
 from rosmini.viz.rviz.flat import draw
 from rosmini.viz.rviz.panels import TimePanel, selection
-from rosmini.viz.rviz.picture import alt_text, look_at, words
+from rosmini.viz.rviz.picture import alt_text, flat_projection, words
 from rosmini.viz.rviz.primitives import Lines
-from rosmini.viz.rviz.projection import Perspective, Projection
+from rosmini.viz.rviz.projection import ParallelProjection, Perspective
 from rosmini.viz.rviz.selection import Picked, hit, picked
 from rosmini.viz.rviz.suggestions import Suggestions, suggested
 from rosmini.viz.rviz.tools import Select, Tools
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from rosmini.viz.rqt.parts import Part
     from rosmini.viz.rviz import Display, Layer
     from rosmini.viz.rviz.primitives import Floats, Primitive
-    from rosmini.viz.rviz.projection import Look, Projection
+    from rosmini.viz.rviz.projection import ParallelProjection, Projection
 
     from .solid_page import Message
 
@@ -98,7 +98,7 @@ class RVizWindow(Panel):
         """Last selection of the tool Select."""
         self._size = (WIDTH, height)
         self._layers: list[Layer] = []
-        self._look: Look | None = None
+        self._projection: Projection | None = None
         self._solid = SolidPage()
         self._is_live = False
         """True if a live page shows the window."""
@@ -118,17 +118,21 @@ class RVizWindow(Panel):
     def parts(self) -> Sequence[Part]:
         """Parts of the panel: tools, scene, tool message, view and frame, displays, time, and selection."""
         now_ns = self.scene.context.now_ns
-        if self._suggestions is not None and self._suggestions.look() and self._fits_until_ns:
+        if self._suggestions is not None and self._suggestions.add_new() and self._fits_until_ns:
             self._fits_until_ns = now_ns + SETTLES_NS
-        if self._look is None or now_ns < self._fits_until_ns:
+        if self._projection is None or now_ns < self._fits_until_ns:
             self.fit()
         self._layers = self.scene.update()
-        if self._look is None or not self._held or isinstance(self._look, Projection) == self.is_solid:
-            self._look = self._seen_from()  # keeps a dragged object under the pointer
+        if (
+            self._projection is None
+            or not self._held
+            or isinstance(self._projection, ParallelProjection) == self.is_solid
+        ):
+            self._projection = self._current_projection()  # keeps a dragged object under the pointer
         level = max(status.level for status in self.scene.global_status)
         found: list[Part] = [
             bar(*(self._tool(tool.label) for tool in self.tools)),
-            self._picture(self._look),
+            self._picture(self._projection),
             Words(self._said),
             bar(
                 Control("type", "View", "choice", self._type, tuple(TYPES)),
@@ -165,11 +169,11 @@ class RVizWindow(Panel):
         view = self.scene.view
         return "" if view is None else _title(view.plugin_name)
 
-    def _seen_from(self) -> Look:
+    def _current_projection(self) -> Projection:
         view = self.scene.view
         if self.is_solid and view is not None:
-            return Perspective.of(view.sight(self.scene.context), *self._size)
-        return look_at(self.scene, self._layers, *self._size)
+            return Perspective.of(view.viewpoint(self.scene.context), *self._size)
+        return flat_projection(self.scene, self._layers, *self._size)
 
     @property
     def scripts(self) -> tuple[str, ...]:
@@ -187,30 +191,30 @@ class RVizWindow(Panel):
             return None
         return self._on_hub(
             lambda: self._solid.news(
-                self.scene, self._layers, self.tools.current, self._in_hand(), self._size, whole=whole
+                self.scene, self._layers, self.tools.current, self._tool_primitives(), self._size, whole=whole
             )
         )
 
-    def _in_hand(self) -> list[Primitive]:
+    def _tool_primitives(self) -> list[Primitive]:
         """Return what the current tool draws."""
-        tool, look = self.tools.current, self._look
+        tool, projection = self.tools.current, self._projection
         found = list(tool.primitives())
-        if isinstance(tool, Select) and tool.corners is not None and self._held and look is not None:
-            found.append(_rectangle(*tool.corners, look))
+        if isinstance(tool, Select) and tool.corners is not None and self._held and projection is not None:
+            found.append(_rectangle(*tool.corners, projection))
         return found
 
-    def _picture(self, look: Look) -> Drawing:
+    def _picture(self, projection: Projection) -> Drawing:
         said = words(self.scene, self._layers)
         tool = self.tools.current
         pointer = Control("view", f"The scene; {tool.label}: arrow keys and Enter", "text")
-        if not isinstance(look, Projection):
+        if not isinstance(projection, ParallelProjection):
             return Drawing(HOST, said, pointer=pointer)
         shown: list[Primitive] = [each for layer in self._layers for each in layer.primitives]
-        shown += self._in_hand()
+        shown += self._tool_primitives()
         alt = alt_text(self.scene, self._layers)
         panes = [pane for layer in self._layers for pane in layer.panes]
         background = self.scene.options["Background Color"]
-        svg = draw(shown, look, background, title="RViz", alt=alt, panes=panes)
+        svg = draw(shown, projection, background, title="RViz", alt=alt, panes=panes)
         return Drawing(svg, said, pointer=pointer)
 
     def _rows(self, displays: Sequence[Display], depth: int) -> list[Row]:
@@ -239,7 +243,7 @@ class RVizWindow(Panel):
             case "tool":
                 self._said = self.tools.take(key[1]).hint
             case "view":
-                self._touch(str(value))
+                self._pointer_action(str(value))
             case "frame":
                 self.scene.fixed_frame = value
             case "closer" | "farther":
@@ -266,23 +270,23 @@ class RVizWindow(Panel):
         made = made or self.scene.view or TopDownOrtho()
         self._layers = self.scene.update()
         self.scene.view = None
-        look = look_at(self.scene, self._layers, *self._size, fit=True)
+        projection = flat_projection(self.scene, self._layers, *self._size, fit=True)
         self.scene.view = made
         if isinstance(made, Orbit):
-            wide = look.width / look.scale
-            made["Distance"] = made["Distance"] * wide / made.sight(self.scene.context).width
+            wide = projection.width / projection.scale
+            made["Distance"] = made["Distance"] * wide / made.viewpoint(self.scene.context).width
         else:
-            made["Scale"] = look.scale * PIXELS / look.width
-        made.look_at(look.ground, self.scene.context)
+            made["Scale"] = projection.scale * PIXELS / projection.width
+        made.centre_on(projection.ground, self.scene.context)
 
     def _change_view(self, title: str) -> None:
-        view, look = self.scene.view, self._look
-        if view is None or look is None or title == self._type:
+        view, projection = self.scene.view, self._projection
+        if view is None or projection is None or title == self._type:
             return
         self._fits_until_ns = 0
         self._held = False
-        sight = view.sight(self.scene.context)
-        self.scene.view = view_like(TYPES[title], sight, view["Target Frame"], self.scene.context)
+        viewpoint = view.viewpoint(self.scene.context)
+        self.scene.view = view_like(TYPES[title], viewpoint, view["Target Frame"], self.scene.context)
 
     def zoom(self, factor: float) -> None:
         """Zoom in by a factor, or out if it is below 1."""
@@ -291,7 +295,7 @@ class RVizWindow(Panel):
         if view is not None:
             view.zoom(factor)
 
-    def _touch(self, text: str) -> None:
+    def _pointer_action(self, text: str) -> None:
         """Carry out a pointer action on the picture; see `Drawing`. Raises `ViewError` for any other text."""
         kind, *rest = text.split() or [""]
         self._fits_until_ns = 0
@@ -319,16 +323,16 @@ class RVizWindow(Panel):
 
     def _use(self, kind: str) -> None:
         """Let the current tool press, move or release at the pointer."""
-        look = self._look
-        if look is None:
+        projection = self._projection
+        if projection is None:
             return
         tool = self.tools.current
-        tool.gaze = look.gaze(*self._hand)
-        at = self._point(look)
+        tool.ray = projection.ray(*self._hand)
+        at = self._point(projection)
         if at is None and kind == "release" and tool.needs_object:
             self._said, self._held = tool.hint, False
             return
-        place = np.array(look.metres(*self._hand)) if at is None else at
+        place = np.array(projection.metres(*self._hand)) if at is None else at
         self._held = kind != "release"
         tool.is_finished = False
         if kind == "release" and self._is_dragged:  # the page may skip the last move of a fast drag
@@ -336,19 +340,19 @@ class RVizWindow(Panel):
         self._is_dragged = kind == "move"
         self._said = {"press": tool.press, "move": tool.move, "release": tool.release}[kind](place)
         if kind == "move":
-            self._look = self._seen_from()  # the tool may have moved the view
+            self._projection = self._current_projection()  # the tool may have moved the view
         if kind == "release" and isinstance(tool, Select) and tool.corners is not None:
-            first, last = look.pixels(np.array(tool.corners))
-            self.selected = picked(self._layers, look, first, last)
+            first, last = projection.pixels(np.array(tool.corners))
+            self.selected = picked(self._layers, projection, first, last)
             self._said = f"{sum(each.number for each in self.selected)} selected"
         if kind == "release":
-            self.tools.put_away()
+            self.tools.finish()
 
-    def _point(self, look: Look) -> Floats | None:
+    def _point(self, projection: Projection) -> Floats | None:
         """Return the scene point under the pointer if the tool picks objects, otherwise the point on the ground."""
         if self.tools.current.needs_object:
-            return hit(self._layers, look, self._hand)
-        return np.array(look.metres(*self._hand))
+            return hit(self._layers, projection, self._hand)
+        return np.array(projection.metres(*self._hand))
 
     def _press_key(self, key: str) -> None:
         """Select a tool by its key, move the pointer by arrow keys, press and release by Enter."""
@@ -370,17 +374,17 @@ class RVizWindow(Panel):
                 self._said = self.tools.take(key).hint
 
     def _where(self) -> str:
-        if self._look is None:
+        if self._projection is None:
             return ""
-        x, y, _ = self._look.metres(*self._hand)
+        x, y, _ = self._projection.metres(*self._hand)
         return f"at ({x:.2f}, {y:.2f})"
 
 
-def _rectangle(first: Floats, last: Floats, look: Look) -> Lines:
+def _rectangle(first: Floats, last: Floats, projection: Projection) -> Lines:
     """Return the outline of a rectangle of the picture, on the ground."""
-    (left, top), (right, bottom) = look.pixels(np.array([first, last]))
+    (left, top), (right, bottom) = projection.pixels(np.array([first, last]))
     corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]
-    return Lines(np.array([look.metres(*corner) for corner in corners]), YELLOW)
+    return Lines(np.array([projection.metres(*corner) for corner in corners]), YELLOW)
 
 
 def _title(name: str) -> str:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.viz.rviz import Config, ConfigError
-from rosmini.viz.rviz.config import DEEPEST
+from rosmini.viz.rviz.config import MAX_DEPTH
 
 
 def test_a_public_file_is_written_again_with_all_that_was_in_it(stage, data):
@@ -102,7 +102,7 @@ def test_a_new_configuration_has_the_parts_that_the_real_one_reads(stage, tmp_pa
         ("Visualization Manager: 3", "no configuration"),
         ("Visualization Manager: {a: [}", "line 1"),
         ("a: &a [*a]\nVisualization Manager: {}", "contains itself"),
-        ("Visualization Manager: " + "{a: " * (DEEPEST + 5) + "1" + "}" * (DEEPEST + 5), "deeper"),
+        ("Visualization Manager: " + "{a: " * (MAX_DEPTH + 5) + "1" + "}" * (MAX_DEPTH + 5), "deeper"),
         ("Visualization Manager: !!python/object/apply:os.system ['true']", "not YAML"),
     ],
 )

@@ -36,7 +36,7 @@ def test_a_reset_forgets_what_was_received(stage, statuses):
     TimePanel(scene).reset()
     stage.graph.run(0.1)
     assert not scene.update()[0].primitives
-    assert scan.received == 0 or "Topic" in statuses(scan)
+    assert scan.message_count == 0 or "Topic" in statuses(scan)
 
 
 def test_tools_and_views_say_what_can_be_set(stage):

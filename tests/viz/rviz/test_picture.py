@@ -131,30 +131,30 @@ def test_views_look_from_where_files_say(stage):
     scene = stage.scene()
     stage.place("map", "base", (2.0, 1.0, 0.0), yaw=np.pi / 2)
     stage.graph.run(0.1)
-    above = TopDownOrtho({"Scale": 90, "X": 1.0, "Target Frame": "base", "Angle": -np.pi / 2}).sight(
+    above = TopDownOrtho({"Scale": 90, "X": 1.0, "Target Frame": "base", "Angle": -np.pi / 2}).viewpoint(
         scene.context
     )
     assert above.target == pytest.approx([3, 1, 0])
     assert above.width == pytest.approx(10.0)
-    orbit = Orbit({"Focal Point": {"X": 1, "Y": 0, "Z": 0}, "Target Frame": "base", "Yaw": 0.5}).sight(
+    orbit = Orbit({"Focal Point": {"X": 1, "Y": 0, "Z": 0}, "Target Frame": "base", "Yaw": 0.5}).viewpoint(
         scene.context
     )
     assert (orbit.yaw, *orbit.target) == pytest.approx((0.5, 3, 1, 0))
     behind = ThirdPersonFollower(
         {"Focal Point": {"X": 1, "Y": 0, "Z": 0}, "Target Frame": "base", "Yaw": 0.5}
     )
-    found = behind.sight(scene.context)
+    found = behind.viewpoint(scene.context)
     assert (found.yaw, *found.target) == pytest.approx((0.5 + np.pi / 2, 2, 2, 0))
-    assert Orbit({"Target Frame": "nowhere"}).sight(scene.context).target == pytest.approx([0, 0, 0])
+    assert Orbit({"Target Frame": "nowhere"}).viewpoint(scene.context).target == pytest.approx([0, 0, 0])
 
 
 def test_a_pixel_is_a_point_of_the_ground(stage):
-    from rosmini.viz.rviz.picture import look_at
+    from rosmini.viz.rviz.picture import flat_projection
 
     for view in (None, TopDownOrtho({"Angle": 0.3}), Orbit({"Yaw": 1.0, "Pitch": 0.7})):
         scene = stage.scene()
         scene.view = view
-        look = look_at(scene, scene.update(), 400.0, 300.0)
+        look = flat_projection(scene, scene.update(), 400.0, 300.0)
         (pixel,) = look.pixels(np.array([(0.7, -0.4, 0.0)]))
         assert look.metres(*pixel) == pytest.approx((0.7, -0.4, 0.0), abs=0.2 / look.scale)
 

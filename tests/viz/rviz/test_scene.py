@@ -22,8 +22,8 @@ def test_a_scene_subscribes_and_leaves_no_trace(stage):
     published, subscribed, _ = stage.graph.ask_as("/test").ask("getSystemState")
     name = scene.node.name
     assert [topic for topic, nodes in published if name in nodes] == ["/rosout"]
-    heard = {topic for topic, nodes in subscribed if name in nodes}
-    assert heard == {"/scan", "/map", "/map_updates", "/tf", "/tf_static"}
+    received = {topic for topic, nodes in subscribed if name in nodes}
+    assert received == {"/scan", "/map", "/map_updates", "/tf", "/tf_static"}
     scene.close()
     assert registered(stage) == []
 
@@ -102,8 +102,8 @@ def test_when_time_jumps_back_displays_begin_again(stage):
     scene, scan = stage.display("LaserScan", "/scan")
     stage.publish("/scan", LaserScan(ranges=[1.0], range_max=2.0, angle_increment=0.1), "map")
     scene.update()
-    assert scan.received == 1
+    assert scan.message_count == 1
     scene._last_ns += 10**12
     scene.update()
     stage.graph.run(0.1)
-    assert scan.received == 1  # the latched one, again
+    assert scan.message_count == 1  # the latched one, again

@@ -7,7 +7,7 @@ import pytest
 
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.msgs.sensor_msgs.msg import LaserScan
-from rosmini.viz.rviz.picture import look_at
+from rosmini.viz.rviz.picture import flat_projection
 from rosmini.viz.rviz.selection import hit, picked
 
 
@@ -29,7 +29,7 @@ def seen(stage):
     stage.place("map", "laser")
     stage.publish("/scan", scan(), "laser")
     layers = scene.update()
-    return layers, look_at(scene, layers, 600, 400)
+    return layers, flat_projection(scene, layers, 600, 400)
 
 
 def test_a_rectangle_tells_which_points_are_in_it(seen):
@@ -59,7 +59,7 @@ def test_a_map_is_hit_anywhere_on_it(stage):
     stage.place("map", "odom")
     stage.publish("/map", grid, "map")
     layers = scene.update()
-    look = look_at(scene, layers, 600, 400)
+    look = flat_projection(scene, layers, 600, 400)
     for place, is_on in (((0.5, 0.5), True), ((0.05, 0.95), True), ((1.1, 0.5), False), ((-0.1, 0.5), False)):
         (pixel,) = look.pixels(np.array([[*place, 0.0]]))
         found = hit(layers, look, pixel)

@@ -38,14 +38,14 @@ def window() -> Iterator[RVizWindow]:
 
 def pixel(window, *point):
     window.markup(live=True)
-    (found,) = window._look.pixels(np.array([point], dtype=float))
+    (found,) = window._projection.pixels(np.array([point], dtype=float))
     return f"{found[0]:.3f} {found[1]:.3f}"
 
 
 def test_a_view_that_turns_is_shown_by_a_viewer_in_a_page_that_lives_and_drawn_elsewhere(window):
     assert "rq-solid" in window.markup(live=True)
     assert "rosmini-rviz.js" in window.scripts
-    assert isinstance(window._look, Perspective)
+    assert isinstance(window._projection, Perspective)
     still = window.html
     assert "<svg" in still
     assert "rq-solid" not in still
@@ -83,9 +83,9 @@ def test_the_view_turns_with_the_page_and_the_page_with_the_view(window):
     assert window.scene.view["Focal Point"][:2] == pytest.approx((1.0, 1.0), abs=0.01)
     window.set("fit")
     assert window.scene.view["Focal Point"][:2] == pytest.approx((2.0, 2.0), abs=0.01)
-    for wrong in ("orbit 1 2 3", "orbit 1 2 3 4 5 6 nan", "orbit"):
+    for errors in ("orbit 1 2 3", "orbit 1 2 3 4 5 6 nan", "orbit"):
         with pytest.raises(ViewError, match="a hand does"):
-            window.set("view", wrong)
+            window.set("view", errors)
 
 
 def test_a_goal_is_dragged_on_the_ground_as_the_eye_sees_it(window):

@@ -35,12 +35,12 @@ def scene_and_suggestions(stage):
 def test_a_topic_that_appears_later_gets_one_display(stage):
     scene, suggestions = scene_and_suggestions(stage)
     stage.publish("/plan", Path())
-    assert not suggestions.look()  # the Master is asked once a second
+    assert not suggestions.add_new()  # the Master is asked once a second
     stage.graph.run(1.0)
-    assert suggestions.look()
+    assert suggestions.add_new()
     assert scene["/plan"].plugin_name == "rviz/Path"
     stage.graph.run(1.0)
-    assert not suggestions.look()
+    assert not suggestions.add_new()
     assert [each.name for each in scene].count("/plan") == 1
 
 
@@ -49,11 +49,11 @@ def test_a_display_that_the_user_removed_is_not_added_again(stage):
     scene, suggestions = scene_and_suggestions(stage)
     stage.publish("/plan", Path())
     stage.graph.run(1.0)
-    suggestions.look()
+    suggestions.add_new()
     for name in ("/scan", "/plan"):
         scene.remove(scene[name])
     stage.graph.run(1.0)
-    assert not suggestions.look()
+    assert not suggestions.add_new()
     assert {"/scan", "/plan"}.isdisjoint(each.name for each in scene)
 
 
@@ -63,7 +63,7 @@ def test_what_the_user_or_the_window_itself_added_is_not_suggested(stage):
     scene.node.publisher("/move_base_simple/goal", PoseStamped)
     stage.publish("/scan", LaserScan(), "odom")
     stage.graph.run(1.0)
-    assert not suggestions.look()
+    assert not suggestions.add_new()
 
 
 def test_a_map_that_appears_later_is_drawn_below_the_robot_and_gives_the_fixed_frame(stage):
@@ -72,7 +72,7 @@ def test_a_map_that_appears_later_is_drawn_below_the_robot_and_gives_the_fixed_f
     assert scene.fixed_frame == "odom"
     stage.publish("/map", OccupancyGrid(), "map")
     stage.graph.run(1.0)
-    assert suggestions.look()
+    assert suggestions.add_new()
     assert scene.fixed_frame == "map"
     order = [each.name for each in scene]
     assert order.index("/map") < order.index("/odom")
@@ -83,5 +83,5 @@ def test_a_fixed_frame_that_the_user_chose_stays(stage):
     scene.fixed_frame = "base_link"
     stage.publish("/map", OccupancyGrid(), "map")
     stage.graph.run(1.0)
-    assert suggestions.look()
+    assert suggestions.add_new()
     assert scene.fixed_frame == "base_link"

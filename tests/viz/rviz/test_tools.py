@@ -19,7 +19,7 @@ from rosmini.viz.rviz.views import TopDownOrtho
 
 
 @pytest.fixture
-def heard(stage):
+def received(stage):
     """The tools of a new scene in the frame map, and what is heard of three topics."""
     messages = []
     listener = stage.graph.node("listener")
@@ -53,8 +53,8 @@ def test_the_tools_are_those_of_rviz_in_its_order(stage):
     assert len({tool.key for tool in Tools(stage.scene())}) == 8
 
 
-def test_a_pose_estimate_has_the_squares_of_the_deviations(heard):
-    tools, after = heard
+def test_a_pose_estimate_has_the_squares_of_the_deviations(received):
+    tools, after = received
     said, message = after("2D Pose Estimate", (1.0, 2.0), (1.0, 5.0))
     pose = message.pose.pose
     assert (pose.position.x, pose.position.y, pose.position.z) == (1.0, 2.0, 0.0)
@@ -68,8 +68,8 @@ def test_a_pose_estimate_has_the_squares_of_the_deviations(heard):
     assert after("2D Pose Estimate", (1.0, 2.0))[1].pose.covariance[0] == pytest.approx(0.01)
 
 
-def test_a_goal_lies_on_the_ground_and_a_click_heads_along_x(heard):
-    _, after = heard
+def test_a_goal_lies_on_the_ground_and_a_click_heads_along_x(received):
+    _, after = received
     said, goal = after("2D Nav Goal", (1.0, -2.0, 0.5), (0.0, -2.0, 0.5))
     assert (goal.pose.position.x, goal.pose.position.y, goal.pose.position.z) == (1.0, -2.0, 0.0)
     assert abs(goal.pose.orientation.z) == pytest.approx(1.0)
@@ -79,16 +79,16 @@ def test_a_goal_lies_on_the_ground_and_a_click_heads_along_x(heard):
     assert after("g", (3.0, 4.0))[1].pose.orientation.w == 1.0
 
 
-def test_a_point_is_published_as_it_was_clicked_and_the_tool_is_put_away(heard):
-    tools, after = heard
+def test_a_point_is_published_as_it_was_clicked_and_the_tool_is_put_away(received):
+    tools, after = received
     tools.take("Publish Point")
     _, message = after("Publish Point", (0.5, 0.25, 1.5))
     assert (message.point.x, message.point.y, message.point.z) == (0.5, 0.25, 1.5)
-    tools.put_away()
+    tools.finish()
     assert tools.current.label == "Interact"
     tools.take("u")["Single click"] = False
     after("rviz/PublishPoint", (0, 0))
-    tools.put_away()
+    tools.finish()
     assert tools.current.label == "Publish Point"
 
 
@@ -151,9 +151,9 @@ def test_the_camera_focuses_and_moves(stage):
     scene = stage.scene(Config.parse(VIEW.format("Orbit")))
     tools = Tools(scene)
     tools["Focus Camera"].click((2.0, 1.0, 0.0))
-    assert scene.view.sight(scene.context).target == pytest.approx(np.array([2.0, 1.0, 0.0]))
+    assert scene.view.viewpoint(scene.context).target == pytest.approx(np.array([2.0, 1.0, 0.0]))
     tools["Move Camera"].drag((0.0, 0.0), (1.0, 0.0))
-    assert scene.view.sight(scene.context).target == pytest.approx(np.array([1.0, 1.0, 0.0]))
+    assert scene.view.viewpoint(scene.context).target == pytest.approx(np.array([1.0, 1.0, 0.0]))
 
 
 VIEW = """
@@ -169,8 +169,8 @@ def test_each_view_can_look_at_a_point_though_its_frame_has_turned(stage, kind):
     stage.place("map", "base", (3.0, 1.0, 0.0), yaw=1.0)
     stage.graph.run(0.1)
     scene.update()
-    scene.view.look_at(np.array([-1.0, 2.0, 0.0]), scene.context)
-    assert scene.view.sight(scene.context).target == pytest.approx(np.array([-1.0, 2.0, 0.0]))
+    scene.view.centre_on(np.array([-1.0, 2.0, 0.0]), scene.context)
+    assert scene.view.viewpoint(scene.context).target == pytest.approx(np.array([-1.0, 2.0, 0.0]))
 
 
 def test_a_file_names_the_topics_of_its_tools_and_what_is_unknown_is_left_out(stage):
@@ -192,9 +192,9 @@ def test_what_is_no_tool_or_no_point_is_named(stage):
     tools = Tools(stage.scene())
     with pytest.raises(ViewError, match="did you mean 2D Nav Goal"):
         tools["2D Nav Gaol"]
-    for wrong in ((1,), (1, 2, 3, 4), "ab", (math.nan, 0), None):
+    for errors in ((1,), (1, 2, 3, 4), "ab", (math.nan, 0), None):
         with pytest.raises(DisplayError):
-            point(wrong)
+            point(errors)
     with pytest.raises(DisplayError, match="std deviation"):
         tools["2D Pose Estimate"]["Z std deviation"] = 1.0
     assert issubclass(type(tools.current), Tool)

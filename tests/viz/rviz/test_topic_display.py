@@ -10,7 +10,7 @@ from rosmini.msgs.geometry_msgs.msg import Pose
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.viz.rviz.primitives import DisplayError
-from rosmini.viz.rviz.topic_display import Heard
+from rosmini.viz.rviz.topic_display import Received
 
 
 def scan(*ranges: float) -> LaserScan:
@@ -100,7 +100,7 @@ def test_no_more_messages_wait_than_the_queue_holds(stage):
     _, display = stage.display("LaserScan", "/scan", more={"Queue Size": 3})
     for _ in range(5):
         stage.publish("/scan", scan(), "laser")
-    assert (display.received, len(display._waiting)) == (5, 3)
+    assert (display.message_count, len(display._waiting)) == (5, 3)
 
 
 def test_points_decay(stage):
@@ -120,7 +120,7 @@ def test_a_property_that_changes_changes_what_was_drawn(stage):
     stage.publish("/scan", scan(1.0), "map")
     display["Color"] = (255, 0, 0)
     assert scene.update()[0].primitives[0].colours.tolist() == [[1.0, 0.0, 0.0, 1.0]]
-    assert display.received == 1
+    assert display.message_count == 1
 
 
 def test_another_topic_begins_again(stage):
@@ -133,15 +133,15 @@ def test_another_topic_begins_again(stage):
 
 
 def test_a_quaternion_of_zeros_is_no_rotation_and_noted():
-    heard = Heard(scan(), 0)
+    received = Received(scan(), 0)
     pose = Pose()
     pose.position.x, pose.orientation.w = 1.0, 0.0
-    assert heard.pose(pose)[:3, 3] == pytest.approx([1, 0, 0])
-    heard.pose(pose)
-    assert heard.notes == ["a quaternion is all zeros; it is drawn as no rotation"]
+    assert received.pose(pose)[:3, 3] == pytest.approx([1, 0, 0])
+    received.pose(pose)
+    assert received.notes == ["a quaternion is all zeros; it is drawn as no rotation"]
     pose.position.x = float("nan")
     with pytest.raises(DisplayError, match="nans or infs"):
-        heard.pose(pose)
+        received.pose(pose)
 
 
 def test_what_is_dropped_from_the_queue_is_told_even_if_something_is_shown(stage, statuses):

@@ -56,7 +56,7 @@ def listen(graph, topic, kind):
 
 def pixel(window, x, y):
     window.parts()
-    (found,) = window._look.pixels(np.array([[x, y, 0.0]]))
+    (found,) = window._projection.pixels(np.array([[x, y, 0.0]]))
     return f"{found[0]:.1f} {found[1]:.1f}"
 
 
@@ -95,13 +95,15 @@ def test_a_point_is_taken_of_what_is_drawn_and_not_of_empty_ground(graph, window
 
 def test_what_a_hand_takes_hold_of_follows_it_however_often_it_tells(graph, window):
     window.set("tool/Move Camera")
-    start = np.array(window._look.pixels(np.array([[1.0, 3.0, 0.0]]))[0])
+    start = np.array(window._projection.pixels(np.array([[1.0, 3.0, 0.0]]))[0])
     window.set("view", f"press {start[0]:.1f} {start[1]:.1f}")
     for part in (0.25, 0.5, 0.5, 0.8):
         window.set("view", f"move {start[0] + part * 100:.1f} {start[1]:.1f}")
     window.set("view", f"release {start[0] + 100:.1f} {start[1]:.1f}")
     window.parts()
-    assert window._look.pixels(np.array([[1.0, 3.0, 0.0]]))[0] == pytest.approx(start + (100, 0), abs=0.3)
+    assert window._projection.pixels(np.array([[1.0, 3.0, 0.0]]))[0] == pytest.approx(
+        start + (100, 0), abs=0.3
+    )
 
 
 def test_a_hand_drags_an_interactive_marker(graph, window):
@@ -147,14 +149,14 @@ def test_the_camera_follows_a_drag_and_zooms_around(graph, window):
         float(a) - float(b) for a, b in zip(pixel(window, 2.0, 2.0).split(), before.split(), strict=True)
     ]
     window.parts()
-    assert moved == pytest.approx([window._look.scale, 0.0], abs=0.5)
-    scale = window._look.scale
+    assert moved == pytest.approx([window._projection.scale, 0.0], abs=0.5)
+    scale = window._projection.scale
     window.set("closer")
     window.parts()
-    assert window._look.scale == pytest.approx(1.25 * scale)
+    assert window._projection.scale == pytest.approx(1.25 * scale)
     window.set("view", "wheel 1 10 10")
     window.parts()
-    assert window._look.scale == pytest.approx(scale)
+    assert window._projection.scale == pytest.approx(scale)
 
 
 def test_displays_are_switched_and_say_how_they_are(graph, window):
@@ -188,9 +190,9 @@ def test_a_frame_is_chosen_and_the_scene_begins_again(graph, window):
 
 
 def test_what_is_no_movement_is_refused(window):
-    for wrong in ("press", "press 1", "press a b", "press nan 1", "fly 1 2", "", "key", "wheel 1 2"):
+    for errors in ("press", "press 1", "press a b", "press nan 1", "fly 1 2", "", "key", "wheel 1 2"):
         with pytest.raises(ViewError):
-            window.set("view", wrong)
+            window.set("view", errors)
     window.set("view", "key F12")
 
 
@@ -207,15 +209,15 @@ def test_a_window_takes_the_place_of_the_one_before_it_and_leaves_nothing(graph)
 def test_the_view_follows_what_comes_until_a_hand_is_on_it(graph):
     window = RVizWindow(graph, fixed_frame="map")
     window.parts()
-    before = window._look.scale
+    before = window._projection.scale
     graph.run(0.5)
     window.parts()
-    after = window._look.scale
+    after = window._projection.scale
     assert after > 1.5 * before  # the map has come, and is smaller than the grid
     window.set("closer")
     graph.run(0.5)
     window.parts()
-    assert window._look.scale == pytest.approx(1.25 * after)
+    assert window._projection.scale == pytest.approx(1.25 * after)
     window.close()
 
 
@@ -252,7 +254,7 @@ def test_the_plans_and_costmaps_of_a_move_base_that_starts_later_are_shown():
         publisher.publish(goal)
         graph.run(2.0)
         window.parts()
-        assert all(window.scene[each].received for each in plans)
+        assert all(window.scene[each].message_count for each in plans)
         window.set(grid_row.cells[1].key, False)  # the maps that came between have not moved the controls
         assert not window.scene["Grid"].enabled
         window.close()

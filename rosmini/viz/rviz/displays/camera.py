@@ -12,7 +12,7 @@ from rosmini.core.errors import RosminiError
 from rosmini.core.tf import TransformException
 from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.camera_images import (
-    MOST_SHOWN,
+    MAX_SHOWN,
     image_pixels,
     info_topic,
     pin_hole,
@@ -52,7 +52,7 @@ class Camera(ImageDisplay, plugin="rviz/Camera"):
             text = f"No CameraInfo received on [{topic}].  Topic may not exist."
             self.set_status(Level.WARN, "Camera Info", text)
             try:
-                self.listen(context, topic, "sensor_msgs/CameraInfo", self._take)
+                self.subscribe(context, topic, "sensor_msgs/CameraInfo", self._take)
             except RosminiError as error:
                 self.fail("Camera Info", error)
 
@@ -82,7 +82,7 @@ class Camera(ImageDisplay, plugin="rviz/Camera"):
             except TransformException as error:
                 raise DisplayError(context.problem(image.header.frame_id, error)) from error
         pixels = image_pixels(image, self.bounds(5))
-        scale = min(1.0, math.sqrt(MOST_SHOWN / (camera.width * camera.height)))
+        scale = min(1.0, math.sqrt(MAX_SHOWN / (camera.width * camera.height)))
         zoom = float(self["Zoom Factor"])
         overlay = Overlay(camera.zoomed(zoom), pose, scale)
         overlay.draw(each for name, primitives in shown if self._is_seen(name) for each in primitives)

@@ -17,7 +17,7 @@ from rosmini.viz.rviz.points_display import PointsDisplay
 from rosmini.viz.rviz.points_style import styled
 from rosmini.viz.rviz.primitives import DisplayError, Floats, Primitive
 from rosmini.viz.rviz.properties import Property
-from rosmini.viz.rviz.topic_display import Heard
+from rosmini.viz.rviz.topic_display import Received
 
 NEAR_NS = 500_000_000
 """Maximum difference between the stamps of depths and colours [ns]."""
@@ -54,9 +54,9 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
             return
         self._topic = info_topic(self.topic)
         try:
-            self.listen(context, self._topic, INFO, self._take_info)
+            self.subscribe(context, self._topic, INFO, self._take_info)
             if self["Color Image Topic"]:
-                self.listen(context, self["Color Image Topic"], self.message, self._take_colours)
+                self.subscribe(context, self["Color Image Topic"], self.message, self._take_colours)
         except RosminiError as error:
             self.fail("Message", error)
         self.set_status(Level.WARN, "CameraInfo", f"No CameraInfo received on [{self._topic}]")
@@ -75,21 +75,21 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
 
     def _take_info(self, info: Any) -> None:
         self._info = info
-        self._again()
+        self._redraw_last()
 
     def _take_colours(self, image: Any) -> None:
         self._colours.append(image)
-        self._again()
+        self._redraw_last()
 
-    def _again(self) -> None:
+    def _redraw_last(self) -> None:
         """Draw the last depths again, with the calibration or colours that just arrived."""
-        if self.kept:
-            self.kept[-1].drawn = None
+        if self.stored:
+            self.stored[-1].drawn = None
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield a point for each pixel with a depth."""
         del context
-        info, image = self._info, heard.message
+        info, image = self._info, received.message
         if info is None:
             return
         size = f"{image.width} x {image.height}"
@@ -107,32 +107,32 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
         z = away[rows, columns]
         local = np.column_stack([(columns - k[2]) * z / k[0], (rows - k[5]) * z / k[4], z])
         channels: dict[str, Floats] = {}
-        colours = self._colours_of(heard)
+        colours = self._colours_of(received)
         if colours is not None:
             channels["rgb"] = colours[rows, columns] / 255.0
         chosen = _RGB8(self) if channels else self
-        points = styled(heard.points(local), chosen, channels, local)
+        points = styled(received.points(local), chosen, channels, local)
         if self["Auto Size"] and len(z) and points.style != "Points":
             points = replace(points, size=float(self["Auto Size/Auto Size Factor"] * np.median(z) / k[0]))
         yield points
 
-    def _colours_of(self, heard: Heard) -> Any:
+    def _colours_of(self, received: Received) -> Any:
         """Return the colours (h, w, 3) closest in time to the depths; None if there are none."""
         near = [
-            each for each in self._colours if abs(each.header.stamp.to_nsec() - heard.stamp_ns) <= NEAR_NS
+            each for each in self._colours if abs(each.header.stamp.to_nsec() - received.stamp_ns) <= NEAR_NS
         ]
         if not near:
             return None
-        image = min(near, key=lambda each: abs(each.header.stamp.to_nsec() - heard.stamp_ns))
-        depth = heard.message
+        image = min(near, key=lambda each: abs(each.header.stamp.to_nsec() - received.stamp_ns))
+        depth = received.message
         if (image.width, image.height) != (depth.width, depth.height):
             raise DisplayError(
                 f"Depth image resolution ({depth.width}x{depth.height}) does not match color image resolution "
                 f"({image.width}x{image.height})"
             )
-        if image.header.frame_id != heard.frame:
-            heard.note(
-                f"Depth image frame id [{heard.frame}] doesn't match color image frame id [{image.header.frame_id}]"
+        if image.header.frame_id != received.frame:
+            received.note(
+                f"Depth image frame id [{received.frame}] doesn't match color image frame id [{image.header.frame_id}]"
             )
         return image_pixels(image)
 

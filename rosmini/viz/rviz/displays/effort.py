@@ -20,7 +20,7 @@ from rosmini.viz.rviz.points_style import rainbow
 from rosmini.viz.rviz.primitives import INVALID, DisplayError, Floats, Lines, Primitive
 from rosmini.viz.rviz.properties import Property, Tree
 from rosmini.viz.rviz.shapes import arrow
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 INNER = 0.05
 """Radius of a circle without effort [m]."""
@@ -57,8 +57,8 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
         """Reload the robot if its description changed, and draw again with the current poses of its links."""
         super().update(context)
         self._load(context)
-        for heard in self.kept:
-            heard.drawn = None
+        for received in self.stored:
+            received.drawn = None
 
     def _load(self, context: Context) -> None:
         """Load the robot if its description changed."""
@@ -78,19 +78,19 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
         except RosminiError as error:
             self.set_status(Level.ERROR, "URDF", str(error).partition("\n")[0])
 
-    def accept(self, heard: Heard, context: Context) -> bool:
+    def accept(self, received: Received, context: Context) -> bool:
         """Accept a message with the same number of efforts and joints."""
         del context
-        if len(heard.message.name) != len(heard.message.effort):
+        if len(received.message.name) != len(received.message.effort):
             raise DisplayError("Received a joint state msg with different joint names and efforts size!")
-        if not np.isfinite(np.asarray(heard.message.effort, dtype=float)).all():
+        if not np.isfinite(np.asarray(received.message.effort, dtype=float)).all():
             raise DisplayError(INVALID)
         return True
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the circles."""
         joints = {} if self._robot is None else self._robot.joints
-        for name, effort in zip(heard.message.name, heard.message.effort, strict=True):
+        for name, effort in zip(received.message.name, received.message.effort, strict=True):
             joint = joints.get(name)
             if joint is None or joint.type not in TURNING or not self._is_shown(name):
                 continue

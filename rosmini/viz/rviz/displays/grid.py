@@ -13,7 +13,7 @@ from rosmini.viz.rviz.display import Display, Level
 from rosmini.viz.rviz.primitives import Lines, Primitive
 from rosmini.viz.rviz.properties import Colour, Property, Vector
 
-MOST_CELLS = 1000
+MAX_CELLS = 1000
 
 _AXES = {"XY": (0, 1, 2), "XZ": (0, 2, 1), "YZ": (1, 2, 0)}
 """For each plane, the two axes in it and the axis across it."""
@@ -24,7 +24,7 @@ class Grid(Display, plugin="rviz/Grid"):
 
     properties = (
         Property("Reference Frame", FIXED_FRAME, "the frame that the grid lies in"),
-        Property("Plane Cell Count", 10, "cells along the plane", minimum=1, maximum=MOST_CELLS),
+        Property("Plane Cell Count", 10, "cells along the plane", minimum=1, maximum=MAX_CELLS),
         Property("Normal Cell Count", 0, "cells across the plane; 0: a flat grid", minimum=0, maximum=50),
         Property("Cell Size", 1.0, "the side of a cell", unit="m", minimum=0.0001, maximum=1e4),
         Property("Line Style", "Lines", "thin lines or wide ones", choices=("Lines", "Billboards")),

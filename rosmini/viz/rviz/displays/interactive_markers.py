@@ -16,10 +16,10 @@ from rosmini.msgs import message_class
 from rosmini.ros.interactive_markers import InteractiveMarkerClient
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Display, Level
-from rosmini.viz.rviz.gaze import Gaze
-from rosmini.viz.rviz.handles import Control, Grip, Handle, pose_message
+from rosmini.viz.rviz.handles import Control, Drag, Handle, pose_message
 from rosmini.viz.rviz.primitives import DisplayError, Floats, Primitive, finite
 from rosmini.viz.rviz.properties import Property
+from rosmini.viz.rviz.rays import Ray
 
 if TYPE_CHECKING:
     from rosmini.core.graph.publisher import Publisher
@@ -28,7 +28,7 @@ Feedback = message_class("visualization_msgs/InteractiveMarkerFeedback")
 MenuEntry = message_class("visualization_msgs/MenuEntry")
 TYPE = "visualization_msgs/InteractiveMarkerUpdate"
 UPDATE = "/update"
-MOST_MARKERS = 1000
+MAX_MARKERS = 1000
 
 
 class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
@@ -55,7 +55,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         self._client = InteractiveMarkerClient()
         self._changed: set[tuple[str, str]] = set()
         self._publisher: Publisher | None = None
-        self._grip: Grip | None = None
+        self._drag: Drag | None = None
 
     # -- hearing -------------------------------------------------------------------------------------------------
 
@@ -71,7 +71,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
                 ("_full", "visualization_msgs/InteractiveMarkerInit", self._client.init),
                 ("", TYPE, self._client.update),
             ):
-                self.listen(context, f"{base}{UPDATE}{end}", kind, partial(self._take, take, context))
+                self.subscribe(context, f"{base}{UPDATE}{end}", kind, partial(self._take, take, context))
         except RosminiError as error:
             said = str(error).partition("\n")[0]
             self.set_status(Level.ERROR, "Topic", f"Error subscribing: {said}")
@@ -95,20 +95,20 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
     def reset(self) -> None:
         """Discard all markers."""
         self._client = InteractiveMarkerClient()
-        self.handles, self._changed, self._grip = {}, set(), None
+        self.handles, self._changed, self._drag = {}, set(), None
 
     def update(self, context: Context) -> None:
         """Apply updates and refresh the poses of frames; a marker that is being dragged is not replaced."""
         for key in sorted(self._changed):
-            if self._grip is None or self.handles.get(key) is not self._grip.handle:
+            if self._drag is None or self.handles.get(key) is not self._drag.handle:
                 self._changed.discard(key)
                 self._replace(key, context)
         for key, handle in self.handles.items():
-            self._settle(key[1], handle, context)
+            self._process_waiting(key[1], handle, context)
         topic = self._statuses.get("Topic")
         if topic is not None and topic.text.startswith("No messages"):
-            why = context.silence(self["Update Topic"], TYPE)
-            level = Level.ERROR if why.hopeless else Level.WARN
+            why = context.why_no_messages(self["Update Topic"], TYPE)
+            level = Level.ERROR if why.is_permanent else Level.WARN
             self.set_status(level, "Topic", f"No messages received: {why.text}")
         for server, state in self._client.servers.items():
             is_well, text = state.text(context.now_ns)
@@ -122,8 +122,8 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
             return
         if not message.controls:
             self.set_status(Level.OK, key[1], "Marker empty.")
-        elif len(self.handles) >= MOST_MARKERS:
-            self.set_status(Level.WARN, "Markers", f"Showing the first {MOST_MARKERS} markers")
+        elif len(self.handles) >= MAX_MARKERS:
+            self.set_status(Level.WARN, "Markers", f"Showing the first {MAX_MARKERS} markers")
         else:
             try:
                 handle = Handle(message, context.now_ns, transparent=self["Enable Transparency"])
@@ -132,19 +132,19 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
             else:
                 self.handles[key] = handle
 
-    def _settle(self, name: str, handle: Handle, context: Context) -> None:
+    def _process_waiting(self, name: str, handle: Handle, context: Context) -> None:
         """Look up the pose of the marker's frame: always if the marker is locked to it, otherwise once."""
-        heard = handle.heard
+        received = handle.received
         if not handle.is_locked and handle.is_placed:
             return
         try:
-            heard.place = context.place(heard.frame, heard.stamp_ns)
+            received.place = context.place(received.frame, received.stamp_ns)
             handle.is_placed = True
-            text = f"Locked to frame {heard.frame}" if handle.is_locked else "Position is fixed."
+            text = f"Locked to frame {received.frame}" if handle.is_locked else "Position is fixed."
             self.set_status(Level.OK, name, text)
         except TransformException as error:
             handle.is_placed = False
-            self.set_status(Level.ERROR, name, context.problem(heard.frame, error))
+            self.set_status(Level.ERROR, name, context.problem(received.frame, error))
 
     # -- drawing -------------------------------------------------------------------------------------------------
 
@@ -156,15 +156,15 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
                 continue
             try:
                 found += self._drawn(handle, context)
-                if handle.heard.notes:
-                    self.set_status(Level.WARN, name, "; ".join(handle.heard.notes))
+                if handle.received.notes:
+                    self.set_status(Level.WARN, name, "; ".join(handle.received.notes))
             except (DisplayError, TransformException) as error:
                 self.set_status(Level.ERROR, name, str(error).partition("\n")[0])
         return found
 
     def _drawn(self, handle: Handle, context: Context) -> list[Primitive]:
         found: list[Primitive] = []
-        is_beside = self.hides_inactive and self._grip is not None and self._grip.handle is not handle
+        is_beside = self.hides_inactive and self._drag is not None and self._drag.handle is not handle
         for control in handle.message.controls:
             if control.always_visible or (self.shows_controls and not is_beside):
                 found += handle.shapes(control, context)
@@ -185,35 +185,35 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         hint = nearest(name, names) or f"there are {', '.join(names) or 'none'}"
         raise DisplayError(f"no interactive marker {name!r:.60} is shown; {hint}")
 
-    def under(self, gaze: Gaze, context: Context) -> tuple[Handle, Any] | None:
+    def under(self, ray: Ray, context: Context) -> tuple[Handle, Any] | None:
         """Return the marker and its control that a line of sight in the fixed frame meets first, or None."""
         found: list[tuple[float, Handle, Any]] = []
         for handle in self.handles.values():
             if handle.is_placed:
-                found += [(depth, handle, control) for depth, control in handle.under(gaze, context)]
+                found += [(depth, handle, control) for depth, control in handle.under(ray, context)]
         return min(found, key=lambda each: each[0])[1:] if found else None
 
-    def press(self, handle: Handle, control: Any, at: Floats, gaze: Gaze | None = None) -> str:
+    def press(self, handle: Handle, control: Any, at: Floats, ray: Ray | None = None) -> str:
         """Press the mouse on a control, at a point (3,) of the fixed frame or along a line of sight; return a hint."""
-        self._grip = Grip(handle, control, at, gaze)
-        self._say(Feedback.MOUSE_DOWN, handle, control, self._grip.cursor(at, gaze))
+        self._drag = Drag(handle, control, at, ray)
+        self._say(Feedback.MOUSE_DOWN, handle, control, self._drag.cursor(at, ray))
         return str(control.description or _hint(control.interaction_mode))
 
-    def move(self, at: Floats, gaze: Gaze | None = None) -> str:
+    def move(self, at: Floats, ray: Ray | None = None) -> str:
         """Move the mouse to a point (3,) of the fixed frame or along a line of sight; the marker follows."""
-        grip = self._grip
-        if grip is None:
+        drag = self._drag
+        if drag is None:
             return ""
-        moved = grip.move(at, gaze)
-        self._say(Feedback.POSE_UPDATE if moved else Feedback.KEEP_ALIVE, grip.handle, grip.control)
-        return _where(grip.handle)
+        moved = drag.move(at, ray)
+        self._say(Feedback.POSE_UPDATE if moved else Feedback.KEEP_ALIVE, drag.handle, drag.control)
+        return _where(drag.handle)
 
     def release(self, at: Floats) -> str:
         """Release the mouse, and return the text for the status bar: the menu's entries if a menu opens."""
-        grip, self._grip = self._grip, None
-        if grip is None:
+        drag, self._drag = self._drag, None
+        if drag is None:
             return ""
-        handle, control = grip.handle, grip.control
+        handle, control = drag.handle, drag.control
         if control.interaction_mode == Control.BUTTON:
             self._say(Feedback.BUTTON_CLICK, handle, control, at)
         self._say(Feedback.MOUSE_UP, handle, control, at)
@@ -281,9 +281,9 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
             menu_entry_id=menu_entry_id,
         )
         base = np.eye(4) if handle.is_locked else handle.frame
-        feedback.header.frame_id = handle.heard.frame if handle.is_locked else context.fixed_frame
-        if handle.is_locked and handle.heard.frame.lstrip("/") != context.fixed_frame:
-            stamp_ns = context.tree.latest_common_time(context.fixed_frame, handle.heard.frame.lstrip("/"))
+        feedback.header.frame_id = handle.received.frame if handle.is_locked else context.fixed_frame
+        if handle.is_locked and handle.received.frame.lstrip("/") != context.fixed_frame:
+            stamp_ns = context.tree.latest_common_time(context.fixed_frame, handle.received.frame.lstrip("/"))
             feedback.header.stamp = Time.from_nsec(stamp_ns)
         feedback.pose = pose_message(matrix_product(base, handle.pose))
         if at is not None:
@@ -303,7 +303,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
 
 def _where(handle: Handle) -> str:
     at = ", ".join(f"{each:g}" for each in np.round(handle.pose[:3, 3], 3) + 0.0)
-    return f"{handle.message.name}: {at} in {handle.heard.frame}"
+    return f"{handle.message.name}: {at} in {handle.received.frame}"
 
 
 def _hint(mode: int) -> str:

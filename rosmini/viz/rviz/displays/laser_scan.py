@@ -10,9 +10,9 @@ from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.points_display import PointsDisplay
 from rosmini.viz.rviz.points_style import styled
 from rosmini.viz.rviz.primitives import DisplayError, Primitive
-from rosmini.viz.rviz.topic_display import Heard
+from rosmini.viz.rviz.topic_display import Received
 
-MOST_BEAMS = 1_000_000
+MAX_BEAMS = 1_000_000
 
 
 class LaserScan(PointsDisplay, plugin="rviz/LaserScan"):
@@ -20,13 +20,13 @@ class LaserScan(PointsDisplay, plugin="rviz/LaserScan"):
 
     message = "sensor_msgs/LaserScan"
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the points."""
         del context
-        scan = heard.message
+        scan = received.message
         ranges = np.asarray(scan.ranges, dtype=float)
-        if len(ranges) > MOST_BEAMS:
-            raise DisplayError(f"a scan of {len(ranges)} ranges is too long: at most {MOST_BEAMS}")
+        if len(ranges) > MAX_BEAMS:
+            raise DisplayError(f"a scan of {len(ranges)} ranges is too long: at most {MAX_BEAMS}")
         if not np.isfinite([scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max]).all():
             raise DisplayError(
                 "Message contained invalid floating point values (nans or infs) beside its ranges"
@@ -37,4 +37,4 @@ class LaserScan(PointsDisplay, plugin="rviz/LaserScan"):
         local = np.column_stack([reach * np.cos(angles), reach * np.sin(angles), np.zeros(len(reach))])
         intensities = np.asarray(scan.intensities, dtype=float)
         channels = {"intensity": intensities[hit]} if len(intensities) == len(ranges) else {}
-        yield styled(heard.points(local), self, channels, local)
+        yield styled(received.points(local), self, channels, local)

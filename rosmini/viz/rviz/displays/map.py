@@ -15,9 +15,9 @@ from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.primitives import DisplayError, Pixels, Primitive, Texture
 from rosmini.viz.rviz.properties import Property
 from rosmini.viz.rviz.thinning import thinned
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
-MOST_CELLS = 100_000_000
+MAX_CELLS = 100_000_000
 
 
 class Map(TopicDisplay, plugin="rviz/Map"):
@@ -38,20 +38,20 @@ class Map(TopicDisplay, plugin="rviz/Map"):
             self.set_status(Level.WARN, "Map", "No map received")
             try:
                 topic, kind = f"{self.topic}_updates", "map_msgs/OccupancyGridUpdate"
-                self.listen(context, topic, kind, self._change)
+                self.subscribe(context, topic, kind, self._change)
                 self.set_status(Level.OK, "Update Topic", "OK")
             except RosminiError as error:
                 self.fail("Update Topic", error)
 
-    def accept(self, heard: Heard, context: Context) -> bool:
+    def accept(self, received: Received, context: Context) -> bool:
         """Accept a map; its cells are copied, because updates change them."""
         del context
-        info, count = heard.message.info, len(heard.message.data)
+        info, count = received.message.info, len(received.message.data)
         width, height = int(info.width), int(info.height)
         if width * height == 0:
             raise DisplayError(f"Map is zero-sized ({width}x{height})")
-        if width * height > MOST_CELLS:
-            raise DisplayError(f"a map of {width}x{height} cells is too large: at most {MOST_CELLS} cells")
+        if width * height > MAX_CELLS:
+            raise DisplayError(f"a map of {width}x{height} cells is too large: at most {MAX_CELLS} cells")
         if count != width * height:
             raise DisplayError(
                 f"Data size doesn't match width*height: width = {width}, height = {height}, data size = {count}"
@@ -59,13 +59,13 @@ class Map(TopicDisplay, plugin="rviz/Map"):
         if not 0 < info.resolution < 1e6:
             raise DisplayError(f"a resolution of {info.resolution:g} m is invalid")
         self._cells: Pixels = (
-            np.array(heard.message.data, dtype=np.int8).view(np.uint8).reshape(height, width)
+            np.array(received.message.data, dtype=np.int8).view(np.uint8).reshape(height, width)
         )
         return True
 
     def _change(self, update: Any) -> None:
         """Apply an update: a rectangle of new cells."""
-        if not self.kept:
+        if not self.stored:
             return
         rows, columns = int(update.height), int(update.width)
         x, y = int(update.x), int(update.y)
@@ -78,24 +78,24 @@ class Map(TopicDisplay, plugin="rviz/Map"):
             return
         fresh = np.array(update.data, dtype=np.int8).view(np.uint8).reshape(rows, columns)
         self._cells[y : y + rows, x : x + columns] = fresh
-        self.kept[-1].drawn = None
+        self.stored[-1].drawn = None
         self.set_status(Level.OK, "Update", "Update OK")
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the cells as a texture, thinned to a visible resolution."""
         del context
-        info = heard.message.info
-        origin = heard.local(info.origin)
+        info = received.message.info
+        origin = received.local(info.origin)
         height, width = self._cells.shape
         cells, factor = thinned(self._cells, self["Color Scheme"])
         pixels = painted(cells, self["Color Scheme"])
         pixels[..., 3] = np.round(pixels[..., 3] * float(self["Alpha"]))
         side = factor * float(info.resolution)
         size = (cells.shape[1] * side, cells.shape[0] * side)
-        place = matrix(compose(heard.place, origin))
+        place = matrix(compose(received.place, origin))
         self.set_status(Level.OK, "Map", f"Map received: {width} x {height} cells of {info.resolution:g} m")
         yield Texture(pixels, size, place, behind=self["Draw Behind"])
 
-    def moment(self, heard: Heard) -> int:
+    def moment(self, received: Received) -> int:
         """Return the stamp if it is to be used, otherwise 0 for now."""
-        return heard.stamp_ns if self["Use Timestamp"] else 0
+        return received.stamp_ns if self["Use Timestamp"] else 0

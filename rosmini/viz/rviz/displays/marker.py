@@ -15,11 +15,11 @@ from rosmini.viz.rviz.marker_checks import check
 from rosmini.viz.rviz.marker_shapes import marker_primitives
 from rosmini.viz.rviz.primitives import DisplayError, Primitive
 from rosmini.viz.rviz.properties import Property, Tree
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
-MOST_MARKERS = 10_000
-MOST_NAMESPACES = 500
-MOST_STATUSES = 30
+MAX_MARKERS = 10_000
+MAX_NAMESPACES = 500
+MAX_STATUSES = 30
 """Maximum number of markers with a separate status line."""
 ARRAY = "visualization_msgs/MarkerArray"
 
@@ -41,9 +41,9 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
 
     def __init__(self, name: str = "", tree: Any = None) -> None:
         super().__init__(name, tree)
-        self.markers: dict[tuple[str, int], Heard] = {}
+        self.markers: dict[tuple[str, int], Received] = {}
         """The markers by namespace and id."""
-        self._silent: set[tuple[str, int]] = set()
+        self._without_status: set[tuple[str, int]] = set()
         self["Namespaces"] = self["Namespaces"]  # a copy, because new namespaces are added to it
 
     # -- hearing -------------------------------------------------------------------------------------------------
@@ -52,24 +52,26 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         """Subscribe to markers, and to arrays of them."""
         super().start(context)
         if self.topic:
-            self.listen_besides(context)
+            self.subscribe_to_arrays(context)
 
-    def listen_besides(self, context: Context) -> None:
+    def subscribe_to_arrays(self, context: Context) -> None:
         """Subscribe to the topic of arrays."""
         try:
-            self.listen(context, f"{self.topic}_array", ARRAY, lambda array: self.hear_array(array, context))
+            self.subscribe(
+                context, f"{self.topic}_array", ARRAY, lambda array: self.receive_array(array, context)
+            )
         except RosminiError as error:
             self.fail("Topic", error)
 
-    def hear_array(self, array: Any, context: Context) -> None:
+    def receive_array(self, array: Any, context: Context) -> None:
         """Process the markers of an array, one after another."""
-        before = self.received
-        for marker in array.markers[:MOST_MARKERS]:
-            self.hear(marker, context)
-        self.received = before
+        before = self.message_count
+        for marker in array.markers[:MAX_MARKERS]:
+            self.receive(marker, context)
+        self.message_count = before
         self.count()
 
-    def hear(self, message: Any, context: Context) -> None:
+    def receive(self, message: Any, context: Context) -> None:
         """Process a marker; deleting needs no transform."""
         if message.action in (MarkerMessage.DELETE, MarkerMessage.DELETEALL):
             self.count()
@@ -79,19 +81,19 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
                 for each in list(self.markers):
                     self._drop(each)
             return
-        super().hear(message, context)
+        super().receive(message, context)
 
-    def transform_status(self, heard: Heard) -> str:
+    def transform_status(self, received: Received) -> str:
         """Return the marker's name: each marker has a separate status line."""
-        return _named(heard.message.ns, heard.message.id)
+        return _named(received.message.ns, received.message.id)
 
-    def accept(self, heard: Heard, context: Context) -> bool:
+    def accept(self, received: Received, context: Context) -> bool:
         """Accept a marker whose pose is known."""
         del context
-        marker = heard.message
+        marker = received.message
         name = (marker.ns, marker.id)
         self.clear_status(_named(*name))
-        self._silent.discard(name)
+        self._without_status.discard(name)
         if marker.action != MarkerMessage.ADD:
             self._say(name, Level.ERROR, f"Unknown marker action: {marker.action}")
             return False
@@ -102,84 +104,86 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         if level is Level.ERROR:
             return False
         namespaces = self["Namespaces"]
-        if len(namespaces) < MOST_NAMESPACES:
+        if len(namespaces) < MAX_NAMESPACES:
             namespaces.setdefault(marker.ns, True)
-        if len(self.markers) < MOST_MARKERS:
-            self.markers[name] = heard
+        if len(self.markers) < MAX_MARKERS:
+            self.markers[name] = received
         return False
 
     def reset(self) -> None:
         """Discard all markers."""
         super().reset()
         self.markers = {}
-        self._silent = set()
+        self._without_status = set()
 
     def _drop(self, name: tuple[str, int]) -> None:
         self.markers.pop(name, None)
         self.clear_status(_named(*name))
-        self._silent.discard(name)
+        self._without_status.discard(name)
 
     def _say(self, name: tuple[str, int], level: Level, text: str) -> None:
         """Give a marker a status line, unless there are too many already."""
         own = _named(*name)
-        if own in self._statuses or len(self._statuses) < MOST_STATUSES:
+        if own in self._statuses or len(self._statuses) < MAX_STATUSES:
             self.set_status(level, own, text)
         else:
-            self._silent.add(name)
+            self._without_status.add(name)
 
     # -- drawing -------------------------------------------------------------------------------------------------
 
     def update(self, context: Context) -> None:
         """Remove markers whose lifetime has ended, and move locked ones with their frames."""
         super().update(context)
-        for name, heard in list(self.markers.items()):
-            lifetime = heard.message.lifetime.to_nsec()
-            if lifetime > 0 and context.now_ns - heard.arrived_ns >= lifetime:
+        for name, received in list(self.markers.items()):
+            lifetime = received.message.lifetime.to_nsec()
+            if lifetime > 0 and context.now_ns - received.arrived_ns >= lifetime:
                 self._drop(name)
-            elif heard.message.frame_locked:
-                self._follow_frame(name, heard, context)
+            elif received.message.frame_locked:
+                self._follow_frame(name, received, context)
 
-    def _follow_frame(self, name: tuple[str, int], heard: Heard, context: Context) -> None:
+    def _follow_frame(self, name: tuple[str, int], received: Received, context: Context) -> None:
         try:
-            place: Rigid = context.place(heard.frame)
+            place: Rigid = context.place(received.frame)
         except TransformException as error:
-            self._say(name, Level.ERROR, context.problem(heard.frame, error))
+            self._say(name, Level.ERROR, context.problem(received.frame, error))
             return
-        if place != heard.place:
-            heard.place, heard.drawn = place, None
+        if place != received.place:
+            received.place, received.drawn = place, None
 
     def primitives(self, context: Context) -> Iterable[Primitive]:
         """Return the primitives of the markers in visible namespaces, in the order of namespaces and ids."""
         found: list[Primitive] = []
         shown = 0
         namespaces = self["Namespaces"]
-        for name, heard in sorted(self.markers.items(), key=lambda item: item[0]):
+        for name, received in sorted(self.markers.items(), key=lambda item: item[0]):
             if namespaces.get(name[0], True) is False:
                 continue
-            if heard.drawn is None:
-                heard.drawn = ()
+            if received.drawn is None:
+                received.drawn = ()
                 try:
-                    heard.drawn = tuple(self.draw(heard, context))
+                    received.drawn = tuple(self.draw(received, context))
                 except DisplayError as error:
                     self._say(name, Level.ERROR, str(error).partition("\n")[0])
-            shown += bool(heard.drawn)
-            found += heard.drawn
-        if self.received:
+            shown += bool(received.drawn)
+            found += received.drawn
+        if self.message_count:
             names = {ns for ns, _ in self.markers}
             text = f"Showing [{shown}] of [{len(self.markers)}] markers in [{len(names)}] namespaces"
             self.set_status(Level.OK, "Markers", text)
-        if self._silent:
-            self.set_status(Level.WARN, "Others", f"{len(self._silent)} more markers have warnings or errors")
+        if self._without_status:
+            self.set_status(
+                Level.WARN, "Others", f"{len(self._without_status)} more markers have warnings or errors"
+            )
         else:
             self.clear_status("Others")
-        if len(self.markers) >= MOST_MARKERS:
-            self.set_status(Level.WARN, "Markers", f"Showing the first {MOST_MARKERS} markers")
+        if len(self.markers) >= MAX_MARKERS:
+            self.set_status(Level.WARN, "Markers", f"Showing the first {MAX_MARKERS} markers")
         return found
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Return the primitives of a marker."""
         del context
-        return marker_primitives(heard.message, heard.pose(heard.message.pose))
+        return marker_primitives(received.message, received.pose(received.message.pose))
 
 
 def _named(ns: str, number: int) -> str:

@@ -16,12 +16,12 @@ class MarkerArray(Marker, plugin="rviz/MarkerArray"):
     message = ARRAY
     properties = (Property("Marker Topic", "visualization_marker_array", "the topic to subscribe to"),)
 
-    def listen_besides(self, context: Context) -> None:
+    def subscribe_to_arrays(self, context: Context) -> None:
         """Do nothing: the topic itself has arrays."""
 
-    def hear(self, message: Any, context: Context) -> None:
+    def receive(self, message: Any, context: Context) -> None:
         """Process an array, or one of its markers."""
         if hasattr(message, "markers"):
-            self.hear_array(message, context)
+            self.receive_array(message, context)
         else:
-            super().hear(message, context)
+            super().receive(message, context)

@@ -12,7 +12,7 @@ from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.pose_style import COVARIANCE_PROPERTIES, covariance_shape, pose_properties, pose_shape
 from rosmini.viz.rviz.primitives import INVALID, DisplayError, Primitive
 from rosmini.viz.rviz.properties import Property
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 
 class Odometry(TopicDisplay, plugin="rviz/Odometry"):
@@ -28,27 +28,27 @@ class Odometry(TopicDisplay, plugin="rviz/Odometry"):
         *COVARIANCE_PROPERTIES,
     )
 
-    def accept(self, heard: Heard, context: Context) -> bool:
+    def accept(self, received: Received, context: Context) -> bool:
         """Return True if the pose is far enough from the last one."""
         del context
-        found = heard.message
+        found = received.message
         if not np.isfinite(np.asarray(found.pose.covariance, dtype=float)).all():
             raise DisplayError(INVALID)
-        now = heard.local(found.pose.pose)
-        if self.kept:
-            last = self.kept[-1].local(self.kept[-1].message.pose.pose)
+        now = received.local(found.pose.pose)
+        if self.stored:
+            last = self.stored[-1].local(self.stored[-1].message.pose.pose)
             near = math.dist(now[:3], last[:3]) < self["Position Tolerance"]
             if near and _turned(now, last) < self["Angle Tolerance"]:
                 return False
         return True
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield an arrow and its uncertainty."""
         del context
-        found = heard.message.pose
-        pose = heard.pose(found.pose)
+        found = received.message.pose
+        pose = received.pose(found.pose)
         yield from pose_shape(pose, self, "Shape/")
-        yield from covariance_shape(pose, found.covariance, self, heard)
+        yield from covariance_shape(pose, found.covariance, self, received)
 
 
 def _turned(a: Rigid, b: Rigid) -> float:

@@ -11,9 +11,9 @@ from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.primitives import DisplayError, Floats, Lines, Primitive
 from rosmini.viz.rviz.properties import Colour, Property, Vector
 from rosmini.viz.rviz.shapes import arrow, axes
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
-MOST_POSES, MOST_SHAPES = 200_000, 500
+MAX_POSES, MAX_SHAPES = 200_000, 500
 
 
 def _length(name: str, default: float) -> Property:
@@ -38,20 +38,20 @@ class Path(TopicDisplay, plugin="rviz/Path"):
         _length("Head Length", 0.2), _length("Shaft Diameter", 0.1), _length("Head Diameter", 0.3),
     )  # fmt: skip
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the line and the poses."""
         del context
-        poses = heard.message.poses
-        if len(poses) > MOST_POSES:
-            raise DisplayError(f"a path of {len(poses)} poses is too long: at most {MOST_POSES}")
-        points = heard.points([each.pose.position for each in poses]) + np.array(self["Offset"])
+        poses = received.message.poses
+        if len(poses) > MAX_POSES:
+            raise DisplayError(f"a path of {len(poses)} poses is too long: at most {MAX_POSES}")
+        points = received.points([each.pose.position for each in poses]) + np.array(self["Offset"])
         width = self["Line Width"] if self["Line Style"] == "Billboards" else 0.0
         self.set_status(Level.OK if len(points) else Level.WARN, "Path", f"{len(points)} poses")
         yield Lines(points, self["Color"].rgba(self["Alpha"]), width)
         if self["Pose Style"] != "None":
-            step = -(-len(poses) // MOST_SHAPES) or 1
+            step = -(-len(poses) // MAX_SHAPES) or 1
             for each in poses[::step]:
-                yield from self._shape(heard.pose(each.pose))
+                yield from self._shape(received.pose(each.pose))
 
     def _shape(self, pose: Floats) -> Iterator[Primitive]:
         pose = pose.copy()

@@ -9,7 +9,7 @@ from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.points_display import PointsDisplay
 from rosmini.viz.rviz.points_style import styled
 from rosmini.viz.rviz.primitives import Primitive
-from rosmini.viz.rviz.topic_display import Heard
+from rosmini.viz.rviz.topic_display import Received
 
 
 class PointCloud2(PointsDisplay, plugin="rviz/PointCloud2"):
@@ -17,8 +17,8 @@ class PointCloud2(PointsDisplay, plugin="rviz/PointCloud2"):
 
     message = "sensor_msgs/PointCloud2"
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the points."""
         del context
-        local, channels = channels_of(read_cloud(heard.message))
-        yield styled(heard.points(local), self, channels, local)
+        local, channels = channels_of(read_cloud(received.message))
+        yield styled(received.points(local), self, channels, local)

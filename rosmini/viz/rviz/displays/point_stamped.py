@@ -10,7 +10,7 @@ from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.primitives import INVALID, DisplayError, Primitive
 from rosmini.viz.rviz.properties import Colour, Property
 from rosmini.viz.rviz.shapes import ball
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 
 class PointStamped(TopicDisplay, plugin="rviz/PointStamped"):
@@ -25,11 +25,11 @@ class PointStamped(TopicDisplay, plugin="rviz/PointStamped"):
         Property("History Length", 1, "how many points stay", minimum=1, maximum=10_000),
     )
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield a ball."""
         del context
         pose = np.eye(4)
-        pose[:3, 3] = heard.points([heard.message.point])[0]
+        pose[:3, 3] = received.points([received.message.point])[0]
         if not np.isfinite(pose).all():
             raise DisplayError(INVALID)
         yield ball(pose, self["Color"].rgba(self["Alpha"]), (2.0 * self["Radius"],) * 3)

@@ -8,7 +8,7 @@ from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.primitives import Primitive
 from rosmini.viz.rviz.properties import Colour, Property
 from rosmini.viz.rviz.shapes import outline
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 
 class Polygon(TopicDisplay, plugin="rviz/Polygon"):
@@ -20,7 +20,7 @@ class Polygon(TopicDisplay, plugin="rviz/Polygon"):
         Property("Alpha", 1.0, "how opaque it is", minimum=0.0, maximum=1.0),
     )
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the line."""
         del context
-        yield outline(heard.points(heard.message.polygon.points), self["Color"].rgba(self["Alpha"]))
+        yield outline(received.points(received.message.polygon.points), self["Color"].rgba(self["Alpha"]))

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.pose_style import pose_properties, pose_shape
 from rosmini.viz.rviz.primitives import Primitive
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 
 class Pose(TopicDisplay, plugin="rviz/Pose"):
@@ -16,7 +16,7 @@ class Pose(TopicDisplay, plugin="rviz/Pose"):
     message = "geometry_msgs/PoseStamped"
     properties = pose_properties()
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the pose."""
         del context
-        yield from pose_shape(heard.pose(heard.message.pose), self)
+        yield from pose_shape(received.pose(received.message.pose), self)

@@ -13,10 +13,10 @@ from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.primitives import Floats, Lines, Primitive
 from rosmini.viz.rviz.properties import Colour, Property
 from rosmini.viz.rviz.shapes import arrow, axes, flat_arrow
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 SHAPES = ("Arrow (Flat)", "Arrow (3D)", "Axes", "Arrow")
-MOST_FLAT, MOST_SOLID = 20_000, 500
+MAX_FLAT, MAX_SOLID = 20_000, 500
 """Maximum numbers of poses drawn; of more, an evenly spaced selection is drawn."""
 
 
@@ -37,17 +37,17 @@ class PoseArray(TopicDisplay, plugin="rviz/PoseArray"):
         _length("Shaft Radius", 0.01),
     )  # fmt: skip
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the poses."""
         del context
-        poses = heard.message.poses
+        poses = received.message.poses
         is_flat = self["Shape"] == "Arrow (Flat)"
-        step = -(-len(poses) // (MOST_FLAT if is_flat else MOST_SOLID)) or 1
-        shown = [heard.local(pose) for pose in poses[::step]]
+        step = -(-len(poses) // (MAX_FLAT if is_flat else MAX_SOLID)) or 1
+        shown = [received.local(pose) for pose in poses[::step]]
         text = f"Showing [{len(shown)}] of [{len(poses)}] poses"
         self.set_status(Level.OK if step == 1 else Level.WARN, "Poses", text)
         colour = self["Color"].rgba(self["Alpha"])
-        base: Floats = matrix(heard.place)
+        base: Floats = matrix(received.place)
         placed = [matrix_product(base, matrix(pose)) for pose in shown]
         if is_flat:
             if placed:

@@ -13,7 +13,7 @@ from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.primitives import INVALID, DisplayError, Primitive
 from rosmini.viz.rviz.properties import Colour, Property
 from rosmini.viz.rviz.shapes import cone
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 
 class Range(TopicDisplay, plugin="rviz/Range"):
@@ -27,10 +27,10 @@ class Range(TopicDisplay, plugin="rviz/Range"):
         Property("Buffer Length", 1, "how many messages stay", minimum=1, maximum=1000),
     )
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the cone. A sensor that only detects (minimum range = maximum range) reports -inf for a near object."""
         del context
-        found = heard.message
+        found = received.message
         low, high, reach = float(found.min_range), float(found.max_range), float(found.range)
         if not all(map(math.isfinite, (low, high, found.field_of_view))):
             raise DisplayError(INVALID)
@@ -41,6 +41,6 @@ class Range(TopicDisplay, plugin="rviz/Range"):
             return
         self.set_status(Level.OK, "Range", f"{reach:.2f} m of {low:g} to {high:g} m")
         half = min(max(float(found.field_of_view) / 2, 0.0), math.radians(85))
-        shape = cone(matrix(heard.place), self["Color"].rgba(self["Alpha"]), reach, reach * math.tan(half))
+        shape = cone(matrix(received.place), self["Color"].rgba(self["Alpha"]), reach, reach * math.tan(half))
         if np.isfinite(shape.placed).all():
             yield shape

@@ -91,9 +91,9 @@ class RobotModel(Display, plugin="rviz/RobotModel"):
         except RosminiError as error:
             self.set_status(Level.ERROR, "URDF", str(error).partition("\n")[0])
             return False
-        wrong = [note for notes in robot.left_out.values() for note in notes]
-        if wrong:
-            self.set_status(Level.ERROR, "URDF", wrong[0])
+        errors = [note for notes in robot.left_out.values() for note in notes]
+        if errors:
+            self.set_status(Level.ERROR, "URDF", errors[0])
         else:
             self.set_status(Level.OK, "URDF", "URDF parsed OK")
         for link in robot.links:

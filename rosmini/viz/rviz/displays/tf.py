@@ -19,7 +19,7 @@ LENGTH, RADIUS, LETTER = 0.2, 0.02, 0.1
 """Dimensions of the axes, and height of the letters of names [m], at scale 1."""
 SHAFT, HEAD = np.array([0.8, 0.8, 0.3, 1.0]), np.array([1.0, 0.1, 0.6, 1.0])
 """Colours of the arrows: yellow, with a pink end at the parent."""
-MOST_FRAMES = 2000
+MAX_FRAMES = 2000
 
 
 class TF(Display, plugin="rviz/TF"):
@@ -52,10 +52,10 @@ class TF(Display, plugin="rviz/TF"):
         for each in self.statuses:
             self.clear_status(each.name)
         shown = [frame for frame in sorted(context.tree) if self._is_shown(frame)]
-        if len(shown) > MOST_FRAMES:
-            self.set_status(Level.WARN, "Frames", f"Showing {MOST_FRAMES} of {len(shown)} frames")
+        if len(shown) > MAX_FRAMES:
+            self.set_status(Level.WARN, "Frames", f"Showing {MAX_FRAMES} of {len(shown)} frames")
         poses: dict[str, Floats] = {}
-        for frame in shown[:MOST_FRAMES]:
+        for frame in shown[:MAX_FRAMES]:
             try:
                 poses[frame] = matrix(context.place(frame))
             except TransformException as error:

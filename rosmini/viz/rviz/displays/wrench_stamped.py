@@ -15,9 +15,9 @@ from rosmini.viz.rviz.marker_shapes import HEAD, SHAFT, towards
 from rosmini.viz.rviz.primitives import Floats, Lines, Primitive, finite
 from rosmini.viz.rviz.properties import Colour, Property
 from rosmini.viz.rviz.shapes import arrow
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
-LEAST = 1e-9
+MIN_LENGTH = 1e-9
 
 
 class WrenchStamped(TopicDisplay, plugin="rviz/WrenchStamped"):
@@ -36,14 +36,14 @@ class WrenchStamped(TopicDisplay, plugin="rviz/WrenchStamped"):
         Property("History Length", 1, "how many messages are shown", minimum=1, maximum=100_000),
     )
 
-    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+    def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
         """Yield the two arrows."""
         del context
-        wrench, place = heard.message.wrench, matrix(heard.place)
+        wrench, place = received.message.wrench, matrix(received.place)
         for vector, name in ((wrench.force, "Force"), (wrench.torque, "Torque")):
             along: Floats = finite([(vector.x, vector.y, vector.z)], 3)[0] * self[f"{name} Arrow Scale"]
             length, width = norm(along), self["Arrow Width"]
-            if length > (width if self["Hide Small Values"] else LEAST):
+            if length > (width if self["Hide Small Values"] else MIN_LENGTH):
                 colour = self[f"{name} Color"].rgba(self["Alpha"])
                 pose = matrix_product(place, towards(np.zeros(3), along))
                 yield arrow(

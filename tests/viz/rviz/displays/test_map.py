@@ -8,7 +8,7 @@ import pytest
 from rosmini.msgs.map_msgs.msg import OccupancyGridUpdate
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.viz.map_colours import colours_of
-from rosmini.viz.rviz.thinning import MOST_SIDE, thinned
+from rosmini.viz.rviz.thinning import MAX_SIDE, thinned
 
 
 def grid(cells, resolution=0.5) -> OccupancyGrid:
@@ -61,9 +61,9 @@ def test_updates_change_a_part(stage, statuses):
 )
 def test_maps_that_are_none(stage, statuses, change, said):
     scene, display = stage.display("Map", "/map")
-    wrong = grid(np.zeros((2, 3)))
-    change(wrong)
-    stage.publish("/map", wrong, "map")
+    errors = grid(np.zeros((2, 3)))
+    change(errors)
+    stage.publish("/map", errors, "map")
     assert scene.update()[0].primitives == ()
     level, text = statuses(display)["Topic"]
     assert level == "Error"
@@ -77,7 +77,7 @@ def test_a_large_map_is_thinned_and_its_walls_stay(stage):
     scene, _ = stage.display("Map", "/map", Alpha=1.0)
     stage.publish("/map", grid(cells, 0.05), "map")
     (texture,) = scene.update()[0].primitives
-    assert max(texture.pixels.shape[:2]) <= MOST_SIDE
+    assert max(texture.pixels.shape[:2]) <= MAX_SIDE
     middle = texture.pixels[texture.pixels.shape[0] // 2]
     assert (middle[:, :3] == 0).all(axis=1).sum() == 1
     assert texture.size[0] == pytest.approx(200.0, rel=0.01)
@@ -85,7 +85,7 @@ def test_a_large_map_is_thinned_and_its_walls_stay(stage):
 
 def test_the_least_occupied_cell_never_hides_another():
     cells = np.array([[255, 100], [0, 255]], dtype=np.uint8)
-    big = np.repeat(np.repeat(cells, MOST_SIDE, axis=0), MOST_SIDE, axis=1)
+    big = np.repeat(np.repeat(cells, MAX_SIDE, axis=0), MAX_SIDE, axis=1)
     small, factor = thinned(big, "map")
     assert factor == 2
     assert small[0, -1] == 100

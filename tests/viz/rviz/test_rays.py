@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rosmini.viz.rviz.gaze import depths, from_above, on_axis, on_plane
 from rosmini.viz.rviz.primitives import Mesh
+from rosmini.viz.rviz.rays import depths, on_axis, on_plane, ray_from_above
 
 EYE = np.array([0.0, -5.0, 5.0])
 DOWN = np.array([0.0, 1.0, -1.0]) / np.sqrt(2)
@@ -19,9 +19,9 @@ def test_a_line_of_sight_meets_the_faces_before_the_eye_and_no_others():
     assert depths(mesh, (EYE, DOWN)) == pytest.approx([5 * np.sqrt(2)])
     assert depths(mesh, (EYE, Y)) == []
     assert depths(mesh, (np.array([-0.9, 0.9, 5.0]), -Z)) == []  # beside the diagonal
-    high = from_above(np.array([0.5, -0.5, 0.0]))
+    high = ray_from_above(np.array([0.5, -0.5, 0.0]))
     assert sorted(high[0][2] - each for each in depths(mesh, high)) == pytest.approx([0.0, 10.0])
-    outside = from_above(np.array([1.05, -0.5, 0.0]))
+    outside = ray_from_above(np.array([1.05, -0.5, 0.0]))
     assert depths(mesh, outside) == []
     assert len(depths(mesh, outside, edge=0.05)) == 2
 

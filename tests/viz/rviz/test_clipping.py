@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from rosmini.viz.rviz import look_from, still
-from rosmini.viz.rviz.before_eye import NEAR, rectangles, seen
+from rosmini.viz.rviz.clipping import NEAR, rectangles, seen
 from rosmini.viz.rviz.primitives import Lines, Mesh, Points, Texture
 from rosmini.viz.rviz.projection import Perspective
 from rosmini.viz.view import ViewError

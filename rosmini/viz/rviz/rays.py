@@ -8,7 +8,7 @@ from rosmini.core.geometry.products import matrix_product, scalar_product
 
 from .primitives import Floats, Mesh
 
-Gaze = tuple[Floats, Floats]
+Ray = tuple[Floats, Floats]
 """A line of sight: its start (3,), and its direction (3,), of length 1, away from the viewer."""
 
 HIGH = 1e4
@@ -16,15 +16,15 @@ HIGH = 1e4
 _PARALLEL = 1e-6
 
 
-def from_above(point: Floats) -> Gaze:
+def ray_from_above(point: Floats) -> Ray:
     """Return the line of sight straight down to a point (3,)."""
     return np.array([point[0], point[1], HIGH]), np.array([0.0, 0.0, -1.0])
 
 
-def depths(mesh: Mesh, gaze: Gaze, edge: float = 0.0) -> list[float]:
+def depths(mesh: Mesh, ray: Ray, edge: float = 0.0) -> list[float]:
     """Return the distances at which a line of sight meets faces [m]; `edge` extends faces by this share."""
     triangles = mesh.placed[mesh.faces]
-    start, ahead = gaze
+    start, ahead = ray
     u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     across = np.cross(ahead, v)
     area = (u * across).sum(axis=1)
@@ -39,9 +39,9 @@ def depths(mesh: Mesh, gaze: Gaze, edge: float = 0.0) -> list[float]:
     return result
 
 
-def on_axis(gaze: Gaze, point: Floats, axis: Floats) -> Floats | None:
+def on_axis(ray: Ray, point: Floats, axis: Floats) -> Floats | None:
     """Return the point (3,) on the line through `point` along `axis` nearest to a line of sight; None if parallel."""
-    start, ahead = gaze
+    start, ahead = ray
     slant = scalar_product(ahead, axis)
     if 1 - slant * slant < _PARALLEL:
         return None
@@ -52,9 +52,9 @@ def on_axis(gaze: Gaze, point: Floats, axis: Floats) -> Floats | None:
     return found
 
 
-def on_plane(gaze: Gaze, point: Floats, normal: Floats) -> Floats | None:
+def on_plane(ray: Ray, point: Floats, normal: Floats) -> Floats | None:
     """Return where a line of sight meets the plane through `point` with this `normal`; None if it does not."""
-    start, ahead = gaze
+    start, ahead = ray
     slant = scalar_product(ahead, normal)
     if abs(slant) < _PARALLEL:
         return None

@@ -20,33 +20,33 @@ STEPS = (16, 32, 64)
 """Steps to which colour channels are rounded if a map has too many colours."""
 
 
-def seen(primitive: Primitive, look: Perspective) -> Primitive:
+def clipped(primitive: Primitive, projection: Perspective) -> Primitive:
     """Return a primitive without the parts behind the eye."""
     if isinstance(primitive, Points):
-        ahead = _away(primitive.points, look) > NEAR
+        ahead = _distances(primitive.points, projection) > NEAR
         colours = primitive.colours if primitive.colours.ndim == 1 else primitive.colours[ahead]
         return replace(primitive, points=primitive.points[ahead], colours=colours)
     if isinstance(primitive, Mesh):
-        faced = (_away(primitive.placed, look) > NEAR)[primitive.faces].all(axis=1)
+        faced = (_distances(primitive.placed, projection) > NEAR)[primitive.faces].all(axis=1)
         colours = primitive.colours if primitive.colours.ndim == 1 else primitive.colours[faced]
         return replace(primitive, faces=primitive.faces[faced], colours=colours)
     if isinstance(primitive, Lines):
-        return _cut(primitive, look)
+        return _clipped_lines(primitive, projection)
     return primitive
 
 
-def _away(points: Floats, look: Perspective) -> Floats:
+def _distances(points: Floats, projection: Perspective) -> Floats:
     """Return the distance (n,) of points (n, 3) ahead of the eye [m]."""
-    return -look.nearness(points)
+    return -projection.nearness(points)
 
 
-def _cut(lines: Lines, look: Perspective) -> Lines:
+def _clipped_lines(lines: Lines, projection: Perspective) -> Lines:
     """Clip segments in front of the eye."""
-    away = _away(lines.points, look)
-    if not len(away) or away.min() > NEAR:
+    distances = _distances(lines.points, projection)
+    if not len(distances) or distances.min() > NEAR:
         return lines
     segments, colours = lines.segments(), lines.segment_colours()
-    first, last = (_away(segments[:, i], look) for i in (0, 1))
+    first, last = (_distances(segments[:, i], projection) for i in (0, 1))
     kept = np.maximum(first, last) > NEAR
     segments, first, last = segments[kept].copy(), first[kept], last[kept]
     part = (NEAR - first) / np.where(first == last, 1.0, last - first)
@@ -59,11 +59,11 @@ def _cut(lines: Lines, look: Perspective) -> Lines:
     return Lines(segments.reshape(-1, 3), colours, lines.width, strip=False)
 
 
-def rectangles(texture: Texture, look: Perspective, most: int) -> Iterator[tuple[Floats, list[Floats]]]:
+def rectangles(texture: Texture, projection: Perspective, most: int) -> Iterator[tuple[Floats, list[Floats]]]:
     """Yield each colour (4,) of a map, 0 to 1 and opaque, with its outlines (n, 2) [px]: at most `most` of them."""
     outlines: dict[bytes, list[Floats]] = {}
     for pixels in _coarser(texture.pixels):
-        outlines = _outlines(pixels, texture, look)
+        outlines = _outlines(pixels, texture, projection)
         if sum(map(len, outlines.values())) <= most:
             break
     for colour, several in sorted(outlines.items()):
@@ -82,7 +82,7 @@ def _coarser(pixels: Pixels) -> Iterator[Pixels]:
         yield reduced
 
 
-def _outlines(pixels: Pixels, texture: Texture, look: Perspective) -> dict[bytes, list[Floats]]:
+def _outlines(pixels: Pixels, texture: Texture, projection: Perspective) -> dict[bytes, list[Floats]]:
     """Return the outlines of each colour within the picture."""
     cell = np.array(texture.size) / (pixels.shape[1], pixels.shape[0])
     outlines: dict[bytes, list[Floats]] = {}
@@ -91,11 +91,13 @@ def _outlines(pixels: Pixels, texture: Texture, look: Perspective) -> dict[bytes
         corners = (
             matrix_product(np.column_stack([flat, np.zeros(4)]), texture.pose[:3, :3].T) + texture.pose[:3, 3]
         )
-        corners = _clipped(corners, _away(corners, look))
+        corners = _clipped_polygon(corners, _distances(corners, projection))
         if len(corners) < 3:
             continue
-        outline = look.pixels(corners)
-        if (outline.max(axis=0) > 0).all() and (outline.min(axis=0) < (look.width, look.height)).all():
+        outline = projection.pixels(corners)
+        if (outline.max(axis=0) > 0).all() and (
+            outline.min(axis=0) < (projection.width, projection.height)
+        ).all():
             outlines.setdefault(pixels[y0, x0, :3].tobytes(), []).append(outline)
     return outlines
 
@@ -120,13 +122,13 @@ def _runs(row: NDArray[np.uint32], alphas: NDArray[np.uint8]) -> list[tuple[int,
     return [(x0, x1, int(row[x0])) for x0, x1 in pairwise(edges) if alphas[x0]]
 
 
-def _clipped(corners: Floats, away: Floats) -> Floats:
+def _clipped_polygon(corners: Floats, distances: Floats) -> Floats:
     """Clip a polygon (n, 3) in front of the eye."""
-    if (away > NEAR).all():
+    if (distances > NEAR).all():
         return corners
     kept: list[Floats] = []
     for i, (a, b) in enumerate(zip(corners, np.roll(corners, -1, axis=0), strict=True)):
-        here, there = away[i] - NEAR, away[(i + 1) % len(away)] - NEAR
+        here, there = distances[i] - NEAR, distances[(i + 1) % len(distances)] - NEAR
         if here > 0:
             kept.append(a)
         if (here > 0) != (there > 0):
