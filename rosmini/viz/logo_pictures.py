@@ -12,7 +12,7 @@ from rosmini.sim.logo.turtles import BACKGROUND, Drawing
 from rosmini.sim.logo.values import write
 from rosmini.viz.replay.layers import Layer, Strokes
 from rosmini.viz.replay.layers import Stroke as Line
-from rosmini.viz.replay.player import ReplayView, Shown
+from rosmini.viz.replay.player import PlayerRun, ReplayView
 from rosmini.viz.replay.run import Body, Run
 from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
@@ -34,7 +34,7 @@ TURTLE = ((0.3, 0.0), (0.1, 0.12), (-0.25, 0.17), (-0.15, 0.0), (-0.25, -0.17), 
 """A turtle's outline [m], for a window of 11 m, x ahead."""
 
 
-class _Shown(Shown):
+class _LogoRun(PlayerRun):
     """A drawing in a player, described in Logo's terms."""
 
     def __init__(self, drawing: Drawing, run: Run) -> None:
@@ -82,7 +82,7 @@ def logo_picture(drawing: Drawing, *, title: str | None = None, speed: float = 2
         "Logo", 0.0, end, bodies=bodies, layers=layers, frame=drawing.place, bounds=_bounds(drawing),
         background=_hex(BACKGROUND) if drawing.middle else None, opens_at_end=True,
     )  # fmt: skip
-    return ReplayView([_Shown(drawing, run)], title=title)
+    return ReplayView([_LogoRun(drawing, run)], title=title)
 
 
 def _times(strokes: tuple[Stroke, ...], speed: float) -> Floats:

@@ -18,7 +18,7 @@ from rosmini.viz import style
 from rosmini.viz.rounding import snap
 from rosmini.viz.svg import document, element
 
-from .painting import Painting
+from .depth_buffer import DepthBuffer
 from .scene3d import Camera, Scene3D, grid
 
 Floats = NDArray[np.float64]
@@ -33,12 +33,14 @@ THINGS = ("group-fill", "group-line", "vermilion")
 
 def draw(scene: Scene3D, *, title: str, alt: str) -> str:
     """Return the scene as an SVG."""
-    look = _Look(scene.camera)
-    faces = [face for polygon, colour in _polygons(scene) if (face := look.face(polygon, colour)) is not None]
+    view = _View(scene.camera)
+    faces = [
+        face for polygon, colour in _all_polygons(scene) if (face := view.face(polygon, colour)) is not None
+    ]
     planes = np.array([face.plane for face in faces]).reshape(-1, 3)
-    painting = Painting([face.outline for face in faces], planes, WIDTH, HEIGHT)
-    body = [*_ground(scene, look), *_trails(scene, look), *_painted([faces[i] for i in painting.order])]
-    body += _scans(scene, look, painting)
+    depth_buffer = DepthBuffer([face.outline for face in faces], planes, WIDTH, HEIGHT)
+    body = [*_ground(scene, view), *_trails(scene, view), *_paths([faces[i] for i in depth_buffer.order])]
+    body += _scans(scene, view, depth_buffer)
     colours = [*THINGS, *(trail.colour for trail in scene.trails if trail.colour not in THINGS)]
     return document(
         element("g", "".join(body), stroke_linejoin="round", stroke_linecap="round", stroke_width=0.8),
@@ -47,14 +49,14 @@ def draw(scene: Scene3D, *, title: str, alt: str) -> str:
 
 
 class _Face(NamedTuple):
-    """A face turned towards the camera: its outline in the picture, its plane (see `Painting`), and its lit colour."""
+    """A face turned towards the camera: its outline in the picture, its plane (see `DepthBuffer`), its lit colour."""
 
     outline: Floats
     plane: Floats
     colour: str
 
 
-class _Look:
+class _View:
     """The camera as a projection."""
 
     def __init__(self, camera: Camera) -> None:
@@ -68,7 +70,7 @@ class _Look:
 
     def project(self, points: Floats) -> Floats:
         """Project a polygon or line (n, 3) to (m, 3): x, y [px], depth [m]; parts behind the camera are cut off."""
-        seen = _before(matrix_product(points - self.position, self._axes.T))
+        seen = _clipped(matrix_product(points - self.position, self._axes.T))
         if not len(seen):
             return np.empty((0, 3))
         flat = seen[:, :2] / seen[:, 2:] * self._scale
@@ -77,7 +79,7 @@ class _Look:
     def path(self, points: Floats, *, closed: bool = True) -> str:
         """Return the projection of a polygon or line as path data; empty if it is outside the picture."""
         outline = self.project(points)[:, :2]
-        return _path(outline, closed=closed) if _within(outline) else ""
+        return _path(outline, closed=closed) if _is_visible(outline) else ""
 
     def face(self, polygon: Floats, colour: str) -> _Face | None:
         """Project a flat polygon (n, 3) of a colour; None if it is turned away or outside the picture."""
@@ -87,7 +89,7 @@ class _Look:
         if size < 1e-12 or towards <= 1e-9 * size:
             return None
         outline = self.project(polygon)[:, :2]
-        if not _within(outline):
+        if not _is_visible(outline):
             return None
         across, up, ahead = -matrix_product(self._axes, normal) / towards
         plane = (
@@ -98,7 +100,7 @@ class _Look:
         return _Face(outline, plane, "#" + "".join(f"{int(snap(channel, 1.0)):02x}" for channel in channels))
 
 
-def _within(outline: Floats) -> bool:
+def _is_visible(outline: Floats) -> bool:
     """Return True if part of an outline (n, 2) may be in the picture."""
     return (
         len(outline) > 1
@@ -111,7 +113,7 @@ def _path(outline: Floats, *, closed: bool = True) -> str:
     return "M" + "L".join(f"{x:.5g},{y:.5g}" for x, y in outline) + ("Z" if closed else "")
 
 
-def _before(points: Floats) -> Floats:
+def _clipped(points: Floats) -> Floats:
     """Cut a polygon (n, 3) in the camera's frame at the plane `NEAR` in front of the camera."""
     if (points[:, 2] >= NEAR).all():
         return points
@@ -124,11 +126,11 @@ def _before(points: Floats) -> Floats:
     return np.array(kept)
 
 
-def _ground(scene: Scene3D, look: _Look) -> Iterator[str]:
+def _ground(scene: Scene3D, view: _View) -> Iterator[str]:
     x0, y0, x1, y1 = scene.bounds
     floor = np.array([(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)], dtype=float)
-    yield element("path", d=look.path(floor), fill=style.variable("group-fill"))
-    lines = (look.path(np.array([(*a, 0.0), (*b, 0.0)]), closed=False) for a, b in grid(scene.bounds))
+    yield element("path", d=view.path(floor), fill=style.variable("group-fill"))
+    lines = (view.path(np.array([(*a, 0.0), (*b, 0.0)]), closed=False) for a, b in grid(scene.bounds))
     path = "".join(lines)
     if path:
         yield element(
@@ -136,26 +138,26 @@ def _ground(scene: Scene3D, look: _Look) -> Iterator[str]:
         )
 
 
-def _trails(scene: Scene3D, look: _Look) -> Iterator[str]:
+def _trails(scene: Scene3D, view: _View) -> Iterator[str]:
     for trail in scene.trails:
         steps = zip(trail.points, trail.points[1:], strict=False)
-        path = "".join(look.path(np.array([(*a, 0.0), (*b, 0.0)]), closed=False) for a, b in steps)
+        path = "".join(view.path(np.array([(*a, 0.0), (*b, 0.0)]), closed=False) for a, b in steps)
         if path:
             yield element("path", d=path, fill="none", stroke=style.variable(trail.colour), stroke_width=2.5)
 
 
-def _scans(scene: Scene3D, look: _Look, painting: Painting) -> Iterator[str]:
+def _scans(scene: Scene3D, view: _View, depth_buffer: DepthBuffer) -> Iterator[str]:
     """Yield the points seen by lasers, except those that something hides."""
     for scan in scene.scans:
-        dots = np.vstack([np.empty((0, 3)), *(look.project(point[None]) for point in scan)])
+        dots = np.vstack([np.empty((0, 3)), *(view.project(point[None]) for point in scan)])
         inside = dots[((dots[:, :2] > 0) & (dots[:, :2] < (WIDTH, HEIGHT))).all(axis=1)]
-        shown = [(x, y) for x, y, depth in inside.tolist() if not painting.hides(x, y, depth - DEEP)]
+        shown = [(x, y) for x, y, depth in inside.tolist() if not depth_buffer.hides(x, y, depth - DEEP)]
         path = "".join(f"M{x:.5g},{y:.5g}h0" for x, y in shown)
         if path:
             yield element("path", d=path, fill="none", stroke=style.variable("vermilion"), stroke_width=3)
 
 
-def _polygons(scene: Scene3D) -> Iterator[tuple[Floats, str]]:
+def _all_polygons(scene: Scene3D) -> Iterator[tuple[Floats, str]]:
     """Yield all faces (n, 3) in the world and their colours; fine detail is left out."""
     for part in scene.parts:
         place = scene.transform(part.node)
@@ -168,7 +170,7 @@ def _polygons(scene: Scene3D) -> Iterator[tuple[Floats, str]]:
             yield triangle, link.colour
 
 
-def _painted(faces: list[_Face]) -> Iterator[str]:
+def _paths(faces: list[_Face]) -> Iterator[str]:
     """Yield faces in this order; consecutive ones of the same colour form one path."""
     for colour, alike in groupby(faces, key=lambda face: face.colour):
         yield element("path", d="".join(_path(face.outline) for face in alike), fill=colour, stroke=colour)

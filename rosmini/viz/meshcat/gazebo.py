@@ -17,14 +17,14 @@ from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import pose_text
 
 from .links import link_parts
-from .scene3d import TINY, Camera, Scene3D
+from .scene3d import OMITTED_COLOURS, Camera, Scene3D
 from .solids import Floats
 from .view import HEIGHT, MeshcatView, camera_for, free_sight
 from .visuals import SOLID, is_plain, surfaces
 
-CLOSE = 1.7
+MODEL_DISTANCE = 1.7
 """Distance of the camera from a model, as a multiple of the model's size."""
-STEEP = 58.0
+WORLD_ELEVATION = 58.0
 """Elevation of the camera for a world with robots [deg]: they are small, and walls surround them."""
 
 
@@ -51,12 +51,12 @@ def gazebo_3d(
     """
     world = snapshot.world()
     if elevation is None and focus == "world" and snapshot.robots:
-        elevation = STEEP
+        elevation = WORLD_ELEVATION
     camera = camera_for(world, None, focus="world", distance=distance, azimuth=azimuth, elevation=elevation)
     plain = [model for model in snapshot.models if is_plain(model)]
     drawn = [model for model in snapshot.models if not is_plain(model)]
     if focus != "world":
-        camera = _close(snapshot, focus, distance=distance, azimuth=azimuth, elevation=elevation)
+        camera = _camera_on(snapshot, focus, distance=distance, azimuth=azimuth, elevation=elevation)
     scene = Scene3D(camera)
     obstacles = [each for model in plain for each in model.placed_solids()]
     if collisions:
@@ -83,7 +83,9 @@ def _add(scene: Scene3D, model: ShownModel, *, collisions: bool) -> None:
     node = "models/" + model.name.replace("/", " ")
     there = matrix(model.pose)
     for link in model.links:
-        parts = surfaces(link, matrix_product(there, matrix(link.pose)), collisions=collisions, without=TINY)
+        parts = surfaces(
+            link, matrix_product(there, matrix(link.pose)), collisions=collisions, without=OMITTED_COLOURS
+        )
         if parts:
             scene.place(node, there)
             below = f"{node}/{link.name.replace('/', ' ')}"
@@ -92,7 +94,7 @@ def _add(scene: Scene3D, model: ShownModel, *, collisions: bool) -> None:
                 scene.add_surface(part, shared=True)
 
 
-def _close(
+def _camera_on(
     snapshot: Snapshot, name: str, *, distance: float | None, azimuth: float | None, elevation: float | None
 ) -> Camera:
     """Return a camera aimed at one model."""
@@ -107,7 +109,7 @@ def _close(
     points = _corners(models[name])
     low, high = points.min(axis=0), points.max(axis=0)
     size = float(snap(norm(high - low), 0.01))
-    away = round(CLOSE * size + 0.1, 2) if distance is None else distance
+    away = round(MODEL_DISTANCE * size + 0.1, 2) if distance is None else distance
     there = replace(snapshot, models=tuple(model for model in snapshot.models if model.name != name)).world()
     x, y, z = (round(c, 3) for c in snap((low + high) / 2).tolist())
     sight = free_sight(there, (x, y, models[name].place[2]), away)

@@ -13,33 +13,40 @@ from rosmini.sim.recording import Recording
 from rosmini.sim.world import Pose, World
 from rosmini.viz.replay.layers import RANGE
 from rosmini.viz.replay.packing import LENGTH, pack, whole
-from rosmini.viz.replay.player import LAYER_SCRIPT, Source, beside, kept_run, run_in, switched
+from rosmini.viz.replay.player import (
+    LAYER_SCRIPT,
+    Source,
+    layers_sentence,
+    other_robots_sentence,
+    recorder_run,
+    run_from,
+)
 from rosmini.viz.replay.run import BUDGET, Run, size, thinned
 from rosmini.viz.replay.still import still_of
 from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import colour_of, pose_text
 
+from .compression import compress
 from .scene3d import ROBOT, Scene3D, obstacle_node
 from .side_by_side import RunsView
-from .squeezed import squeezed
 from .view import HEIGHT, Focus, MeshcatView, camera_for, node_of, title_of
 
 Floats = NDArray[np.float64]
-CLOSE = 1.5
+ROBOT_DISTANCE = 1.5
 """Distance of the camera from a robot that it follows [m]."""
 
-PLAYED = ("rosmini-replay-data.js", "rosmini-meshcat.js", "rosmini-meshcat-player.js")
+PLAYER_SCRIPTS = ("rosmini-replay-data.js", "rosmini-meshcat.js", "rosmini-meshcat-player.js")
 """Scripts that a viewer needs to play a run."""
-LAYERED = (
+LAYER_SCRIPTS = (
     "rosmini-canvas.js",
     "rosmini-replay-data.js",
     LAYER_SCRIPT,
     "rosmini-meshcat-layers.js",
-    *PLAYED[1:],
+    *PLAYER_SCRIPTS[1:],
 )
 """Scripts that it also needs for layers, which are drawn as on the canvas and laid on the ground."""
-LEAST = 140_000
+MIN_LAYER_BYTES = 140_000
 """Budget for the layers of a page, independent of the size of the world and the robots [bytes]."""
 RATE = 10.0
 """Sampling rate of robot poses that come from messages [Hz]."""
@@ -68,34 +75,34 @@ def replay_3d(
         raise ViewError(
             f"replay_3d needs at least one run, and as many names as runs, not {len(sources)} and {names}"
         )
-    look = {"focus": focus, "distance": distance, "azimuth": azimuth, "elevation": elevation}
+    camera_args = {"focus": focus, "distance": distance, "azimuth": azimuth, "elevation": elevation}
     known = model(robot) if isinstance(robot, str) else robot
     made: list[MeshcatView] = []
     alone = title if len(sources) == 1 else None
     for source in sources:
         if isinstance(source, Recording):
-            kept = kept_run(source, topics=topics, frame=frame)
-            view = _recording(source, kept, look, scans=scans, title=alone, height=height)
+            kept = recorder_run(source, topics=topics, frame=frame)
+            view = _recording(source, kept, camera_args, scans=scans, title=alone, height=height)
         else:
-            kept = run_in(source, topics=topics, frame=frame, robot=known)
-            view = _run(kept, known, look, title=alone, height=height)
-        view.scripts = LAYERED if kept is not None else PLAYED
+            kept = run_from(source, topics=topics, frame=frame, robot=known)
+            view = _run(kept, known, camera_args, title=alone, height=height)
+        view.scripts = LAYER_SCRIPTS if kept is not None else PLAYER_SCRIPTS
         if kept is not None:
-            _lay(view, kept, len(sources))
+            _add_layers(view, kept, len(sources))
         made.append(view)
     return made[0] if len(made) == 1 else RunsView(made, names or [each.label for each in made], title=title)
 
 
 def _recording(
-    recording: Recording, kept: Run | None, look: dict[str, Any], *, scans: bool, title: str | None, height: int
+    recording: Recording, kept: Run | None, camera_args: dict[str, Any], *, scans: bool, title: str | None, height: int
 ) -> MeshcatView:  # fmt: skip
     """Show a simulated robot in its world; `kept` contains the layers recorded with it."""
     world, model, truth = recording.world, recording.model, recording.truth
     start: Pose = tuple(truth[0].tolist())
-    is_close = look["focus"] == "robot"
-    if is_close and look["distance"] is None:
-        look = {**look, "distance": CLOSE}
-    scene = Scene3D(camera_for(world, start, **look))
+    is_close = camera_args["focus"] == "robot"
+    if is_close and camera_args["distance"] is None:
+        camera_args = {**camera_args, "distance": ROBOT_DISTANCE}
+    scene = Scene3D(camera_for(world, start, **camera_args))
     begin = float(recording.times[0])
     scene.add_world(recording.world_at(begin) if recording.things else world)
     believed = recording.odom_in_map()
@@ -123,7 +130,7 @@ def _recording(
     alt = (
         f"A player with {model.title or model.name} in {title_of(world)}, in three dimensions: it drives {driven}. "
         f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in."
-        f"{beside(recording)}{switched(kept)}"
+        f"{other_robots_sentence(recording)}{layers_sentence(kept)}"
     )
     view = MeshcatView(
         scene, label=label, text=text, alt=alt, title=title, height=height,
@@ -135,7 +142,7 @@ def _recording(
 
 
 def _run(
-    run: Run, robot: RobotModel | None, look: dict[str, Any], *, title: str | None, height: int
+    run: Run, robot: RobotModel | None, camera_args: dict[str, Any], *, title: str | None, height: int
 ) -> MeshcatView:
     """Show the content of messages: bare ground, with robots on it if their model is known."""
     x0, y0, x1, y1 = run.extent()
@@ -144,11 +151,13 @@ def _run(
     bodies = own if robot is not None else []
     start = bodies[0].poses[0].tolist() if bodies else None
     if start is None:
-        look = {**look, "focus": "world"} if look["focus"] == "robot" else look
-    elif look["focus"] == "robot" and look["distance"] is None:
-        look = {**look, "distance": CLOSE}
+        camera_args = (
+            {**camera_args, "focus": "world"} if camera_args["focus"] == "robot" else camera_args
+        )
+    elif camera_args["focus"] == "robot" and camera_args["distance"] is None:
+        camera_args = {**camera_args, "distance": ROBOT_DISTANCE}
     fence = np.array([(x0, y0, x1, y0), (x1, y1, x0, y1)])
-    scene = Scene3D(camera_for(World("ground", (), walls=fence), start and tuple(start), **look))
+    scene = Scene3D(camera_for(World("ground", (), walls=fence), start and tuple(start), **camera_args))
     scene.add_ground((x0, y0, x1, y1))
     times = np.linspace(run.start, run.end, 1 + min(1200, int(RATE * run.duration)))
     tracks: list[tuple[str, str, Floats]] = []
@@ -162,7 +171,7 @@ def _run(
     label, alt = f"{run.name}: a run in 3D", run.alt().replace("seen from above", "in three dimensions")
     view = MeshcatView(
         scene, label=label, text=run.text(f"3D replay: {run.name}"), alt=alt, title=title, height=height,
-        follow=f"/meshcat/{ROBOT}" if bodies and look["focus"] == "robot" else None,
+        follow=f"/meshcat/{ROBOT}" if bodies and camera_args["focus"] == "robot" else None,
     )  # fmt: skip
     view.svg = (
         still_of(run, title=label, alt=run.alt()).svg or ""
@@ -170,11 +179,11 @@ def _run(
     return view
 
 
-def _lay(view: MeshcatView, run: Run, runs: int) -> None:
+def _add_layers(view: MeshcatView, run: Run, runs: int) -> None:
     """Give a viewer, one of `runs`, the layers on its ground, thinned until the page is small enough."""
     bodies = [body.data() for body in run.bodies]
-    used = size({**view.parts, "bodies": bodies}) + 4 * len(squeezed(view.scene.commands)) // 3
-    layers, notes = thinned(run.layers, max(LEAST, BUDGET - used) // runs)
+    used = size({**view.parts, "bodies": bodies}) + 4 * len(compress(view.scene.commands)) // 3
+    layers, notes = thinned(run.layers, max(MIN_LAYER_BYTES, BUDGET - used) // runs)
     view.extra["layered"] = {
         "start": run.start, "bounds": [round(side, 3) for side in view.scene.bounds], "layers": layers,
         "bodies": bodies, "notes": [*run.notes, *notes],
@@ -204,21 +213,21 @@ def _tracks(model: RobotModel, truth: Floats, node: str, *, wheels: bool) -> lis
     place = np.column_stack([truth[:, :2], np.zeros(len(truth))])
     steps, turns = np.diff(truth[:, :2], axis=0), np.diff(truth[:, 2])
     towards = truth[:-1, 2] + turns / 2
-    way = (steps[:, 0] * np.cos(towards) + steps[:, 1] * np.sin(towards)) / np.sinc(turns / 2 / np.pi)
+    travelled = (steps[:, 0] * np.cos(towards) + steps[:, 1] * np.sin(towards)) / np.sinc(turns / 2 / np.pi)
     turning: list[tuple[str, str, Floats]] = []
     for side, sign in (("left", -1), ("right", 1)) if wheels else ():
-        rolled = np.cumsum(way + sign * turns * model.wheel_separation / 2) / model.wheel_radius
+        rolled = np.cumsum(travelled + sign * turns * model.wheel_separation / 2) / model.wheel_radius
         turning.append((f"{node}/wheel_{side}", "rotation[y]", np.concatenate([[0.0], rolled])))
     return [(node, "position", place), (node, "rotation[z]", truth[:, 2]), *turning]
 
 
-MOST_SCANS = 120
+MAX_SCANS = 120
 BEAM_STEP = 2
 
 
 def _scan_track(recording: Recording) -> dict[str, Any]:
-    """Return every second beam of at most `MOST_SCANS` scans, rounded if scans are left out; 0 means no hit."""
-    every = -(-len(recording.scans) // MOST_SCANS)
+    """Return every second beam of at most `MAX_SCANS` scans, rounded if scans are left out; 0 means no hit."""
+    every = -(-len(recording.scans) // MAX_SCANS)
     ranges = recording.scans[::every, ::BEAM_STEP]
     hit = np.isfinite(ranges)
     unit = LENGTH if every == 1 else RANGE

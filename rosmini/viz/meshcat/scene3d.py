@@ -34,9 +34,9 @@ from .solids import Ball, Facets, LinkPart, Part, Prism, Rod, Solid, mesh, round
 Floats = NDArray[np.float64]
 Colour = tuple[float, float, float]
 
-DESCRIBED = ("waffle", "waffle_pi")
+URDF_MODELS = ("waffle", "waffle_pi")
 """Models that are drawn from their URDF. The Burger has its own drawing, a tenth of the size."""
-TINY = ("#181c20",)
+OMITTED_COLOURS = ("#181c20",)
 """Colours left out of these drawings in a world: holes in plates, a quarter of the bytes and barely visible there."""
 SIDES = (("left", 1), ("right", -1))
 """The wheels, and the sign of their y axis that points outwards."""
@@ -48,7 +48,7 @@ MANY_WALLS = 400
 """Above this number, walls are sheets without a top: a traced map has thousands of walls."""
 TRAIL_WIDTH = 0.016
 """Width of a trail [m]."""
-HAIR = 0.012
+POINT_OFFSET = 0.012
 """Distance by which points of a laser without noise are moved towards it, so that they stay visible [m]."""
 
 WALL, GREY, GROUND, GRID = "#c4ccd4", "#98a3ad", "#e8ecf0", "#b9c2ca"
@@ -264,7 +264,7 @@ class Scene3D:
     def add_robot(self, model: RobotModel, pose: Pose, name: str = ROBOT) -> None:
         """Add a robot with its frame base_footprint at `pose`; its wheels are nodes below it."""
         self.place(name, planar(pose))
-        if model.name in DESCRIBED:
+        if model.name in URDF_MODELS:
             self._add_described(model, name)
         elif model.name == "burger":
             for part in burger.body(model, name):
@@ -290,7 +290,7 @@ class Scene3D:
         for side, outwards in SIDES:
             self._place_hub(model, name, side, outwards)
         for link, at in robot.transforms().items():
-            surfaces = link_surfaces(robot, link, without=TINY)
+            surfaces = link_surfaces(robot, link, without=OMITTED_COLOURS)
             if not surfaces:
                 continue
             above = f"{name}/{link.removesuffix('_link')}" if link.startswith("wheel_") else name
@@ -421,7 +421,7 @@ def scan_points(ranges: Floats, lidar: LidarModel) -> Floats:
     step = 2 * math.pi * places / len(ranges) if lidar.angle_max is None else lidar.increment * places
     angles = lidar.angle_min + step
     hit = np.isfinite(ranges)
-    reach = np.where(hit, ranges - (0.0 if lidar.noise else HAIR), 0.0)
+    reach = np.where(hit, ranges - (0.0 if lidar.noise else POINT_OFFSET), 0.0)
     return rounded(
         np.column_stack([reach * np.cos(angles), reach * np.sin(angles), np.where(hit, 0.0, -100.0)])
     )
@@ -466,10 +466,10 @@ def keyframes(times: Floats, values: Floats, tolerance: float) -> list[int]:
 def simplified(points: Floats, tolerance: float = 0.002) -> Floats:
     """Return the vertices of a line (n, 2) without those that change it by less than `tolerance` in x and in y."""
     steps = np.hypot(*np.diff(points, axis=0).T)
-    way = np.concatenate([[0.0], np.cumsum(np.where(steps > 1e-9, steps, 0.0))])
-    moved = np.concatenate([[True], np.diff(way) > 0])
-    way, points = way[moved], points[moved]
-    return points[keyframes(way, points, tolerance)]
+    distance = np.concatenate([[0.0], np.cumsum(np.where(steps > 1e-9, steps, 0.0))])
+    moved = np.concatenate([[True], np.diff(distance) > 0])
+    distance, points = distance[moved], points[moved]
+    return points[keyframes(distance, points, tolerance)]
 
 
 def _slab(x1: float, y1: float, x2: float, y2: float) -> Floats:

@@ -9,7 +9,7 @@ from rosmini.viz.embed import MESHCAT
 from rosmini.viz.moving_view import MovingView
 from rosmini.viz.svg import element
 
-from .squeezed import squeezed
+from .compression import compress
 from .view import MeshcatView
 
 
@@ -64,7 +64,7 @@ class RunsView(MovingView):
     def data(self) -> dict[str, Any]:
         """The data for the viewers' script: the commands of all runs together, since much is the same in each."""
         return {
-            "commands": squeezed(command for run in self.runs for command in run.scene.commands),
+            "commands": compress(command for run in self.runs for command in run.scene.commands),
             "duration": max(run.scene.duration for run in self.runs),
             "runs": [
                 {**run.parts, "count": len(run.scene.commands), "title": name}

@@ -21,9 +21,9 @@ from rosmini.viz.rounding import snap
 from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import pose_text
 
+from .compression import compress
 from .drawing import draw
 from .scene3d import Camera, Scene3D
-from .squeezed import squeezed
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
@@ -87,7 +87,7 @@ class MeshcatView(MovingView):
     @property
     def data(self) -> dict[str, Any]:
         """The data for the viewer's script."""
-        return {"commands": squeezed(self.scene.commands), **self.parts}
+        return {"commands": compress(self.scene.commands), **self.parts}
 
     @property
     def parts(self) -> dict[str, Any]:

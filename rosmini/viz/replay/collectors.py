@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 from rosmini.core.geometry.poses import Pose, compose, inverse, transform_points
 from rosmini.viz.image_pictures import pixels_of
 from rosmini.viz.replay.grids import Grid, Grids, grid
-from rosmini.viz.replay.images import Images, small
+from rosmini.viz.replay.images import Images, reduced_image
 from rosmini.viz.replay.layers import Frames, Mode, Scans, Shape, Shapes
+from rosmini.viz.replay.recorded_frames import RecordedFrames, planar_pose
 from rosmini.viz.replay.run import Body
-from rosmini.viz.replay.standing import Standing, flat
 from rosmini.viz.view import ViewError
 
 Floats = NDArray[np.float64]
 
-MOST_BEAMS = 720
-MOST_LINES = 200
+MAX_BEAMS = 720
+MAX_LINES = 200
 COLOURS = ("green", "purple", "sky", "orange", "vermilion")
 
 
@@ -34,7 +34,7 @@ TRANSFORMS = ("tf2_msgs/TFMessage", "tf/tfMessage")
 class Collector(ABC):
     """Collects the messages of a topic. `take` gets a selection of them: at most one message per `period` [s].
 
-    Collectors that accumulate (`every`) get all messages, and `snapshot` is called once per period.
+    Collectors that accumulate (`accumulates`) get all messages, and `snapshot` is called once per period.
     """
 
     types: ClassVar[tuple[str, ...]] = ()
@@ -42,18 +42,18 @@ class Collector(ABC):
     of_robot: ClassVar[bool] = False
     """True for what every recorder of a robot records, also without `layers`."""
     period: ClassVar[float] = 0.5
-    every: bool = False
+    accumulates: bool = False
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
         COLLECTORS.update(dict.fromkeys(cls.types, cls))
 
-    def __init__(self, topic: str, standing: Standing, number: int) -> None:
+    def __init__(self, topic: str, frames: RecordedFrames, number: int) -> None:
         self.topic = topic
-        self.standing = standing
+        self.frames = frames
         self.colour = COLOURS[number % len(COLOURS)]
         self.found = 0
-        self.lost: dict[str, int] = {}
+        self.left_out: dict[str, int] = {}
         """Number of messages left out, by reason."""
 
     @abstractmethod
@@ -69,19 +69,17 @@ class Collector(ABC):
 
     def place(self, header: Any) -> Pose:
         """Return the pose of a header's frame at its time. Raises `ViewError` if it is unknown."""
-        found = self.standing.pose(header.frame_id, header.stamp.to_nsec())
+        found = self.frames.pose(header.frame_id, header.stamp.to_nsec())
         if found is None:
-            raise ViewError(
-                f"no transform from {header.frame_id!r} to {self.standing.fixed!r} at their times"
-            )
+            raise ViewError(f"no transform from {header.frame_id!r} to {self.frames.fixed!r} at their times")
         return found
 
 
 class ShapeCollector(Collector):
     """Something drawn as shapes of points."""
 
-    def __init__(self, topic: str, standing: Standing, number: int) -> None:
-        super().__init__(topic, standing, number)
+    def __init__(self, topic: str, frames: RecordedFrames, number: int) -> None:
+        super().__init__(topic, frames, number)
         self._times: list[float] = []
         self._items: list[tuple[Shape, ...]] = []
 
@@ -135,7 +133,7 @@ class PosesCollector(ShapeCollector):
     def shapes(self, message: Any) -> list[Shape]:
         """Return arrows."""
         every = max(1, len(message.poses) // 300)
-        arrows = [flat(pose) for pose in message.poses[::every]]
+        arrows = [planar_pose(pose) for pose in message.poses[::every]]
         return [self.shape(message.header, arrows, "arrows")] if arrows else []
 
 
@@ -147,7 +145,7 @@ class PoseCollector(ShapeCollector):
     def shapes(self, message: Any) -> list[Shape]:
         """Return an arrow."""
         pose = getattr(message.pose, "pose", message.pose)
-        return [self.shape(message.header, [flat(pose)], "arrows")]
+        return [self.shape(message.header, [planar_pose(pose)], "arrows")]
 
 
 class PolygonCollector(ShapeCollector):
@@ -186,12 +184,12 @@ class MarkerCollector(ShapeCollector):
     """`visualization_msgs/Marker` and `MarkerArray`: frontiers, goals, footprints, until they are deleted or expire."""
 
     types = ("visualization_msgs/Marker", "visualization_msgs/MarkerArray")
-    every = True
+    accumulates = True
     ADD, DELETE, DELETE_ALL = 0, 2, 3
     ARROW, LINE_STRIP, LINE_LIST, LISTS = 0, 4, 5, (6, 7, 8, 11)
 
-    def __init__(self, topic: str, standing: Standing, number: int) -> None:
-        super().__init__(topic, standing, number)
+    def __init__(self, topic: str, frames: RecordedFrames, number: int) -> None:
+        super().__init__(topic, frames, number)
         self._there: dict[tuple[str, int], tuple[float, tuple[Shape, ...]]] = {}
 
     def take(self, time: float, message: Any) -> None:
@@ -214,7 +212,7 @@ class MarkerCollector(ShapeCollector):
     def shapes(self, message: Any) -> list[Shape]:
         """Return a simple form of a marker, seen from above."""
         colour = _hex(message.color)
-        pose = flat(message.pose)
+        pose = planar_pose(message.pose)
         inner = [(point.x, point.y) for point in message.points]
         points = transform_points(pose, inner) if inner else np.array([pose[:2]])
         if message.type == self.ARROW:
@@ -226,7 +224,7 @@ class MarkerCollector(ShapeCollector):
         if message.type == self.LINE_STRIP:
             return [self.shape(message.header, points, "line", colour)] if inner else []
         if message.type == self.LINE_LIST:
-            pairs = points[: len(inner) // 2 * 2].reshape(-1, 2, 2)[:MOST_LINES]
+            pairs = points[: len(inner) // 2 * 2].reshape(-1, 2, 2)[:MAX_LINES]
             return [self.shape(message.header, pair, "line", colour) for pair in pairs]
         if message.type in self.LISTS and not inner:
             return []
@@ -245,8 +243,8 @@ class GridCollector(Collector):
 
     types = ("nav_msgs/OccupancyGrid",)
 
-    def __init__(self, topic: str, standing: Standing, number: int) -> None:
-        super().__init__(topic, standing, number)
+    def __init__(self, topic: str, frames: RecordedFrames, number: int) -> None:
+        super().__init__(topic, frames, number)
         self._times: list[float] = []
         self._grids: list[Grid] = []
         self._now: tuple[NDArray[np.uint8], float, Pose] | None = None
@@ -257,7 +255,7 @@ class GridCollector(Collector):
         if hasattr(message, "info"):
             info = message.info
             cells = _cells(message.data, int(info.width), int(info.height))
-            where = compose(self.place(message.header), flat(info.origin))
+            where = compose(self.place(message.header), planar_pose(info.origin))
             if not cells.size or not (math.isfinite(info.resolution) and info.resolution > 0):
                 raise ViewError(
                     f"a map of {info.width} x {info.height} cells, {info.resolution:g} m wide, has nothing to show"
@@ -272,7 +270,7 @@ class GridCollector(Collector):
                 raise ViewError(f"an update of {width} x {height} cells at {x}, {y} lies outside of its map")
             cells[y : y + height, x : x + width] = _cells(message.data, width, height)
         self._is_new = True
-        if not self.every:
+        if not self.accumulates:
             self.snapshot(time)
 
     def snapshot(self, time: float) -> None:
@@ -308,15 +306,15 @@ class ScanCollector(Collector):
     types = ("sensor_msgs/LaserScan",)
     of_robot = True
 
-    def __init__(self, topic: str, standing: Standing, number: int) -> None:
-        super().__init__(topic, standing, number)
+    def __init__(self, topic: str, frames: RecordedFrames, number: int) -> None:
+        super().__init__(topic, frames, number)
         self._rows: list[tuple[float, Pose, Floats]] = []
         self._fan: tuple[int, float, float, float] | None = None
 
     def take(self, time: float, message: Any) -> None:
         """Store its ranges and the pose of the laser."""
         ranges = np.asarray(message.ranges, dtype=float)
-        every = -(-len(ranges) // MOST_BEAMS) or 1
+        every = -(-len(ranges) // MAX_BEAMS) or 1
         fan = (
             len(ranges),
             float(message.angle_min),
@@ -339,7 +337,7 @@ class ScanCollector(Collector):
         times, poses, ranges = zip(*self._rows, strict=True)
         beams, start, step, reach = self._fan
         return Scans(
-            self.topic, np.array(times), np.array(poses), np.array(ranges), start, step * (-(-beams // MOST_BEAMS)),
+            self.topic, np.array(times), np.array(poses), np.array(ranges), start, step * (-(-beams // MAX_BEAMS)),
             min(reach, 1e6) if math.isfinite(reach) else 30.0, found=self.found,
         )  # fmt: skip
 
@@ -350,14 +348,14 @@ class ImageCollector(Collector):
     types = ("sensor_msgs/Image",)
     period = 1.0
 
-    def __init__(self, topic: str, standing: Standing, number: int) -> None:
-        super().__init__(topic, standing, number)
+    def __init__(self, topic: str, frames: RecordedFrames, number: int) -> None:
+        super().__init__(topic, frames, number)
         self._times: list[float] = []
         self._images: list[NDArray[np.uint8]] = []
 
     def take(self, time: float, message: Any) -> None:
         """Store a small copy."""
-        image = small(pixels_of(message))
+        image = reduced_image(pixels_of(message))
         if self._images and image.shape != self._images[0].shape:
             raise ViewError("an image differs in size from the first one")
         self._times.append(time)
@@ -377,8 +375,8 @@ class TrackCollector(Collector):
     of_robot = True
     period = 1 / 30
 
-    def __init__(self, topic: str, standing: Standing, number: int) -> None:
-        super().__init__(topic, standing, number)
+    def __init__(self, topic: str, frames: RecordedFrames, number: int) -> None:
+        super().__init__(topic, frames, number)
         self._rows: list[tuple[float, float, float, float]] = []
         self._loose: list[tuple[float, float, float, float]] = []
         self.frame = ""
@@ -393,8 +391,8 @@ class TrackCollector(Collector):
                 raise ViewError("a pose is not finite (nan or infinite)")
         else:
             header = message.header
-            pose = flat(message.pose.pose)
-            place = self.standing.pose(header.frame_id, header.stamp.to_nsec())
+            pose = planar_pose(message.pose.pose)
+            place = self.frames.pose(header.frame_id, header.stamp.to_nsec())
             if place is None:
                 rows = self._loose
                 self.frame = header.frame_id.lstrip("/")
@@ -413,7 +411,7 @@ class TrackCollector(Collector):
         return Body(self.topic, rows[:, 0], rows[:, 1:], colour=self.colour)
 
 
-def laid_on(body: Body, start: Pose) -> Body:
+def moved_to(body: Body, start: Pose) -> Body:
     """Move a body whose frame is not connected with the others, so that it begins at `start`."""
     x, y, heading = body.poses[0].tolist()
     poses = compose(compose(start, inverse((x, y, heading))), body.poses)

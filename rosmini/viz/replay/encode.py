@@ -23,12 +23,12 @@ from rosmini.viz.world_pictures import colour_of
 
 RATE = 30.0
 """Maximum number of poses per second."""
-MOST_POSES = 1800
+MAX_POSES = 1800
 """Maximum number of poses, so runs of more than a minute have fewer per second."""
-MOST_SCANS = 300
-"""Number of scans above which a run is thinned: it then keeps at most `FEW_SCANS`, each
+MAX_SCANS = 300
+"""Number of scans above which a run is thinned: it then keeps at most `THINNED_SCANS`, each
 rounded to `RANGE`."""
-FEW_SCANS = 240
+THINNED_SCANS = 240
 """Maximum number of scans after thinning: 2 Hz for two minutes."""
 
 
@@ -52,10 +52,10 @@ def replay_data(recording: Recording) -> dict[str, Any]:
     between them.
     """
     start, duration = float(recording.times[0]), recording.duration
-    samples = 1 + min(int(np.ceil(duration * RATE)), MOST_POSES)
+    samples = 1 + min(int(np.ceil(duration * RATE)), MAX_POSES)
     even = start + np.linspace(0.0, duration, samples)
-    long = len(recording.scans) > MOST_SCANS
-    every, unit = (-(-len(recording.scans) // FEW_SCANS), RANGE) if long else (1, LENGTH)
+    long = len(recording.scans) > MAX_SCANS
+    every, unit = (-(-len(recording.scans) // THINNED_SCANS), RANGE) if long else (1, LENGTH)
     commands = _changes(recording.commands)
     scans = recording.scans[::every]
     moved = {thing.obstacle.name for thing in recording.things}

@@ -19,12 +19,12 @@ from rosmini.viz.view import ViewError
 
 Cells = NDArray[np.uint8]
 
-MOST_CELLS = 512
+MAX_CELLS = 512
 """Maximum number of cells per side; in larger maps 2 x 2, 3 x 3, ... cells are combined."""
 COSTS = 8
 """Costs of 1 to 98 are rounded to multiples of this: the difference is invisible, and runs become longer."""
 MICROMETRE = 1e-6
-TURNED = 0.02
+MAX_ROTATION = 0.02
 """A map that is rotated by more than this [rad] is not encoded as a difference to the previous one."""
 
 
@@ -38,14 +38,14 @@ class Grid(NamedTuple):
 
 
 def grid(cells: NDArray[Any], resolution: float, origin: Pose) -> Grid:
-    """Return a grid of at most `MOST_CELLS` a side. Raises `ViewError` if it has no cells or an invalid resolution."""
+    """Return a grid of at most `MAX_CELLS` a side. Raises `ViewError` if it has no cells or an invalid resolution."""
     if cells.ndim != 2 or not cells.size:
         raise ViewError(f"a map of {' x '.join(str(n) for n in cells.shape[::-1])} cells has nothing to show")
     if not (np.isfinite([resolution, *origin]).all() and resolution > 0):
         raise ViewError(
             f"a map needs finite numbers and cells of a positive size, not of {resolution} m, at {origin}"
         )
-    factor = -(-max(cells.shape) // MOST_CELLS)
+    factor = -(-max(cells.shape) // MAX_CELLS)
     if factor > 1:
         cells, resolution = coarse(cells, factor), resolution * factor
     return Grid(cells.astype(np.uint8), resolution, origin)
@@ -121,7 +121,7 @@ class Grids(Frames):
         for each, cells in zip(self.grids, shown, strict=True):
             numbers = index[cells]
             dx, dy = (0, 0) if before is None else _shift(before[0], each)
-            base = laid(None if before is None else before[1], numbers.shape, dx, dy)
+            base = pasted(None if before is None else before[1], numbers.shape, dx, dy)
             coded = runs_of(base.ravel(), numbers.ravel())
             height, width = numbers.shape
             places.append((width, height, each.resolution / MICROMETRE, *each.origin, dx, dy))
@@ -177,17 +177,17 @@ def _rounded(cells: Cells) -> Cells:
 
 def _shift(before: Grid, after: Grid) -> tuple[int, int]:
     """Return the offset of one grid in another, in cells; if their cells do not align, an offset outside the other."""
-    if before.resolution != after.resolution or abs(before.origin[2] - after.origin[2]) > TURNED:
+    if before.resolution != after.resolution or abs(before.origin[2] - after.origin[2]) > MAX_ROTATION:
         return (after.cells.shape[1], after.cells.shape[0])
     x, y = before.origin[0] - after.origin[0], before.origin[1] - after.origin[1]
     heading = after.origin[2]
     c, s = np.cos(heading), np.sin(heading)
     along, across = (c * x + s * y) / after.resolution, (-s * x + c * y) / after.resolution
-    wide, high = 2 * MOST_CELLS, 2 * MOST_CELLS
+    wide, high = 2 * MAX_CELLS, 2 * MAX_CELLS
     return (int(np.clip(np.rint(along), -wide, wide)), int(np.clip(np.rint(across), -high, high)))
 
 
-def laid(before: Cells | None, shape: tuple[int, ...], dx: int, dy: int) -> Cells:
+def pasted(before: Cells | None, shape: tuple[int, ...], dx: int, dy: int) -> Cells:
     """Return cells of a shape (h, w) that contain others, the first at column `dx` and row `dy`; the rest is 0."""
     cells = np.zeros(shape, dtype=np.uint8)
     if before is None:

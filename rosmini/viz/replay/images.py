@@ -15,14 +15,14 @@ from rosmini.viz.view import ViewError
 
 Pixels = NDArray[np.uint8]
 
-MOST_PIXELS = 96
+MAX_PIXELS = 96
 """Maximum width and height of an image."""
-LEAST_PIXELS = 24
+MIN_PIXELS = 24
 LEVELS = 4
 """Number of levels of red, green and blue."""
 
 
-def small(pixels: NDArray[Any], most: int = MOST_PIXELS) -> Pixels:
+def reduced_image(pixels: NDArray[Any], most: int = MAX_PIXELS) -> Pixels:
     """Return an image as colour indices (h, w), 0 to 63: 16 red + 4 green + blue; depths [m] as grey, near is light.
 
     Raises:
@@ -43,7 +43,7 @@ def small(pixels: NDArray[Any], most: int = MOST_PIXELS) -> Pixels:
 
 @dataclass(frozen=True, eq=False)
 class Images(Frames):
-    """Images (h, w), all of the same size, made by `small`."""
+    """Images (h, w), all of the same size, made by `reduced_image`."""
 
     kind: ClassVar[str] = "images"
     depth: ClassVar[int] = 1
@@ -63,7 +63,7 @@ class Images(Frames):
         """Return half of the moments, later half of the width in pixels."""
         if self.count > 8:
             return super().thinner()
-        if not self.images or max(self.images[0].shape) < 2 * LEAST_PIXELS:
+        if not self.images or max(self.images[0].shape) < 2 * MIN_PIXELS:
             return None
         return replace(self, images=tuple(image[::2, ::2] for image in self.images))
 

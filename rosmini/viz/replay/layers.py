@@ -30,7 +30,7 @@ COARSE_ANGLE = 0.02
 """Resolution to which their headings are rounded [rad]."""
 RANGE = 0.02
 """Resolution to which scans are rounded [m]."""
-MOST_POINTS = 400
+MAX_POINTS = 400
 """Maximum number of points of one moment of a layer; of more, every second, third, ... is used."""
 
 
@@ -141,7 +141,7 @@ class Shapes(Frames):
 
     def data(self) -> dict[str, Any]:
         """Return the number of shapes of each moment; of each, mode, colour and length; then all x, y and headings."""
-        shapes = [_lean(shape) for item in self.items for shape in item]
+        shapes = [_simplified(shape) for item in self.items for shape in item]
         colours = sorted({shape.colour for shape in shapes})
         modes = ("points", "line", "closed", "arrows")
         groups = [[modes.index(s.mode), colours.index(s.colour), len(s.points)] for s in shapes]
@@ -167,13 +167,13 @@ class Shapes(Frames):
         return around([shape.points[:, :2] for item in self.items for shape in item])
 
 
-def _lean(shape: Shape) -> Shape:
+def _simplified(shape: Shape) -> Shape:
     """Return a shape without points that would not be visible."""
     points = shape.points
     if shape.mode in ("line", "closed") and len(points) > 2:
         points = points[kept(points[:, :2], COARSE / 2)]
-    elif len(points) > MOST_POINTS:
-        points = points[:: -(-len(points) // MOST_POINTS)]
+    elif len(points) > MAX_POINTS:
+        points = points[:: -(-len(points) // MAX_POINTS)]
     return replace(shape, points=points)
 
 
@@ -278,7 +278,7 @@ class Strokes(Layer):
 
     def data(self) -> dict[str, Any]:
         """Return colour, width, end and length of each stroke; then all times, x and y."""
-        lean = [self._lean(stroke) for stroke in self.strokes]
+        lean = [self._simplified(stroke) for stroke in self.strokes]
         times = np.concatenate([np.empty(0), *(stroke.times for stroke in lean)])
         points = np.vstack([np.empty((0, 2)), *(stroke.points for stroke in lean)])
         return {
@@ -296,7 +296,7 @@ class Strokes(Layer):
             "points": pack_columns(np.column_stack([times, points]), TIME, LENGTH, LENGTH),
         }
 
-    def _lean(self, stroke: Stroke) -> Stroke:
+    def _simplified(self, stroke: Stroke) -> Stroke:
         """Return the points that matter, in space and time: a straight line at constant speed needs only its ends."""
         if len(stroke.times) < 3:
             return stroke

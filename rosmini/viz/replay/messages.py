@@ -11,17 +11,17 @@ import numpy as np
 from rosmini.core.errors import DeserializationError, RosminiError, nearest
 from rosmini.core.geometry.poses import Pose, compose, inverse
 from rosmini.ros.bag import Bag
-from rosmini.viz.replay.collectors import COLLECTORS, TRANSFORMS, UPDATE, Collector, TrackCollector, laid_on
+from rosmini.viz.replay.collectors import COLLECTORS, TRANSFORMS, UPDATE, Collector, TrackCollector, moved_to
 from rosmini.viz.replay.layers import Layer
-from rosmini.viz.replay.run import MOST_POSES, Body, Run
-from rosmini.viz.replay.standing import Standing
+from rosmini.viz.replay.recorded_frames import RecordedFrames
+from rosmini.viz.replay.run import MAX_POSES, Body, Run
 from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
 
-MOST_MOMENTS = 240
+MAX_MOMENTS = 240
 """Maximum number of moments of a layer: 2 Hz for two minutes."""
 SAME = 1e-6
-"""[m, rad]"""
+"""Tolerance of equal poses [m, rad]."""
 
 
 class NothingToSee(ViewError):
@@ -69,7 +69,7 @@ class BagLog:
             yield Entry(time.to_nsec() / 1e9, topic, partial(cls._decode, data))
 
 
-class KeptLog:
+class MemoryLog:
     """Messages in memory: (time [s], topic, message)."""
 
     def __init__(
@@ -83,10 +83,10 @@ class KeptLog:
         """Return the messages on these topics."""
         for time, topic, message in self._messages:
             if topic in topics:
-                yield Entry(time, topic, partial(_itself, message))
+                yield Entry(time, topic, partial(_identity, message))
 
 
-def _itself(message: Any) -> Any:
+def _identity(message: Any) -> Any:
     return message
 
 
@@ -109,13 +109,13 @@ def run_of(
 
     """
     shown = _shown(log, topics)
-    standing = _standing(log, frame, shown)
-    times = np.linspace(log.start, log.end, 1 + min(MOST_POSES, int(30 * (log.end - log.start))))
+    frames = _recorded_frames(log, frame, shown)
+    times = np.linspace(log.start, log.end, 1 + min(MAX_POSES, int(30 * (log.end - log.start))))
     if start_at is not None:
-        _lay(standing, times, start_at)
-    collectors = _collectors(log, shown, standing)
+        _align_map(frames, times, start_at)
+    collectors = _collectors(log, shown, frames)
     _collect(log, collectors)
-    bodies = _bodies(standing, times, outline)
+    bodies = _bodies(frames, times, outline)
     layers: list[Layer] = []
     notes = []
     for topic, collector in dict.fromkeys((c.topic, c) for c in collectors.values()):
@@ -123,23 +123,23 @@ def run_of(
         if isinstance(found, Body):
             if isinstance(collector, TrackCollector) and collector.frame:
                 notes.append(
-                    f"{topic} is in the frame {collector.frame}, which no transform connects with {standing.fixed}: "
+                    f"{topic} is in the frame {collector.frame}, which no transform connects with {frames.fixed}: "
                     "it is laid on the robot's start."
                 )
                 start = bodies[0].poses[0].tolist() if bodies else (0.0, 0.0, 0.0)
-                found = laid_on(found, (start[0], start[1], start[2]))
+                found = moved_to(found, (start[0], start[1], start[2]))
             bodies.append(found)
         elif found is not None:
             layers.append(found)
         notes += [
             f"{topic}: {plural(count, 'message')} left out: {reason}."
-            for reason, count in collector.lost.items()
+            for reason, count in collector.left_out.items()
         ]
     if not bodies and not layers:
-        raise NothingToSee(_nothing(log, notes))
+        raise NothingToSee(_nothing_to_see(log, notes))
     layers.sort(key=lambda layer: (layer.depth, "local" in layer.name, layer.name))
     return Run(
-        log.name, log.start, log.end, tuple(bodies), tuple(layers), frame=standing.fixed, notes=tuple(notes)
+        log.name, log.start, log.end, tuple(bodies), tuple(layers), frame=frames.fixed, notes=tuple(notes)
     )
 
 
@@ -158,7 +158,7 @@ def _shown(log: Log, topics: Collection[str] | None) -> list[str]:
     ]
 
 
-def _nothing(log: Log, notes: list[str]) -> str:
+def _nothing_to_see(log: Log, notes: list[str]) -> str:
     there = ", ".join(f"{topic} [{kind}]" for topic, kind in sorted(log.topics.items())[:8]) or "no topics"
     said = f" {' '.join(notes)}" if notes else ""
     return (
@@ -167,12 +167,12 @@ def _nothing(log: Log, notes: list[str]) -> str:
     )
 
 
-def _standing(log: Log, frame: str | None, shown: list[str]) -> Standing:
-    standing = Standing()
+def _recorded_frames(log: Log, frame: str | None, shown: list[str]) -> RecordedFrames:
+    frames = RecordedFrames()
     kinds = {topic: kind for topic, kind in log.topics.items() if kind in TRANSFORMS}
     for time, topic, read in log.entries(kinds):
         try:
-            standing.take(read(), time, static=topic.endswith("tf_static"))
+            frames.take(read(), time, static=topic.endswith("tf_static"))
         except DeserializationError:
             continue
     others: dict[str, None] = {}
@@ -188,37 +188,37 @@ def _standing(log: Log, frame: str | None, shown: list[str]) -> Standing:
                 others[header.frame_id] = None
         if not first:
             break
-    standing.settle(frame, others)
-    return standing
+    frames.choose_fixed_frame(frame, others)
+    return frames
 
 
-def _lay(standing: Standing, times: Any, start: Pose) -> None:
+def _align_map(frames: RecordedFrames, times: Any, start: Pose) -> None:
     """Move a map that begins at the robot, such as that of SLAM, to the robot's true pose; leave other maps in place.
 
     A map begins at the robot if its first transform to odometry is the identity, or if there is no map.
     """
-    bases = standing.bases()
-    if not bases or standing.fixed not in standing.tree:
+    bases = frames.bases()
+    if not bases or frames.fixed not in frames.tree:
         return
-    known, poses = standing.track(bases[0], times)
+    known, poses = frames.track(bases[0], times)
     if not len(known):
         return
-    _, odom = standing.track("odom", known[:1])
-    if standing.fixed != "odom" and not (len(odom) and np.abs(odom).max() < SAME):
+    _, odom = frames.track("odom", known[:1])
+    if frames.fixed != "odom" and not (len(odom) and np.abs(odom).max() < SAME):
         return
     x, y, heading = poses[0].tolist()
-    standing.offset = compose(start, inverse((x, y, heading)))
+    frames.offset = compose(start, inverse((x, y, heading)))
 
 
-def _collectors(log: Log, shown: list[str], standing: Standing) -> dict[str, Collector]:
+def _collectors(log: Log, shown: list[str], frames: RecordedFrames) -> dict[str, Collector]:
     found: dict[str, Collector] = {}
     for topic in shown:
         if log.topics[topic] != UPDATE:
-            found[topic] = COLLECTORS[log.topics[topic]](topic, standing, len(found))
+            found[topic] = COLLECTORS[log.topics[topic]](topic, frames, len(found))
     for topic in shown:
         base = found.get(topic.removesuffix("_updates"))
         if log.topics[topic] == UPDATE and base is not None:
-            base.every = True
+            base.accumulates = True
             found[topic] = base
     return found
 
@@ -230,31 +230,31 @@ def _collect(log: Log, collectors: dict[str, Collector]) -> None:
     for entry in log.entries(collectors):
         collector = collectors[entry.topic]
         collector.found += 1
-        if collector.every:
-            _give(collector, entry)
+        if collector.accumulates:
+            _process(collector, entry)
             if entry.time >= due.get(collector.topic, -np.inf):
                 collector.snapshot(entry.time)
                 due[collector.topic] = entry.time + _period(log, collector)
         elif entry.time >= due.get(entry.topic, -np.inf):
-            _give(collector, entry)
+            _process(collector, entry)
             skipped.pop(entry.topic, None)
             due[entry.topic] = entry.time + _period(log, collector)
         else:
             skipped[entry.topic] = entry
     for topic, entry in skipped.items():
-        _give(collectors[topic], entry)
+        _process(collectors[topic], entry)
     for collector in collectors.values():
-        if collector.every:
+        if collector.accumulates:
             collector.snapshot(log.end)
 
 
 def _period(log: Log, collector: Collector) -> float:
-    most = MOST_POSES if isinstance(collector, TrackCollector) else MOST_MOMENTS
+    most = MAX_POSES if isinstance(collector, TrackCollector) else MAX_MOMENTS
     # a message that arrives slightly early is still used
     return max(collector.period, (log.end - log.start) / most) * 0.9
 
 
-def _give(collector: Collector, entry: Entry) -> None:
+def _process(collector: Collector, entry: Entry) -> None:
     try:
         collector.take(entry.time, entry.read())
     except DeserializationError as error:
@@ -263,13 +263,15 @@ def _give(collector: Collector, entry: Entry) -> None:
         reason = str(error)
     else:
         return
-    collector.lost[reason] = collector.lost.get(reason, 0) + 1
+    collector.left_out[reason] = collector.left_out.get(reason, 0) + 1
 
 
-def _bodies(standing: Standing, times: Any, outline: tuple[tuple[float, float], ...] | None) -> list[Body]:
+def _bodies(
+    frames: RecordedFrames, times: Any, outline: tuple[tuple[float, float], ...] | None
+) -> list[Body]:
     found: list[Body] = []
-    for frame in standing.bases():
-        known, poses = standing.track(frame, times)
+    for frame in frames.bases():
+        known, poses = frames.track(frame, times)
         if len(known):
             colour = "blue" if not found else ("green", "purple", "sky")[len(found) % 3]
             found.append(Body(frame, known, poses, colour=colour, outline=outline))

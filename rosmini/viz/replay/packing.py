@@ -21,13 +21,13 @@ TIME = 1e-3
 """Unit of times [s]."""
 NANOSECOND = 1e-9
 """Unit of short times [s]."""
-LARGEST = 2**50
+MAX_DIFFERENCE = 2**50
 """Above this, a difference is not an exact number in JavaScript."""
 
 
 def whole(values: Any, quantum: float) -> NDArray[np.int64]:
     """Return values as integer multiples of `quantum`, off by less than 0.54 of it, regardless of their last bit."""
-    bounded = np.clip(np.asarray(values, dtype=float), -LARGEST * quantum, LARGEST * quantum)
+    bounded = np.clip(np.asarray(values, dtype=float), -MAX_DIFFERENCE * quantum, MAX_DIFFERENCE * quantum)
     return snap(bounded / quantum, 1.0).astype(np.int64)
 
 

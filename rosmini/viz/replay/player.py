@@ -17,7 +17,7 @@ from rosmini.sim.recording import Recording
 from rosmini.viz.moving_view import MovingView
 from rosmini.viz.recording_pictures import RunScene, recording_picture
 from rosmini.viz.replay.encode import replay_data
-from rosmini.viz.replay.messages import BagLog, KeptLog, NothingToSee, run_of
+from rosmini.viz.replay.messages import BagLog, MemoryLog, NothingToSee, run_of
 from rosmini.viz.replay.run import BUDGET, Run, thinned
 from rosmini.viz.replay.still import still_of
 from rosmini.viz.rounding import fixed
@@ -32,7 +32,7 @@ HEIGHT = 320
 Source = Recording | Run | Bag | str | os.PathLike[str]
 
 
-class Shown:
+class PlayerRun:
     """One run of a player: its data, its still picture and its description."""
 
     def __init__(
@@ -40,9 +40,9 @@ class Shown:
     ) -> None:
         self.source = source
         self.layers = layers
-        self.name = name or self._usual_name()
+        self.name = name or self._default_name()
 
-    def _usual_name(self) -> str:
+    def _default_name(self) -> str:
         source = self.source
         return source.name if isinstance(source, Run) else f"{source.model.name} in {source.world.name}"
 
@@ -79,7 +79,7 @@ class Shown:
         return (
             f"Player of a run of {run.model.name} in the world {run.world.name}, {fixed(run.duration, 1)} seconds "
             f"long. The robot drives {fixed(run.distance, 2)} m; at the end its odometry is off by "
-            f"{fixed(float(run.drift().position[-1]), 2)} m.{beside(run)}{switched(self.layers)}"
+            f"{fixed(float(run.drift().position[-1]), 2)} m.{other_robots_sentence(run)}{layers_sentence(self.layers)}"
         )
 
     def still(self, title: str) -> Picture:
@@ -101,7 +101,7 @@ class ReplayView(MovingView):
     call = "rosminiReplay.mount"
     height = HEIGHT
 
-    def __init__(self, runs: Sequence[Shown], *, title: str | None = None) -> None:
+    def __init__(self, runs: Sequence[PlayerRun], *, title: str | None = None) -> None:
         self.runs = tuple(runs)
         self.title = title
         layered = any(run.needs_layers for run in self.runs)
@@ -162,14 +162,14 @@ class ReplayView(MovingView):
         return f"Replay of {self.runs[0].name}"
 
 
-def beside(run: Recording) -> str:
+def other_robots_sentence(run: Recording) -> str:
     """Return a sentence about the other robots of a run; empty if there are none."""
     others = ", ".join(each.name for each in run.others[:6])
     more = f" and {len(run.others) - 6} more" if len(run.others) > 6 else ""
     return f" Beside it drive {others}{more}." if others else ""
 
 
-def switched(run: Run | None) -> str:
+def layers_sentence(run: Run | None) -> str:
     """Return a sentence about the layers of a run; empty if there are none."""
     names = [] if run is None else [layer.name for layer in run.layers]
     return f" Layers that can be switched: {', '.join(names)}." if names else ""
@@ -214,13 +214,13 @@ def replay(
     )
 
 
-def _shown(source: Source, name: str | None, robot: RobotModel | None, options: dict[str, Any]) -> Shown:
+def _shown(source: Source, name: str | None, robot: RobotModel | None, options: dict[str, Any]) -> PlayerRun:
     if isinstance(source, Recording):
-        return Shown(source, kept_run(source, **options), name=name)
-    return Shown(run_in(source, robot=robot, **options), name=name)
+        return PlayerRun(source, recorder_run(source, **options), name=name)
+    return PlayerRun(run_from(source, robot=robot, **options), name=name)
 
 
-def run_in(
+def run_from(
     source: Run | Bag | str | os.PathLike[str], *, robot: RobotModel | None = None, **options: Any
 ) -> Run:
     """Return the run in a bag or in an MCAP file; a `Run` is returned as it is. `options` are those of `run_of`.
@@ -238,11 +238,11 @@ def run_in(
     suffix = Path(source).suffix if isinstance(source, str | os.PathLike) else ""
     if suffix == ".bag":
         with Bag(source) as bag:
-            return run_in(bag, robot=robot, **options)
+            return run_from(bag, robot=robot, **options)
     if suffix == ".mcap":
         with BytesIO() as file:
             from_mcap(source, file)
-            run = run_in(Bag(file), robot=robot, **options)
+            run = run_from(Bag(file), robot=robot, **options)
             return replace(run, name=Path(source).name)
     what = repr(source) if isinstance(source, str) else f"a {type(source).__name__}"
     raise ViewError(
@@ -251,7 +251,7 @@ def run_in(
     )
 
 
-def kept_run(recording: Recording, **options: Any) -> Run | None:
+def recorder_run(recording: Recording, **options: Any) -> Run | None:
     """Return the messages of a recorder as a run that starts at the robot's true pose; None if they show nothing."""
     messages = recording.messages
     if not messages:
@@ -259,7 +259,7 @@ def kept_run(recording: Recording, **options: Any) -> Run | None:
     start, end = float(recording.times[0]), float(recording.times[-1])
     x, y, heading = recording.truth[0].tolist()
     try:
-        run = run_of(KeptLog("the run", messages, start, end), start_at=(x, y, heading), **options)
+        run = run_of(MemoryLog("the run", messages, start, end), start_at=(x, y, heading), **options)
     except NothingToSee:
         return None
     believed = (

@@ -22,8 +22,8 @@ Floats = NDArray[np.float64]
 
 BUDGET = 205_000
 """Maximum size of the data of a run [bytes]: with the still picture and its page, it stays below 300 kB."""
-MOST_POSES = 1200
-LEAST_EXTENT = 0.5
+MAX_POSES = 1200
+MIN_EXTENT = 0.5
 """Minimum width and height of the area that a player shows [m]."""
 
 
@@ -69,7 +69,7 @@ class Body:
 
     def data(self) -> dict[str, Any]:
         """Return the data for the script: `track` has times, x, y and headings."""
-        every = -(-len(self.times) // MOST_POSES)
+        every = -(-len(self.times) // MAX_POSES)
         keep = np.unique(np.append(np.arange(0, len(self.times), every), len(self.times) - 1))
         rows = np.column_stack([self.times, self.poses])[keep]
         data: dict[str, Any] = {
@@ -145,7 +145,7 @@ class Run:
         boxes = [np.array(box).reshape(2, 2) for box in found if box is not None]
         whole_box = around(boxes) or (0.0, 0.0, 0.0, 0.0)
         x0, y0, x1, y1 = (float(v) for v in snap(whole_box, 0.01))
-        more = [max(0.1, (LEAST_EXTENT - (high - low)) / 2) for low, high in ((x0, x1), (y0, y1))]
+        more = [max(0.1, (MIN_EXTENT - (high - low)) / 2) for low, high in ((x0, x1), (y0, y1))]
         return (x0 - more[0], y0 - more[1], x1 + more[0], y1 + more[1])
 
     def data(self, budget: int = BUDGET) -> dict[str, Any]:

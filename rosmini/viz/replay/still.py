@@ -17,25 +17,25 @@ from rosmini.viz.view import Picture
 
 Floats = NDArray[np.float64]
 
-HIGHEST = 480.0
+MAX_HEIGHT = 480.0
 """Maximum height of the picture [px]."""
-MOST_CELLS = 110
+MAX_CELLS = 110
 """Maximum number of cells per side of a map, which is drawn as a path around each run of cells."""
 TOLERANCE = 0.3
 """Maximum deviation of a drawn line from its points [px]."""
-MOST_SEEN = 180
+MAX_SCAN_POINTS = 180
 """Maximum number of points of a scan that are drawn."""
 HEAD = ((13.0, 0.0), (-9.0, 8.0), (-5.0, 0.0), (-9.0, -8.0))
 """An arrowhead [px], as the player draws it."""
 
 
-class Sheet:
+class Canvas:
     """Converts metres to pixels."""
 
     def __init__(self, run: Run) -> None:
         self.x0, self.y0, self.x1, self.y1 = run.extent()
         wide, high = max(self.x1 - self.x0, 1e-6), max(self.y1 - self.y0, 1e-6)
-        self.scale = min(WIDTH / wide, HIGHEST / high)
+        self.scale = min(WIDTH / wide, MAX_HEIGHT / high)
         self.width, self.height = wide * self.scale, high * self.scale
 
     def px(self, points: Floats) -> Floats:
@@ -54,32 +54,34 @@ class Sheet:
 
 def still_of(run: Run, *, title: str, alt: str) -> Picture:
     """Draw the end of a run."""
-    sheet = Sheet(run)
+    canvas = Canvas(run)
     parts = []
     if run.background is not None:
-        parts.append(element("rect", width=sheet.width, height=sheet.height, style=f"fill:{run.background}"))
-    parts += [_layer(layer, sheet, run.end) for layer in run.layers]
+        parts.append(
+            element("rect", width=canvas.width, height=canvas.height, style=f"fill:{run.background}")
+        )
+    parts += [_layer(layer, canvas, run.end) for layer in run.layers]
     parts += [
-        _body(body, sheet, run.end) for body in run.bodies if body.shown_from <= run.end < body.shown_until
+        _body(body, canvas, run.end) for body in run.bodies if body.shown_from <= run.end < body.shown_until
     ]
     svg = document(
-        element("g", "".join(parts), fill="none"), width=sheet.width, height=sheet.height, title=title, alt=alt,
+        element("g", "".join(parts), fill="none"), width=canvas.width, height=canvas.height, title=title, alt=alt,
         css="", colours=list(LIGHT), kind="rosmini-run",
     )  # fmt: skip
     return Picture(svg, text=run.text(title), alt=alt)
 
 
-def _layer(layer: Layer, sheet: Sheet, end: float) -> str:
+def _layer(layer: Layer, canvas: Canvas, end: float) -> str:
     if isinstance(layer, Grids) and layer.grids:
-        return _grid(layer.grids[-1], layer.scheme or scheme_of(layer.name), sheet)
+        return _grid(layer.grids[-1], layer.scheme or scheme_of(layer.name), canvas)
     if isinstance(layer, Shapes) and layer.items:
-        return "".join(_shape(shape, sheet) for shape in layer.items[-1])
+        return "".join(_shape(shape, canvas) for shape in layer.items[-1])
     if isinstance(layer, Scans) and layer.count:
-        return _scan(layer, sheet)
+        return _scan(layer, canvas)
     if isinstance(layer, Strokes):
         shown = [stroke for stroke in layer.strokes if stroke.until > end]
         return "".join(
-            _path(sheet.line(stroke.points), stroke.colour, width=stroke.width)
+            _path(canvas.line(stroke.points), stroke.colour, width=stroke.width)
             for stroke in shown
             if len(stroke.points) > 1
         )
@@ -99,10 +101,10 @@ def _path(data: str, colour: str, *, width: float = 2.0, fill: bool = False) -> 
     return element("path", d=data, style=kind + ";stroke-linejoin:round")
 
 
-def _grid(grid: Grid, scheme: str, sheet: Sheet) -> str:
+def _grid(grid: Grid, scheme: str, canvas: Canvas) -> str:
     """Return a path for each colour, around its runs of cells."""
     cells, resolution, (x, y, heading) = grid
-    factor = -(-max(cells.shape) // MOST_CELLS)
+    factor = -(-max(cells.shape) // MAX_CELLS)
     cells, resolution = (coarse(cells, factor), resolution * factor) if factor > 1 else (cells, resolution)
     colours = painted(cells, scheme)
     paths: dict[tuple[int, ...], list[str]] = {}
@@ -112,8 +114,8 @@ def _grid(grid: Grid, scheme: str, sheet: Sheet) -> str:
             colour = tuple(colours[row, start].tolist())
             if colour[3] and cells[row, start] != UNKNOWN:
                 paths.setdefault(colour, []).append(f"M{start},{row}h{end - start}v1h-{end - start}z")
-    (px, py), turned = sheet.px(np.array([(x, y)]))[0].tolist(), np.rad2deg(heading)
-    size = resolution * sheet.scale
+    (px, py), turned = canvas.px(np.array([(x, y)]))[0].tolist(), np.rad2deg(heading)
+    size = resolution * canvas.scale
     placed = f"translate({number(px)},{number(py)}) rotate({-turned:.3f}) scale({size:.4f},{-size:.4f})"
     drawn = [
         element(
@@ -131,12 +133,12 @@ def _grid(grid: Grid, scheme: str, sheet: Sheet) -> str:
     return element("g", "".join(drawn), transform=placed, opacity=f"{ALPHA:g}", shape_rendering="crispEdges")
 
 
-def _shape(shape: Shape, sheet: Sheet) -> str:
+def _shape(shape: Shape, canvas: Canvas) -> str:
     if not len(shape.points):
         return ""
     if shape.mode in ("line", "closed"):
-        return _path(sheet.line(shape.points, closed=shape.mode == "closed"), shape.colour)
-    pixels = sheet.px(shape.points)[: 4 * MOST_SEEN]
+        return _path(canvas.line(shape.points, closed=shape.mode == "closed"), shape.colour)
+    pixels = canvas.px(shape.points)[: 4 * MAX_SCAN_POINTS]
     if shape.mode == "points":
         return _dots(pixels, shape.colour)
     length = 24.0 if len(pixels) == 1 else 9.0
@@ -154,24 +156,24 @@ def _dots(pixels: Floats, colour: str) -> str:
     return _path(data, colour, width=3.6)
 
 
-def _scan(layer: Scans, sheet: Sheet) -> str:
+def _scan(layer: Scans, canvas: Canvas) -> str:
     ranges, (x, y, heading) = layer.ranges[-1], layer.poses[-1].tolist()
     seen = np.flatnonzero(np.isfinite(ranges) & (ranges > 0))
-    seen = seen[:: -(-len(seen) // MOST_SEEN) or 1]
+    seen = seen[:: -(-len(seen) // MAX_SCAN_POINTS) or 1]
     angles = heading + layer.start + layer.step * seen
     points = np.column_stack([x + ranges[seen] * np.cos(angles), y + ranges[seen] * np.sin(angles)])
-    return _dots(sheet.px(points), "vermilion")
+    return _dots(canvas.px(points), "vermilion")
 
 
-def _body(body: Body, sheet: Sheet, end: float) -> str:
+def _body(body: Body, canvas: Canvas, end: float) -> str:
     last = body.poses[int(np.searchsorted(body.times, end + 1e-9)) - 1]
     parts = []
     if body.trail and len(body.poses) > 1:
-        parts.append(_path(sheet.line(body.poses[:, :2]), body.colour))
+        parts.append(_path(canvas.line(body.poses[:, :2]), body.colour))
     c, s = np.cos(last[2]), np.sin(last[2])
-    size = sheet.scale if body.outline is not None else 1.0
+    size = canvas.scale if body.outline is not None else 1.0
     head = np.array(body.outline if body.outline is not None else HEAD)
-    pixels = snap(sheet.px(last[None, :2]) + size * _turned(head, c, s), 0.1)
+    pixels = snap(canvas.px(last[None, :2]) + size * _turned(head, c, s), 0.1)
     data = "M" + "L".join(f"{number(x)},{number(y)}" for x, y in pixels.tolist()) + "Z"
     edge = f"fill:{_paint(body.colour)};stroke:{variable('page')};stroke-width:1.5;stroke-linejoin:round"
     return "".join([*parts, element("path", d=data, style=edge)])

@@ -41,7 +41,7 @@ class TimeTravelError(RosminiError):
 
 
 @dataclass(frozen=True)
-class Heard:
+class CapturedMessage:
     """A message: its time [ns of the graph's time], topic, type and bytes."""
 
     time: int
@@ -51,11 +51,11 @@ class Heard:
 
 
 @dataclass(frozen=True)
-class Made:
+class CapturedRun:
     """A run: all its messages, as a bag and in order, and the recording of its robot, if a simulation ran."""
 
     bag: bytes
-    messages: tuple[Heard, ...]
+    messages: tuple[CapturedMessage, ...]
     start: int
     """The time of the start [ns]."""
     until_change: int
@@ -76,14 +76,14 @@ class Fork:
     at: float
     what: str
     """The change, in words."""
-    before: Made
-    after: Made
+    before: CapturedRun
+    after: CapturedRun
 
     @property
     def differs_after(self) -> float | None:
         """Time of the first message that differs [s after the start]; None if the change had no effect."""
         for one, other in zip_longest(self.before.messages, self.after.messages):
-            if one != other and not (_is_own(one) or _is_own(other)):
+            if one != other and not (_is_log(one) or _is_log(other)):
                 return min((each.time - self.before.start) / 1e9 for each in (one, other) if each is not None)
         return None
 
@@ -136,13 +136,13 @@ def what_if(setup: Setup, change: Change, *, at: float, seconds: float, seed: in
     """
     if not 0 <= at <= seconds:
         raise TimeTravelError(f"the change must be within the run of {seconds} s, not at {at} s")
-    before = _made(setup, None, at, seconds, seed)
-    after = _made(setup, change, at, seconds, seed)
+    before = _capture(setup, None, at, seconds, seed)
+    after = _capture(setup, change, at, seconds, seed)
     _check(before, after)
-    return Fork(at, _words(change), before, after)
+    return Fork(at, _description(change), before, after)
 
 
-def _made(setup: Setup, change: Change | None, at: float, seconds: float, seed: int) -> Made:
+def _capture(setup: Setup, change: Change | None, at: float, seconds: float, seed: int) -> CapturedRun:
     with TemporaryDirectory(prefix="rosmini-") as folder, Graph(seed=seed) as graph:
         options = RecordOptions(all=True, quiet=True, output_name=str(Path(folder) / "run.bag"))
         start = graph.now().to_nsec()
@@ -166,9 +166,10 @@ def _made(setup: Setup, change: Change | None, at: float, seconds: float, seed: 
         data = path.read_bytes()
     with Bag(BytesIO(data)) as bag:
         messages = tuple(
-            Heard(time, conn.topic, conn.type, content) for conn, time, content, _, _ in bag.read_raw()
+            CapturedMessage(time, conn.topic, conn.type, content)
+            for conn, time, content, _, _ in bag.read_raw()
         )
-    return Made(data, messages, start, until_change, recording)
+    return CapturedRun(data, messages, start, until_change, recording)
 
 
 def _apply(graph: Graph, change: Change) -> None:
@@ -187,18 +188,18 @@ def _apply(graph: Graph, change: Change) -> None:
         Client(node, owner).update_configuration(values)
 
 
-def _words(change: Change) -> str:
+def _description(change: Change) -> str:
     if callable(change):
         return getattr(change, "__name__", "the change").replace("_", " ").replace("<lambda>", "the change")
     return ", ".join(f"{name} = {value}" for name, value in change.items())
 
 
-def _is_own(heard: Heard | None) -> bool:
+def _is_log(message: CapturedMessage | None) -> bool:
     """Return True if a message is a log message, which may come from the node that makes the change."""
-    return heard is not None and heard.topic in ("/rosout", "/rosout_agg")
+    return message is not None and message.topic in ("/rosout", "/rosout_agg")
 
 
-def _check(before: Made, after: Made) -> None:
+def _check(before: CapturedRun, after: CapturedRun) -> None:
     """Raise `TimeTravelError` unless both runs have the same messages up to the change."""
     pairs = zip_longest(before.messages[: before.until_change], after.messages[: after.until_change])
     for number, (one, other) in enumerate(pairs):

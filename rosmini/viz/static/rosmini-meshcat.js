@@ -29,7 +29,7 @@
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
 
-  /* The commands that `squeezed` of rosmini/viz/meshcat/squeezed.py wrote: of bytes that were there before is said how many and
+  /* The commands that `squeezed` of rosmini/viz/meshcat/compression.py wrote: of bytes that were there before is said how many and
      how far back. */
   function commandsOf(text) {
     const from = bytes(text);

@@ -576,9 +576,9 @@ def test_a_run_of_layers_has_its_robots_and_what_lies_on_the_ground():
     ] == ["robots/robot"], "what a topic says of the robot is no robot of its own"
     tracks = keys(view)
     assert tracks["/meshcat/robots/robot", "position"][1][-1, 0] == pytest.approx(1.0)
-    laid = view.data["layered"]
-    assert [each["name"] for each in laid["layers"]] == ["/plan"]
-    assert [each["name"] for each in laid["bodies"]] == ["base_link", "/odom"]
+    pasted = view.data["layered"]
+    assert [each["name"] for each in pasted["layers"]] == ["/plan"]
+    assert [each["name"] for each in pasted["bodies"]] == ["base_link", "/odom"]
     assert view.text.startswith("3D replay: drive.bag: 4.0 s\nbase_link: start (0.00, 0.00, 0.0 deg)")
     assert "rosmini-meshcat-layers.js" in view._html(book=True)
     assert "rosmini-meshcat-layers.js" not in replay_3d(run())._html(book=True)

@@ -15,9 +15,9 @@ from rosmini.sim.shapes import Box, Cylinder
 from rosmini.sim.urdf import UnknownJoint, load
 from rosmini.sim.worlds import world
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d
+from rosmini.viz.meshcat.depth_buffer import DepthBuffer
 from rosmini.viz.meshcat.links import link_surfaces
-from rosmini.viz.meshcat.painting import Painting
-from rosmini.viz.meshcat.scene3d import TINY
+from rosmini.viz.meshcat.scene3d import OMITTED_COLOURS
 from rosmini.viz.view import ViewError
 
 URDF = "package://turtlebot3_description/urdf"
@@ -151,15 +151,19 @@ def painted(*faces):
         np.linalg.solve(np.column_stack([outline[:3], np.ones(3)]), 1 / np.broadcast_to(depths, 3))
         for outline, (_, depths) in zip(outlines, faces, strict=True)
     ]
-    return Painting(outlines, np.array(planes), 100, 100)
+    return DepthBuffer(outlines, np.array(planes), 100, 100)
 
 
 def test_what_is_hidden_is_left_out_and_the_farther_is_painted_first():
     near, far, behind = (square(10, 10, 20), 1.0), (square(20, 20, 40), 2.0), (square(12, 12, 5), 3.0)
-    painting = painted(near, far, behind)
-    assert painting.order == [1, 0]
+    depth_buffer = painted(near, far, behind)
+    assert depth_buffer.order == [1, 0]
     assert painted((square(200, 200, 5), 1.0)).order == []
-    assert [painting.hides(15, 15, 1.5), painting.hides(15, 15, 0.5), painting.hides(80, 80, 9.0)] == [
+    assert [
+        depth_buffer.hides(15, 15, 1.5),
+        depth_buffer.hides(15, 15, 0.5),
+        depth_buffer.hides(80, 80, 9.0),
+    ] == [
         True,
         False,
         False,
@@ -221,6 +225,6 @@ def test_in_a_world_a_described_robot_is_drawn_without_its_holes():
     alone = urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")).scene.surfaces
     there = robot_3d(world("empty"), model("waffle"), (0.0, 0.0, 0.0)).scene.surfaces
     left_out = {part.colour for part in alone} - {part.colour for part in there}
-    assert left_out == set(TINY)
-    assert sum(len(part.surface.faces) for part in alone if part.colour in TINY) > 1000
+    assert left_out == set(OMITTED_COLOURS)
+    assert sum(len(part.surface.faces) for part in alone if part.colour in OMITTED_COLOURS) > 1000
     assert len(there) == len(alone) - 1

@@ -12,7 +12,7 @@ from hypothesis.extra.numpy import arrays
 
 from rosmini.viz import ViewError
 from rosmini.viz.map_colours import colours_of
-from rosmini.viz.replay.grids import MOST_CELLS, Grid, Grids, coarse, grid, laid, runs_of
+from rosmini.viz.replay.grids import MAX_CELLS, Grid, Grids, coarse, grid, pasted, runs_of
 
 from .unpacking import columns, naturals, unpack
 
@@ -27,7 +27,7 @@ def decoded(data) -> list[np.ndarray]:
     tokens = naturals(data["runs"]).reshape(-1, 3)
     maps, at, before = [], 0, None
     for (width, height, _, _, _, _, dx, dy), count in zip(places.tolist(), counts, strict=True):
-        cells = laid(before, (height, width), dx, dy).ravel()
+        cells = pasted(before, (height, width), dx, dy).ravel()
         position = 0
         for gap, length, value in tokens[at : at + count].tolist():
             position += gap
@@ -80,7 +80,7 @@ def test_a_large_map_is_drawn_coarsely_and_what_is_occupied_stays():
     cells[1000:3000, 1000:3000] = 0
     cells[2000, 2000] = 100
     found = grid(cells, 0.05, (0.0, 0.0, 0.0))
-    assert max(found.cells.shape) <= MOST_CELLS
+    assert max(found.cells.shape) <= MAX_CELLS
     assert found.resolution == pytest.approx(0.05 * 8)
     assert (found.cells == 100).sum() == 1
     assert set(np.unique(found.cells)) == {0, 100, 255}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rosmini.viz import ViewError
-from rosmini.viz.replay.images import MOST_PIXELS, Images, small
+from rosmini.viz.replay.images import MAX_PIXELS, Images, reduced_image
 
 from .unpacking import naturals, unpack
 
@@ -14,17 +14,17 @@ from .unpacking import naturals, unpack
 def test_colours_are_rounded_to_sixty_four():
     pixels = np.zeros((2, 3, 3), dtype=np.uint8)
     pixels[0, 0], pixels[1, 2] = (255, 0, 0), (90, 255, 130)
-    assert small(pixels).tolist() == [[48, 0, 0], [0, 0, 16 + 12 + 2]]
+    assert reduced_image(pixels).tolist() == [[48, 0, 0], [0, 0, 16 + 12 + 2]]
 
 
 def test_near_is_light_and_nothing_is_black():
-    assert small(np.array([[0.0, 0.5, np.nan, np.inf]])).tolist() == [[63, 42, 0, 0]]
+    assert reduced_image(np.array([[0.0, 0.5, np.nan, np.inf]])).tolist() == [[63, 42, 0, 0]]
 
 
 def test_large_images_become_small_and_none_is_refused():
-    assert max(small(np.zeros((480, 640, 3), dtype=np.uint8)).shape) <= MOST_PIXELS
+    assert max(reduced_image(np.zeros((480, 640, 3), dtype=np.uint8)).shape) <= MAX_PIXELS
     with pytest.raises(ViewError, match="without pixels"):
-        small(np.zeros((0, 0, 3), dtype=np.uint8))
+        reduced_image(np.zeros((0, 0, 3), dtype=np.uint8))
 
 
 def test_a_picture_that_stays_costs_nothing():

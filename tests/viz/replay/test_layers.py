@@ -9,7 +9,7 @@ import pytest
 
 from rosmini.viz import ViewError
 from rosmini.viz.replay import Scans, Shape, Shapes, Stroke, Strokes
-from rosmini.viz.replay.layers import MOST_POINTS, RANGE, around
+from rosmini.viz.replay.layers import MAX_POINTS, RANGE, around
 
 from .unpacking import columns, unpack
 
@@ -29,7 +29,7 @@ def test_shapes_reach_the_page_group_by_group():
 def test_a_hundred_thousand_points_become_few():
     points = np.random.default_rng(0).uniform(-5, 5, (100_000, 2))
     data = Shapes("/cloud", np.array([0.0]), ((Shape("points", points),),)).data()
-    assert 100 < len(columns(data["points"], 2)) <= MOST_POINTS
+    assert 100 < len(columns(data["points"], 2)) <= MAX_POINTS
 
 
 def test_scans_are_rounded_to_two_centimetres_and_nothing_is_zero():

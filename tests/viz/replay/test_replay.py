@@ -25,7 +25,7 @@ from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
 from rosmini.viz.replay import replay, scene_data
-from rosmini.viz.replay.encode import MOST_SCANS, replay_data
+from rosmini.viz.replay.encode import MAX_SCANS, replay_data
 from rosmini.viz.replay.packing import ANGLE, LENGTH, TIME, pack, whole
 
 STATIC = Path(style.__file__).parent / "static"
@@ -201,7 +201,7 @@ def test_a_minute_with_its_scans_weighs_less_than_300_kb_and_an_hour_too():
     scans = np.resize(minute.scans, (len(scan_times), 360))
     long = replace(minute, times=hours, truth=poses, odom=poses, scan_times=scan_times, scans=scans)
     data = replay_data(long)
-    assert len(unpack(data["scan_times"])) <= MOST_SCANS
+    assert len(unpack(data["scan_times"])) <= MAX_SCANS
     assert len(json.dumps(data)) < 260_000
 
 

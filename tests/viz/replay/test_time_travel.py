@@ -116,7 +116,7 @@ def test_a_launch_file_is_a_run_too(tmp_path):
 
 
 def test_a_node_with_dynamic_reconfigure_hears_of_the_change():
-    heard = []
+    message = []
 
     def tuned(graph):
         node = graph.node("tuner")
@@ -125,12 +125,12 @@ def test_a_node_with_dynamic_reconfigure_hears_of_the_change():
 
         def change(config, _level):
             gain["value"] = config["gain"]
-            heard.append(config["gain"])
+            message.append(config["gain"])
             return config
 
         Server(node, Settings, change)
         node.timer(0.1, lambda _event: talker.publish(message_class("std_msgs/Float64")(data=gain["value"])))
 
     fork = what_if(tuned, {"/tuner/gain": 2.5}, at=0.5, seconds=1.0)
-    assert heard == [1.0, 1.0, 2.5]
+    assert message == [1.0, 1.0, 2.5]
     assert fork.differs_after >= 0.5

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from rosmini.viz.rviz import look_from, still
-from rosmini.viz.rviz.clipping import NEAR, rectangles, seen
+from rosmini.viz.rviz.clipping import NEAR, clipped, rectangles
 from rosmini.viz.rviz.primitives import Lines, Mesh, Points, Texture
 from rosmini.viz.rviz.projection import Perspective
 from rosmini.viz.view import ViewError
@@ -20,17 +20,17 @@ DOWN = Perspective(np.array([0.0, -3.0, 3.0]), np.zeros(3), 45.0, 300.0, 200.0)
 
 
 def test_a_line_ends_where_it_passes_the_eye():
-    line = seen(Lines(np.array([(-4.0, 1.0, 1.0), (4.0, 1.0, 1.0), (5.0, 1.0, 1.0)]), WHITE), LEVEL)
+    line = clipped(Lines(np.array([(-4.0, 1.0, 1.0), (4.0, 1.0, 1.0), (5.0, 1.0, 1.0)]), WHITE), LEVEL)
     assert line.segments() == pytest.approx(np.array([[(NEAR, 1, 1), (4, 1, 1)], [(4, 1, 1), (5, 1, 1)]]))
-    behind = seen(Lines(np.array([(-4.0, 1.0, 1.0), (-1.0, 1.0, 1.0)]), WHITE), LEVEL)
+    behind = clipped(Lines(np.array([(-4.0, 1.0, 1.0), (-1.0, 1.0, 1.0)]), WHITE), LEVEL)
     assert len(behind.segments()) == 0
 
 
 def test_points_and_faces_behind_the_eye_are_left_out():
     at = np.array([(-1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 1.0, 0.0), (2.0, 0.0, 1.0)])
-    assert seen(Points(at, np.tile(WHITE, (4, 1)), 0.1), LEVEL).points.tolist() == at[1:].tolist()
+    assert clipped(Points(at, np.tile(WHITE, (4, 1)), 0.1), LEVEL).points.tolist() == at[1:].tolist()
     faces = np.array([(0, 1, 2), (1, 2, 3)])
-    assert seen(Mesh(at, faces, WHITE), LEVEL).faces.tolist() == [[1, 2, 3]]
+    assert clipped(Mesh(at, faces, WHITE), LEVEL).faces.tolist() == [[1, 2, 3]]
 
 
 def areas(texture):

@@ -18,25 +18,25 @@ from rosmini.viz.view import ViewError
 
 Floats = NDArray[np.float64]
 
-FOR_EVER = 2**62
+ALL_TIME = 2**62
 """Time that recorded transforms are stored [ns]."""
-USUAL = ("map", "odom", "world")
+FIXED_FRAMES = ("map", "odom", "world")
 """Fixed frames to draw a run in, in order of preference."""
-BASES = ("base_footprint", "base_link")
+BASE_FRAMES = ("base_footprint", "base_link")
 """Names of a robot's base frame (REP 105 and 120)."""
-HOME: Pose = (0.0, 0.0, 0.0)
+ORIGIN: Pose = (0.0, 0.0, 0.0)
 
 
-class Standing:
+class RecordedFrames:
     """Recorded transforms, seen from above.
 
     `fixed` is the fixed frame; `offset` is its pose in the drawing.
     """
 
     def __init__(self) -> None:
-        self.tree = FrameTree(FOR_EVER)
+        self.tree = FrameTree(ALL_TIME)
         self.fixed = ""
-        self.offset: Pose = HOME
+        self.offset: Pose = ORIGIN
         self._late: list[float] = []
 
     def take(self, message: Any, time: float, *, static: bool) -> None:
@@ -50,7 +50,7 @@ class Standing:
             if not static:
                 self._late.append(time - stamp / 1e9)
 
-    def settle(self, frame: str | None, others: Iterable[str]) -> None:
+    def choose_fixed_frame(self, frame: str | None, others: Iterable[str]) -> None:
         """Choose the fixed frame: `frame` if given, otherwise map, odom or world, otherwise a root or one of `others`.
 
         Raises:
@@ -63,7 +63,7 @@ class Standing:
             raise ViewError(
                 f"no message contains the frame {frame!r} to draw the run in; the frames are {names}"
             )
-        usual = [name for name in USUAL if name in there]
+        usual = [name for name in FIXED_FRAMES if name in there]
         self.fixed = frame.lstrip("/") if frame is not None else next(iter([*usual, *there]), "")
 
     @property
@@ -86,7 +86,7 @@ class Standing:
     def bases(self) -> list[str]:
         """Return the base frames of robots: one for each prefix."""
         chosen: dict[str, str] = {}
-        for base in BASES:
+        for base in BASE_FRAMES:
             for frame in sorted(self.tree):
                 prefix, _, last = frame.rpartition("/")
                 if last == base:
@@ -103,7 +103,7 @@ class Standing:
         return rows[:, 0], rows[:, 1:]
 
 
-def flat(pose: Any) -> Pose:
+def planar_pose(pose: Any) -> Pose:
     """Return a `geometry_msgs/Pose` seen from above; with a quaternion of zeros it points along x, as in RViz.
 
     Raises `ViewError` if it is not finite.

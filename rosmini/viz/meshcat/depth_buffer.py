@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-class Painting:
+class DepthBuffer:
     """The order in which to paint flat polygons, and the depth of the nearest one at each pixel.
 
     `outlines` are their projections (n, 2) [px], and `planes` (n, 3) their depths: a b c, where 1 / depth is
@@ -33,13 +33,13 @@ class Painting:
         """1 / depth [1/m]; 0 where there is no polygon."""
         self.order: list[int] = []
         """The visible polygons, by index."""
-        polygon, pixel, nearness = self._rasterise(outlines, planes)
+        polygon, pixel, inverse_depth = self._rasterise(outlines, planes)
         if not len(polygon):
             return
-        order = np.lexsort((polygon, nearness, pixel))
+        order = np.lexsort((polygon, inverse_depth, pixel))
         polygon, pixel = polygon[order], pixel[order]
         last = np.append(pixel[1:] != pixel[:-1], True)
-        self._nearest[pixel[last]] = nearness[order][last]
+        self._nearest[pixel[last]] = inverse_depth[order][last]
         seen = np.unique(polygon[last])
         kept = np.isin(polygon, seen)
         polygon, pixel = polygon[kept], pixel[kept]
@@ -47,7 +47,7 @@ class Painting:
         pairs, count = np.unique(
             np.column_stack([polygon[:-1][shared], polygon[1:][shared]]), axis=0, return_counts=True
         )
-        far = snap([1 / _nearnesses(outlines[i], planes[i]).min() for i in seen], 1e-6)
+        far = snap([1 / _inverse_depths(outlines[i], planes[i]).min() for i in seen], 1e-6)
         self.order = _sorted(
             seen.tolist(), pairs.tolist(), count.tolist(), dict(zip(seen.tolist(), far.tolist(), strict=True))
         )
@@ -69,13 +69,13 @@ class Painting:
             x, y = (part.ravel() for part in np.meshgrid(np.arange(x0, x1 + 1), np.arange(y0, y1 + 1)))
             covered = inside(np.column_stack([x, y]) + 0.5, sides_of(outline))
             x, y = x[covered], y[covered]
-            nearness = _nearnesses(np.column_stack([x, y]) + 0.5, planes[i])
-            found.append((np.full(len(x), i), y * self._width + x, nearness))
-        polygon, pixel, nearness = (np.concatenate(part) for part in zip(*found, strict=True))
-        return polygon, pixel, nearness
+            inverse_depth = _inverse_depths(np.column_stack([x, y]) + 0.5, planes[i])
+            found.append((np.full(len(x), i), y * self._width + x, inverse_depth))
+        polygon, pixel, inverse_depth = (np.concatenate(part) for part in zip(*found, strict=True))
+        return polygon, pixel, inverse_depth
 
 
-def _nearnesses(points: Floats, plane: Floats) -> Floats:
+def _inverse_depths(points: Floats, plane: Floats) -> Floats:
     return snap(matrix_product(points, plane[:2]) + plane[2], 1e-7)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.viz.meshcat.squeezed import squeezed
+from rosmini.viz.meshcat.compression import compress
 
 
 def commands_of(data: bytes) -> list[bytes]:
@@ -42,11 +42,11 @@ pieces = st.sampled_from([b"", b"a", b"abcd", b"abcdefgh" * 20, b"\x00" * 300, b
 
 @given(st.lists(st.builds(b"".join, st.lists(pieces | st.binary(max_size=9)))))
 def test_what_was_squeezed_comes_back(commands):
-    assert commands_of(squeezed(commands)) == commands
+    assert commands_of(compress(commands)) == commands
 
 
 def test_what_repeats_takes_nearly_nothing():
     command = bytes(range(256)) * 4
-    once = len(squeezed([command]))
+    once = len(compress([command]))
     assert once < 300
-    assert len(squeezed([command] * 10)) < once + 30
+    assert len(compress([command] * 10)) < once + 30

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-LEAST = 4
+MIN_MATCH = 4
 """Minimum match length [bytes]."""
-TRIES = 24
+MAX_TRIES = 24
 """Number of most recent earlier occurrences that are tried."""
-LEAP = 64
+BLOCK = 64
 
 
-def squeezed(commands: Iterable[bytes]) -> bytes:
+def compress(commands: Iterable[bytes]) -> bytes:
     """Return the commands compressed, each preceded by its length, as `commandsOf` of `rosmini-meshcat.js` reads them.
 
     Numbers are written in bytes of seven bits, the lowest first. The result is a sequence of: a number of literal
@@ -25,7 +25,7 @@ def squeezed(commands: Iterable[bytes]) -> bytes:
     data = b"".join(bytes(_number(len(command))) + command for command in commands)
     found = bytearray()
     start = 0
-    for at, back, length in _repeats(data):
+    for at, back, length in _matches(data):
         found += bytes(_number(at - start)) + data[start:at] + bytes(_number(back)) + bytes(_number(length))
         start = at + length
     return bytes(found + bytes(_number(len(data) - start)) + data[start:] + bytes(_number(0)))
@@ -38,28 +38,30 @@ def _number(value: int) -> Iterator[int]:
     yield value
 
 
-def _repeats(data: bytes) -> Iterator[tuple[int, int, int]]:
+def _matches(data: bytes) -> Iterator[tuple[int, int, int]]:
     """Find earlier occurrences: yield (position, distance, length) of each match, in order and without overlaps."""
     known: dict[bytes, list[int]] = {}
     at = 0
-    while at + LEAST <= len(data):
-        places = known.setdefault(data[at : at + LEAST], [])
-        length, place = max(((_length(data, place, at), place) for place in places[-TRIES:]), default=(0, 0))
+    while at + MIN_MATCH <= len(data):
+        places = known.setdefault(data[at : at + MIN_MATCH], [])
+        length, place = max(
+            ((_match_length(data, place, at), place) for place in places[-MAX_TRIES:]), default=(0, 0)
+        )
         places.append(at)
         if length:
             yield at, at - place, length
-            for each in range(at + 1, min(at + length, len(data) - LEAST)):
-                known.setdefault(data[each : each + LEAST], []).append(each)
+            for each in range(at + 1, min(at + length, len(data) - MIN_MATCH)):
+                known.setdefault(data[each : each + MIN_MATCH], []).append(each)
         at += length or 1
 
 
-def _length(data: bytes, place: int, at: int) -> int:
+def _match_length(data: bytes, place: int, at: int) -> int:
     """Return the length of the match between `place` and `at`; the first bytes are known to be equal."""
-    length = LEAST
-    while at + length + LEAP <= len(data):
-        if data[place + length : place + length + LEAP] != data[at + length : at + length + LEAP]:
+    length = MIN_MATCH
+    while at + length + BLOCK <= len(data):
+        if data[place + length : place + length + BLOCK] != data[at + length : at + length + BLOCK]:
             break
-        length += LEAP
+        length += BLOCK
     while at + length < len(data) and data[place + length] == data[at + length]:
         length += 1
     return length
