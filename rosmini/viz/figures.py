@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 WIDTH = 660.0
 """The width of the book's text column [CSS px]."""
 
-LARGEST = 4000.0
+MAX_SIZE = 4000.0
 """Maximum width and height of a picture [CSS px]."""
 
 _STYLE: dict[Any, Any] = {
@@ -88,12 +88,12 @@ def blank_figure(width: float, height: float) -> Figure:
     from matplotlib.figure import Figure
 
     for name, value in (("width", width), ("height", height)):
-        if not 100 <= value <= LARGEST:
-            raise ViewError(f"the {name} of a picture must be 100 to {LARGEST:g} pixels, not {value}")
+        if not 100 <= value <= MAX_SIZE:
+            raise ViewError(f"the {name} of a picture must be 100 to {MAX_SIZE:g} pixels, not {value}")
     return Figure(figsize=(width / 72, height / 72), dpi=72)
 
 
-def place(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
+def add_axes(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
     """Add axes to a figure, by their upper left corner and their size [CSS px].
 
     Raises:
@@ -139,7 +139,7 @@ def ticks(low: float, high: float, step: float) -> list[float]:
     ]
 
 
-def mark(axis: Axis, low: float, high: float, step: float) -> None:
+def set_ticks(axis: Axis, low: float, high: float, step: float) -> None:
     """Put labelled ticks at the multiples of `step` from `low` to `high`."""
     marks = ticks(low, high, step)
     axis.set_ticks(marks, labels=say(marks))

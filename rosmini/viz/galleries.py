@@ -12,7 +12,7 @@ from rosmini.viz.view import SVG_MIME, View, ViewError
 
 GAP = 16.0
 """Space between two views [CSS px]."""
-LEAST = 240.0
+MIN_WIDTH = 240.0
 """Minimum width of a view, unless the page is narrower [CSS px]."""
 KIND = "rosmini-grid"
 
@@ -95,7 +95,7 @@ class _Grid(View):
     @property
     def html(self) -> str:
         """The views' own figures in one figure, in as many columns as the page has room for."""
-        each = f"max({LEAST:g}px, calc({100 / self._columns:.4g}% - {GAP:g}px))"
+        each = f"max({MIN_WIDTH:g}px, calc({100 / self._columns:.4g}% - {GAP:g}px))"
         cells = "".join(f'<div style="min-width:0">{view.html}</div>' for view in self._views)
         columns = f"grid-template-columns:repeat(auto-fit,minmax(min(100%,{each}),1fr))"
         inner = f'<div style="display:grid;align-items:end;gap:0 {GAP:g}px;{columns}">{cells}</div>'

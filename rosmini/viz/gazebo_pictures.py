@@ -16,7 +16,7 @@ from rosmini.viz.rounding import fixed
 from rosmini.viz.view import Picture
 from rosmini.viz.world_pictures import HEIGHT, Other, Scene, contents, pose_of, pose_text
 
-MANY = 12
+MAX_NAMED = 12
 """Maximum number of models that are named."""
 
 
@@ -89,26 +89,26 @@ class _Scene(Scene):
 
     def text(self, title: str | None) -> str:
         """The time in the world, and the position of everything."""
-        head = [f"{title or self.snapshot.title}: {when(self.snapshot)}", contents(self.world)]
+        head = [f"{title or self.snapshot.title}: {time_text(self.snapshot)}", contents(self.world)]
         own = super().text(title).splitlines()[1:]
-        return "\n".join([*head, *own, *places(self.snapshot)])
+        return "\n".join([*head, *own, *pose_lines(self.snapshot)])
 
     def alt(self) -> str:
         """The same as sentences."""
         said = super().alt()
-        return f"{said} It is {when(self.snapshot)}."
+        return f"{said} It is {time_text(self.snapshot)}."
 
 
-def when(snapshot: Snapshot) -> str:
+def time_text(snapshot: Snapshot) -> str:
     """Return the time in the world, and whether it is paused."""
     return f"{fixed(snapshot.time, 2)} s{', paused' * snapshot.paused}"
 
 
-def places(snapshot: Snapshot) -> list[str]:
+def pose_lines(snapshot: Snapshot) -> list[str]:
     """Return a line for each movable model, and one for the static ones."""
-    lines = [f"{model.name}: pose {pose_text(model.place)}" for model in snapshot.things[:MANY]]
-    if len(snapshot.things) > MANY:
-        lines.append(f"and {len(snapshot.things) - MANY} more that can be moved")
+    lines = [f"{model.name}: pose {pose_text(model.place)}" for model in snapshot.things[:MAX_NAMED]]
+    if len(snapshot.things) > MAX_NAMED:
+        lines.append(f"and {len(snapshot.things) - MAX_NAMED} more that can be moved")
     names = [model.name for model in snapshot.standing]
-    more = f" and {len(names) - MANY} more" if len(names) > MANY else ""
-    return [*lines, f"static: {', '.join(names[:MANY])}{more}"] if names else lines
+    more = f" and {len(names) - MAX_NAMED} more" if len(names) > MAX_NAMED else ""
+    return [*lines, f"static: {', '.join(names[:MAX_NAMED])}{more}"] if names else lines

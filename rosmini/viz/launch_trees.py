@@ -12,7 +12,7 @@ from rosmini.viz.words import plural
 
 __all__ = ["launch_tree"]
 
-LONGEST = 44
+MAX_LENGTH = 44
 """Maximum number of characters of a value that are shown."""
 
 
@@ -79,6 +79,6 @@ def _of(node: NodePlan, file: LaunchFile) -> list[Setting]:
 
 def _setting(name: str, setting: Setting, plan: Plan) -> tuple[tuple[str, str], ...]:
     text = repr(setting.value)
-    text = text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
+    text = text if len(text) <= MAX_LENGTH else text[: MAX_LENGTH - 3] + "..."
     beaten = plan.settings[setting.name] is not setting
     return ((NAME, name), (VALUE, text), *(((KIND, "overridden"),) if beaten else ()))

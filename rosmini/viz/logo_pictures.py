@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-LONGEST = 30.0
+MAX_DURATION = 30.0
 """Maximum duration of a drawing; turtles go faster if it would take longer [s]."""
 
-TURNING = 360.0
+TURNING_SPEED = 360.0
 """Turning speed of turtles [degrees/s]."""
 
 TURTLE = ((0.3, 0.0), (0.1, 0.12), (-0.25, 0.17), (-0.15, 0.0), (-0.25, -0.17), (0.1, -0.12))
@@ -89,11 +89,11 @@ def _times(strokes: tuple[Stroke, ...], speed: float) -> Floats:
     """Return the time at which each movement begins [s], and at which the last one ends."""
     spans = [
         math.dist(stroke.start[:2], stroke.end[:2]) / speed
-        + abs(math.remainder(stroke.end.heading - stroke.start.heading, 360.0)) / TURNING
+        + abs(math.remainder(stroke.end.heading - stroke.start.heading, 360.0)) / TURNING_SPEED
         for stroke in strokes
     ]
     times: Floats = np.concatenate([[0.0], np.cumsum(spans)])
-    faster: Floats = times * min(1.0, LONGEST / max(float(times[-1]), 1e-9))
+    faster: Floats = times * min(1.0, MAX_DURATION / max(float(times[-1]), 1e-9))
     return faster
 
 

@@ -37,7 +37,7 @@ STEADY = ("page", "blue", "vermilion", "green")
 """Colours of things drawn on a map, which also stay the same on a dark page."""
 ARROW = 22.0
 """The length of the axes at a map's origin [px]."""
-FEW = 6
+MAX_LISTED = 6
 """Maximum number of points that are listed one by one."""
 
 
@@ -121,13 +121,13 @@ def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
     pixelated = np.abs(right - origin).max() >= values.shape[1]  # otherwise walls may be left out
     a, b, c, d, e, f = (fixed(value, 3) for value in (*(right - origin), *(up - origin), *origin))
     return element(
-        "image", href=gif_address(data), width=1, height=1,
+        "image", href=gif_url(data), width=1, height=1,
         preserveAspectRatio="none", transform=f"matrix({a} {b} {c} {d} {e} {f})",
         style="image-rendering:pixelated" if pixelated else None, opacity=None if opacity == 1 else opacity,
     )  # fmt: skip
 
 
-def gif_address(data: bytes) -> str:
+def gif_url(data: bytes) -> str:
     """Return a GIF as a data URL."""
     return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
@@ -179,7 +179,7 @@ def _text(grid: GridMap, robot: Pose | None, dots: Floats | None, line: Floats |
         lines.append(f"path: {fixed(length_of(line), 2)} m")
     if dots is not None:
         places = [f"({fixed(x, 2)}, {fixed(y, 2)})" for x, y in dots[:, :2]]
-        lines.append(f"points: {', '.join(places) if len(places) <= FEW else len(places)}")
+        lines.append(f"points: {', '.join(places) if len(places) <= MAX_LISTED else len(places)}")
     if robot is not None:
         lines.append(f"robot: pose {pose_text(robot)}")
     return "\n".join(lines)

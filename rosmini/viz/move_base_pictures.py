@@ -21,7 +21,7 @@ __all__ = ["move_base_picture"]
 COLOURS = [
     "ink", "muted", "line", "label", "node-fill", "node-line", "topic-fill", "topic-line", "group-fill", "group-line",
 ]  # fmt: skip
-OBEYS = " "
+COMMANDED = " "
 """Suffix of the name of a node that receives commands: it is drawn a second time, below, so that arrows lead down."""
 Arrow = tuple[str, str, str]
 """(from, to, topics): names of nodes or of parts."""
@@ -70,7 +70,8 @@ def _ends(name: str, part: Part, state: GraphState) -> Iterator[Arrow]:
         yield from ((topic, part.name, "") for topic in heard)
     for topic in part.publishes:
         yield from (
-            (part.name, node + OBEYS, topic) for node in state.subscribers.get(topic, frozenset()) - {name}
+            (part.name, node + COMMANDED, topic)
+            for node in state.subscribers.get(topic, frozenset()) - {name}
         )
 
 

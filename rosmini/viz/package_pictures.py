@@ -61,7 +61,7 @@ SPACES = {
 }
 """Contents of a catkin workspace, by relative path."""
 
-DEEPEST, MOST = 3, 8
+MAX_DEPTH, MAX_ENTRIES = 3, 8
 """Maximum number of levels of folders, and of entries of a folder, that are shown."""
 
 
@@ -140,20 +140,20 @@ def _role(folder: Path) -> str:
 
 
 def _inside(
-    folder: Path, depth: int, meanings: Mapping[str, str], *, deepest: int = DEEPEST, below: str = ""
+    folder: Path, depth: int, meanings: Mapping[str, str], *, deepest: int = MAX_DEPTH, below: str = ""
 ) -> Iterator[Entry]:
     """Yield the contents of a folder: files first, then folders, each by name; `meanings` is keyed by relative path."""
     found = sorted(folder.iterdir(), key=lambda path: (path.is_dir(), path.name))
     found = [path for path in found if not path.name.startswith((".", "__"))]
-    for path in found[:MOST]:
+    for path in found[:MAX_ENTRIES]:
         meaning, inner, place = meanings.get(below + path.name, ""), meanings, f"{below}{path.name}/"
         if (path / MANIFEST).is_file():
             meaning, inner, place = _role(path), MEANINGS, ""
         yield Entry(depth, path.name + "/" * path.is_dir(), meaning)
         if path.is_dir() and depth < deepest:
             yield from _inside(path, depth + 1, inner, deepest=deepest, below=place)
-    if len(found) > MOST:
-        yield Entry(depth, "...", f"{len(found) - MOST} more")
+    if len(found) > MAX_ENTRIES:
+        yield Entry(depth, "...", f"{len(found) - MAX_ENTRIES} more")
 
 
 def package_graph(

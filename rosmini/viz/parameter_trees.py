@@ -15,7 +15,7 @@ __all__ = ["parameter_tree"]
 ROSCORE = ("/rosdistro", "/roslaunch", "/rosversion", "/run_id")
 """Parameters that roscore and roslaunch set themselves."""
 
-LONGEST = 44
+MAX_LENGTH = 44
 """Maximum number of characters of a value that are shown."""
 
 
@@ -109,4 +109,4 @@ def _shown(value: Any) -> str:
         text = f"[{', '.join(_shown(item) for item in value)}]"
     else:
         text = repr(value)
-    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
+    return text if len(text) <= MAX_LENGTH else text[: MAX_LENGTH - 3] + "..."

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, mark, place, step_of
+from rosmini.viz.figures import WIDTH, add_axes, blank_figure, house_style, legend, set_ticks, step_of
 from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
@@ -59,7 +59,7 @@ def plot(
     text = "\n".join(lines)
     with house_style():
         figure = blank_figure(width, TOP + HEIGHT + BOTTOM)
-        axes = place(figure, LEFT, TOP, width - LEFT - RIGHT, HEIGHT)
+        axes = add_axes(figure, LEFT, TOP, width - LEFT - RIGHT, HEIGHT)
         _frame(axes, np.vstack(list(points.values())), x, y)
         for (name, values), colour, shape in zip(points.items(), COLOURS, MARKS, strict=False):
             box, low = axes.viewLim, axes.viewLim.min
@@ -101,8 +101,8 @@ def _frame(axes: Axes, points: Floats, x: str, y: str) -> None:
         )
     (left, right, across), (bottom, top, up) = edges
     axes.set(xlim=(left, right), ylim=(bottom, top), xlabel=x)
-    mark(axes.xaxis, left, right, across)
-    mark(axes.yaxis, bottom, top, up)
+    set_ticks(axes.xaxis, left, right, across)
+    set_ticks(axes.yaxis, bottom, top, up)
     axes.set_title(y, loc="left", fontsize=LABEL_SIZE, color=LIGHT["ink"], pad=7.0)
 
 

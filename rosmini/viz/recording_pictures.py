@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from rosmini.core.geometry.poses import Pose
 from rosmini.sim.recording import Drift, Moved, Recording
 from rosmini.viz.beams import beams_of
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, mark, place, step_of
-from rosmini.viz.rounding import degrees, fixed, kept, snap
+from rosmini.viz.figures import WIDTH, add_axes, blank_figure, house_style, legend, set_ticks, step_of
+from rosmini.viz.rounding import degrees, fixed, points_to_keep, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
 from rosmini.viz.words import plural
@@ -28,7 +28,7 @@ Floats = NDArray[np.float64]
 LEFT, GAP, TOP, BOTTOM, ROW_GAP = 50.0, 66.0, 58.0, 42.0, 50.0
 """Margins around the plots and gaps between them [px]."""
 STROKE = 1.8
-LEAST_WAY = 0.005
+MIN_MOVED = 0.005
 """Minimum distance that counts as movement of an object [m]."""
 
 
@@ -45,14 +45,14 @@ class RunScene(Scene):
         self.ghost = _pose(self.odom[-1])
         self.name = recording.name
         self.others = [Other(run.name, run.model, run.pose_at(end), run.truth) for run in recording.others]
-        moved = [thing for thing in recording.things if thing.distance > LEAST_WAY]
-        self.places = [thing.obstacle for thing in moved]
-        self.ways = [(thing.poses[:, :2], thing.obstacle.colour) for thing in moved]
+        moved = [thing for thing in recording.things if thing.distance > MIN_MOVED]
+        self.former_places = [thing.obstacle for thing in moved]
+        self.moved_paths = [(thing.poses[:, :2], thing.obstacle.colour) for thing in moved]
         if scan:
             if not len(recording.scans):
                 raise ViewError("no scan was recorded: omit scan=True, or let the simulation run longer")
             each = recording.scan_poses(-1)
-            self.look(beams_of(recording.scans[-1], self.model.laser), _pose(each[0]), each)
+            self.add_scan(beams_of(recording.scans[-1], self.model.laser), _pose(each[0]), each)
 
     def text(self, title: str | None) -> str:
         """The run in numbers."""
@@ -84,7 +84,7 @@ class RunScene(Scene):
         )
 
     def _moved(self) -> list[Moved]:
-        return [thing for thing in self.recording.things if thing.distance > LEAST_WAY]
+        return [thing for thing in self.recording.things if thing.distance > MIN_MOVED]
 
     def _beside(self) -> str:
         """Return sentences about other robots and objects that moved."""
@@ -155,7 +155,7 @@ def _plots(run: Recording, width: float, *, odometry: bool) -> Figure:
     driven, drift = run.velocities(), run.drift()
     span = (float(run.times[0]), float(run.times[-1]))
     for i, unit, label in ((0, "m/s", "linear velocity"), (1, "rad/s", "angular velocity")):
-        axes = place(figure, LEFT, TOP + i * (row + ROW_GAP), column, row)
+        axes = add_axes(figure, LEFT, TOP + i * (row + ROW_GAP), column, row)
         given = run.commands[:, i + 1]
         _frame(axes, f"{label} [{unit}]", span, np.concatenate([driven[:, i], given]), 0.1, last=i == 1)
         _curve(axes, run.times, driven[:, i], "blue", label="driven")
@@ -167,7 +167,7 @@ def _plots(run: Recording, width: float, *, odometry: bool) -> Figure:
         (np.rad2deg(drift.heading), "odometry: heading error [deg]"),
     )
     for i, (values, label) in enumerate(errors if odometry else ()):
-        axes = place(figure, LEFT + column + GAP, TOP + i * (row + ROW_GAP), column, row)
+        axes = add_axes(figure, LEFT + column + GAP, TOP + i * (row + ROW_GAP), column, row)
         _frame(axes, label, span, values, (0.01, 1.0)[i], last=i == 1)
         _curve(axes, run.times, values, "vermilion")
     handles, _ = figure.axes[0].get_legend_handles_labels()
@@ -186,8 +186,8 @@ def _frame(
     step = step_of(high - low, 4)
     bottom, top = math.floor(low / step + 0.0137) * step, math.ceil(high / step - 0.0137) * step
     axes.set(xlim=span, ylim=(bottom, top))
-    mark(axes.xaxis, *span, step_of(span[1] - span[0], 6))
-    mark(axes.yaxis, bottom, top, step)
+    set_ticks(axes.xaxis, *span, step_of(span[1] - span[0], 6))
+    set_ticks(axes.yaxis, bottom, top, step)
     axes.set_title(label, loc="left", fontsize=LABEL_SIZE, color=LIGHT["ink"], pad=7.0)
     axes.axhline(0.0, color=LIGHT["group-line"], linewidth=1.0, zorder=1.5)
     if last:
@@ -203,7 +203,7 @@ def _curve(
     limits = np.array([axes.get_xlim(), axes.get_ylim()])
     extent = limits[:, 1] - limits[:, 0]
     pixels = snap((np.column_stack([times, values]) - limits[:, 0]) / extent * size, 0.05)
-    points = pixels[kept(pixels, 0.137)] / size * extent + limits[:, 0]
+    points = pixels[points_to_keep(pixels, 0.137)] / size * extent + limits[:, 0]
     dashes: dict[str, Any] = {"dashes": DASHES} if dashed else {}
     axes.plot(
         *points.T, color=LIGHT[colour], linewidth=STROKE, label=label, zorder=4.0, clip_on=False, **dashes

@@ -44,7 +44,7 @@ def snap(values: ArrayLike, quantum: float = MILLIMETRE) -> NDArray[np.float64]:
     return np.floor(np.asarray(values, dtype=float) / quantum + 0.5371) * quantum + 0.0
 
 
-def kept(points: NDArray[np.float64], tolerance: float) -> list[int]:
+def points_to_keep(points: NDArray[np.float64], tolerance: float) -> list[int]:
     """Return the points of a line (n, 2) that suffice to draw it: no other point is further away than `tolerance`.
 
     The ends are always included; see `rosmini.core.geometry.polygons.simplified_indices`.

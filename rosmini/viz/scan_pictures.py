@@ -12,7 +12,7 @@ import numpy as np
 from rosmini.core.geometry.poses import compose
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.viz.beams import Beams, Floats, beams_of
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, mark, place, say, step_of, ticks
+from rosmini.viz.figures import WIDTH, add_axes, blank_figure, house_style, say, set_ticks, step_of, ticks
 from rosmini.viz.rounding import degrees, fixed, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, matplotlib_picture
@@ -65,7 +65,7 @@ def scan_picture(
 
 def _around(figure: Figure, beams: Beams, model: RobotModel) -> None:
     radius = _radius(beams)
-    axes = place(figure, FLANK, EDGE, SIDE, SIDE)
+    axes = add_axes(figure, FLANK, EDGE, SIDE, SIDE)
     axes.set(xlim=(-radius, radius), ylim=(-radius, radius), xticks=[], yticks=[])
     step = step_of(radius, 4)
     for ring in ticks(step, radius, step):
@@ -131,7 +131,7 @@ def _encircle(axes: Axes, x: float, y: float) -> None:
 
 def _over_angles(figure: Figure, beams: Beams, width: float) -> None:
     left, bottom = SIDE + 2 * FLANK + 50.0, 44.0
-    axes = place(figure, left, EDGE, width - left - 26.0, SIDE + EDGE - bottom)
+    axes = add_axes(figure, left, EDGE, width - left - 26.0, SIDE + EDGE - bottom)
     angles = np.array([float(degrees(a, 3)) for a in beams.angles])
     top = _radius(beams)
     low, high = _field(angles)
@@ -141,7 +141,7 @@ def _over_angles(figure: Figure, beams: Beams, width: float) -> None:
     labels = [f"{label}°\n{words.get(round(at), '')}" for label, at in zip(say(marks), marks, strict=True)]
     axes.set(xlim=(high, low), ylim=(0.0, top), ylabel="range [m]")
     axes.set_xticks(marks, labels=labels)
-    mark(axes.yaxis, 0.0, top, step_of(top, 5))
+    set_ticks(axes.yaxis, 0.0, top, step_of(top, 5))
     draw_dots(axes, np.column_stack([angles, snap(beams.ranges)])[beams.hits], "vermilion", 2.8)
     missed = angles[~beams.hits]
     if len(missed):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rosmini.navigation.nav_core import PlanningFailure
 from rosmini.navigation.navfn import Search
 from rosmini.viz.figures import WIDTH
-from rosmini.viz.map_pictures import cells_element, gif_address
+from rosmini.viz.map_pictures import cells_element, gif_url
 from rosmini.viz.rounding import fixed
 from rosmini.viz.rviz.gifs import gif
 from rosmini.viz.svg import document, element
@@ -23,7 +23,7 @@ WAITING = (230, 159, 0)
 BLOCKED, UNKNOWN = 60, 170
 """Greys of impassable cells, and of unknown ones that are passable."""
 SHADES = 200
-MANY = 2_500
+MAX_CELLS = 2_500
 """Above this number of cells parents are not drawn, because they would be too small."""
 HEIGHT = 460.0
 
@@ -46,13 +46,13 @@ def search_picture(
     if not isinstance(search, Search):
         raise ViewError(f"a search must be a NavfnSearch or another Search, not a {type(search).__name__}")
     cells = search.width * search.height
-    if parents and cells > MANY:
+    if parents and cells > MAX_CELLS:
         raise ViewError(
-            f"the parents of {cells} cells would be too small: use at most {MANY} cells, or parents=False"
+            f"the parents of {cells} cells would be too small: use at most {MAX_CELLS} cells, or parents=False"
         )
     scale = min(width / search.width, HEIGHT / search.height)
     w, h = search.width * scale, search.height * scale
-    address = gif_address(gif(_painted(search)[::-1])[0])
+    address = gif_url(gif(_painted(search)[::-1])[0])
     parts = [cells_element(address, x=0, y=0, width=w, height=h)]
     if parents:
         parts.append(_line(_parent_lines(search, scale), "rm-parents"))
@@ -62,7 +62,7 @@ def search_picture(
     for point, kind in ((search.start, "rm-start"), (search.goal, "rm-goal")):
         x, y = _placed(np.array([point]), search.height, scale)[0]
         parts.append(element("circle", cx=fixed(x, 1), cy=fixed(y, 1), r=max(4.0, scale / 3), class_=kind))
-    said = said_of(search)
+    said = describe_search(search)
     svg = document(
         "".join(parts), width=w, height=h, title=title or "search", alt=f"A search from above. {said}.",
         css=STYLE, colours=["page", "vermilion", "green", "ink"],
@@ -93,7 +93,7 @@ def path_of(search: Search) -> Floats | None:
         return None
 
 
-def said_of(search: Search) -> str:
+def describe_search(search: Search) -> str:
     """Describe a search in words."""
     said = f"{search.expanded} cells taken up, {int(search.reached.sum())} of {search.width * search.height} reached"
     path = path_of(search)

@@ -22,7 +22,7 @@ from rosmini.viz.world_pictures import HEIGHT, LEFT, length_of, map_axes
 Floats = NDArray[np.float64]
 BEST, OTHERS = "blue", "orange"
 """Colours of the path of the particle shown, and of all others."""
-LEAST_OCCUPIED = 0.25
+OCC_THRESH = 0.25
 """The default of `occ_thresh`."""
 
 
@@ -30,7 +30,7 @@ def slam_picture(
     slam: GridSlam,
     *,
     particle: int | None = None,
-    threshold: float = LEAST_OCCUPIED,
+    threshold: float = OCC_THRESH,
     title: str | None = None,
     size: tuple[float, float] = (WIDTH, HEIGHT),
 ) -> Picture:

@@ -26,10 +26,10 @@ from rosmini.viz import map_pictures
 from rosmini.viz.costmap_pictures import cells_of, published, shares
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.map_colours import painted
-from rosmini.viz.map_pictures import cells_element, gif_address
-from rosmini.viz.rounding import fixed, kept, snap
+from rosmini.viz.map_pictures import cells_element, gif_url
+from rosmini.viz.rounding import fixed, points_to_keep, snap
 from rosmini.viz.rviz.gifs import gif
-from rosmini.viz.search_pictures import WAITING, greys_of, path_of, said_of, shades
+from rosmini.viz.search_pictures import WAITING, describe_search, greys_of, path_of, shades
 from rosmini.viz.stepped_player import GAP, Axis, Frame, Panel, SteppedPlayer
 from rosmini.viz.style import LABEL_SIZE, variable
 from rosmini.viz.svg import element, escape
@@ -46,7 +46,7 @@ WHITE = element("rect", width="100%", height="100%", fill="#fefefe")
 
 def _image(pixels: Bytes, width: float, height: float) -> str:
     """Return pixels (h, w, 4), row 0 at the top, as an image in a panel's top left corner."""
-    return cells_element(gif_address(gif(pixels)[0]), width=width, height=height)
+    return cells_element(gif_url(gif(pixels)[0]), width=width, height=height)
 
 
 def _path(points: ArrayLike, kind: str, close: str = "") -> str:
@@ -57,7 +57,7 @@ def _path(points: ArrayLike, kind: str, close: str = "") -> str:
 
 # -- chapter on maps: thresholds -----------------------------------------------------------------------------------
 
-LARGEST_IMAGE = 256
+MAX_IMAGE = 256
 """Maximum side of a map image [px]."""
 FREE_THRESHOLDS = (0.1, 0.196, 0.25, 0.3, 0.4)
 OCCUPIED_THRESHOLDS = (0.3, 0.4, 0.5, 0.65, 0.8)
@@ -85,8 +85,8 @@ def map_steps(file: MapFile, *, title: str | None = None) -> SteppedPlayer:
         raise ViewError(
             f"{image} has {channels} channels, but only grey images can be shown for several thresholds"
         )
-    if max(height, width) > LARGEST_IMAGE:
-        raise ViewError(f"{image} has {width} x {height} pixels; at most {LARGEST_IMAGE} a side can be shown")
+    if max(height, width) > MAX_IMAGE:
+        raise ViewError(f"{image} has {width} x {height} pixels; at most {MAX_IMAGE} a side can be shown")
     wide = (WIDTH - GAP) / 2
     high = wide * height / width
     frees = sorted({*FREE_THRESHOLDS, fields.free_thresh})
@@ -133,7 +133,7 @@ def map_steps(file: MapFile, *, title: str | None = None) -> SteppedPlayer:
 
 # -- chapter on costmaps: inflation --------------------------------------------------------------------------------
 
-LARGEST_COSTMAP = 400
+MAX_COSTMAP = 400
 """Maximum side of a costmap [cells]."""
 INFLATION_RADII = (0.2, 0.4, 0.6, 1.0)
 SCALING_FACTORS = (1.0, 5.0, 10.0, 25.0)
@@ -167,9 +167,9 @@ def inflation_steps(
     """
     cells = cells_of(grid, window)
     height, width = cells.values.shape
-    if max(height, width) > LARGEST_COSTMAP:
+    if max(height, width) > MAX_COSTMAP:
         raise ViewError(
-            f"the costmap has {width} x {height} cells, but at most {LARGEST_COSTMAP} a side can be shown: give window="
+            f"the costmap has {width} x {height} cells, but at most {MAX_COSTMAP} a side can be shown: give window="
         )
     obstacles = np.isin(cells.values, (LETHAL_OBSTACLE, NO_INFORMATION))
     base = Costmap2D.of(np.where(obstacles, cells.values, FREE_SPACE), cells.resolution, cells.origin[:2])
@@ -249,9 +249,9 @@ def _cost_curve(reach: float, factor: float, inner: float) -> str:
 
 # -- chapter on global planners: searches --------------------------------------------------------------------------
 
-LARGEST_GRID = 16_384
+MAX_GRID = 16_384
 """Maximum number of cells of a grid."""
-FINEST = 2_000
+BATCHES = 2_000
 """Approximate number of batches in which a search is recorded."""
 SEARCH_FRAMES = 60
 """Maximum number of frames of a search."""
@@ -276,9 +276,9 @@ def search_steps(searches: Mapping[str, Search], *, title: str | None = None) ->
             f"searches that are shown side by side need grids of one size, not of {sorted(sizes)}"
         )
     ((width, height),) = sizes
-    if width * height > LARGEST_GRID:
+    if width * height > MAX_GRID:
         raise ViewError(
-            f"a grid of {width} x {height} cells is too large: at most {LARGEST_GRID} cells can be shown"
+            f"a grid of {width} x {height} cells is too large: at most {MAX_GRID} cells can be shown"
         )
     for name, each in searches.items():
         if each.expanded:
@@ -299,7 +299,7 @@ def search_steps(searches: Mapping[str, Search], *, title: str | None = None) ->
             f"{name}: {text}" for name, (_, text) in zip(searches, drawn, strict=True)
         )))  # fmt: skip
     title_or_kind = title or "searches"
-    lines = [f"{name}: {said_of(each)}" for name, each in searches.items()]
+    lines = [f"{name}: {describe_search(each)}" for name, each in searches.items()]
     return SteppedPlayer(
         title_or_kind,
         [Panel(name, wide, height * scale) for name in searches],
@@ -317,7 +317,7 @@ def search_steps(searches: Mapping[str, Search], *, title: str | None = None) ->
 
 def _recorded(search: Search) -> NDArray[np.int64]:
     """Run a search to its end. Return the number of expanded cells after which each cell (h, w) was reached, or -1."""
-    batch = max(1, search.width * search.height // FINEST)
+    batch = max(1, search.width * search.height // BATCHES)
     after = np.where(search.reached, 0, -1).astype(np.int64)
     finished = False
     while not finished:
@@ -370,7 +370,7 @@ MARGIN = 0.15
 """Space around the trajectories [m]."""
 TOLERANCE = 0.004
 """Maximum distance of a drawn line from its points [m]."""
-LARGEST_WINDOW = 200
+MAX_WINDOW = 200
 """Maximum side of a costmap below trajectories [cells]."""
 SHADES = 5
 OUTLINES = 2
@@ -409,9 +409,9 @@ def trajectory_steps(
         )
     if chosen is not None and not 0 <= chosen < len(samples):
         raise ViewError(f"there is no trajectory {chosen}: they have the numbers 0 to {len(samples) - 1}")
-    if costmap is not None and max(costmap.width, costmap.height) > LARGEST_WINDOW:
+    if costmap is not None and max(costmap.width, costmap.height) > MAX_WINDOW:
         raise ViewError(
-            f"the costmap has {costmap.width} x {costmap.height} cells, but at most {LARGEST_WINDOW} a side can be "
+            f"the costmap has {costmap.width} x {costmap.height} cells, but at most {MAX_WINDOW} a side can be "
             "shown; the costmap of a local planner is a small window"
         )
     totals = np.array([float(fixed(value, 6)) for value in samples.totals])
@@ -483,7 +483,7 @@ class _Fan:
         if len(points) < 2 or np.ptp(points, axis=0).max() < TOLERANCE:
             return ""
         placed = snap(points)
-        return _path(self._at(placed[kept(placed, TOLERANCE)] if len(placed) > 2 else placed), kind)
+        return _path(self._at(placed[points_to_keep(placed, TOLERANCE)] if len(placed) > 2 else placed), kind)
 
     def ground(self, order: NDArray[np.int64], plan: ArrayLike | None) -> str:
         """Return the costs, all trajectories, and the plan."""
@@ -493,7 +493,7 @@ class _Fan:
             parts.append(element("text", escape(text), x=x + 26, y=16.0, font_size=LABEL_SIZE, class_="tt"))
             x += 26 + 8.0 * len(text) + 12
         if self._costs is not None:
-            address = gif_address(gif(painted(self._costs, "costmap"))[0])
+            address = gif_url(gif(painted(self._costs, "costmap"))[0])
             parts.append(
                 cells_element(address, y=LEGEND, width=self.width, height=self.height - LEGEND, opacity="0.6")
             )
@@ -537,11 +537,11 @@ _FAN_CSS = (
 
 # -- chapter on amcl: particles ------------------------------------------------------------------------------------
 
-MOST = 400
+MAX_PARTICLES = 400
 """Maximum number of particles that are drawn for a step."""
 HEAVIEST = 100
 """Number of the heaviest particles among these; the others are a sample of the rest."""
-LONGEST = 200
+MAX_STEPS = 200
 """Maximum number of steps."""
 STROKE = 0.25
 """Length of the stroke of a particle [m]."""
@@ -565,8 +565,8 @@ def filter_steps(
     """
     if not isinstance(grid, GridMap):
         raise ViewError(f"steps of a filter are shown on a GridMap, not on a {type(grid).__name__}")
-    if not 1 <= len(steps) <= LONGEST:
-        raise ViewError(f"1 to {LONGEST} steps of a filter can be shown, not {len(steps)}")
+    if not 1 <= len(steps) <= MAX_STEPS:
+        raise ViewError(f"1 to {MAX_STEPS} steps of a filter can be shown, not {len(steps)}")
     rows, columns = grid.occupancy.shape
     scale = WIDTH / (columns * grid.resolution)
     high = rows * grid.resolution * scale
@@ -637,10 +637,10 @@ def _filter_frame(
 def _thinned(weights: Floats) -> NDArray[np.int64]:
     """Return the indices of the particles that are drawn, the heaviest last."""
     order = np.argsort(weights, kind="stable").astype(np.int64)
-    if len(order) <= MOST:
+    if len(order) <= MAX_PARTICLES:
         return order
     rest, heavy = np.sort(order[:-HEAVIEST]), order[-HEAVIEST:]
-    every = np.linspace(0, len(rest) - 1, MOST - HEAVIEST).astype(np.int64)
+    every = np.linspace(0, len(rest) - 1, MAX_PARTICLES - HEAVIEST).astype(np.int64)
     return np.concatenate([rest[every], heavy])
 
 
@@ -691,7 +691,7 @@ def match_steps(
     ).tolist()
     size = grid.resolution * scale
     image = cells_element(
-        gif_address(gif(painted(likely[::-1], "map"))[0]),
+        gif_url(gif(painted(likely[::-1], "map"))[0]),
         x=left,
         y=top,
         width=columns * size,

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, mark, place, step_of
+from rosmini.viz.figures import WIDTH, add_axes, blank_figure, house_style, set_ticks, step_of
 from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
@@ -17,7 +17,7 @@ __all__ = ["Span", "spans_of", "timeline"]
 COLOURS = ("blue", "green", "orange", "purple", "vermilion")
 LEFT, RIGHT, BOTTOM, ROW, LINE = 118.0, 24.0, 42.0, 34.0, 16.0
 """Margins around the plot, and the height of a row and of a line of text [px]."""
-THINNEST = 1 / 400
+MIN_SPAN = 1 / 400
 """Minimum width of a span, as a share of the whole time."""
 
 
@@ -79,7 +79,7 @@ def timeline(
         top = 14.0 + LINE * len(events)
         height = ROW * len(states)
         figure = blank_figure(WIDTH, top + height + BOTTOM)
-        axes = place(figure, LEFT, top, WIDTH - LEFT - RIGHT, height)
+        axes = add_axes(figure, LEFT, top, WIDTH - LEFT - RIGHT, height)
         _draw(axes, spans, states)
         for number, (time, name) in enumerate(events):
             _event(axes, time, name, (len(events) - number) * LINE / ROW)
@@ -101,7 +101,7 @@ def _draw(axes: Any, spans: Sequence[Span], states: Sequence[str]) -> None:
     whole = spans[-1].end or 1.0
     for row, (state, colour) in enumerate(zip(states, COLOURS, strict=False)):
         own = [
-            (span.begin, max(span.end - span.begin, THINNEST * whole))
+            (span.begin, max(span.end - span.begin, MIN_SPAN * whole))
             for span in spans
             if span.state == state
         ]
@@ -110,7 +110,7 @@ def _draw(axes: Any, spans: Sequence[Span], states: Sequence[str]) -> None:
     step = step_of(whole, 8)
     right = math.ceil(whole / step - 1e-6) * step
     axes.set(xlim=(0.0, right), ylim=(len(states) - 0.5, -0.5), xlabel="time [s]")
-    mark(axes.xaxis, 0.0, right, step)
+    set_ticks(axes.xaxis, 0.0, right, step)
     axes.set_yticks(range(len(states)), labels=list(states))
 
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, mark, place, step_of
-from rosmini.viz.rounding import fixed, kept, snap
+from rosmini.viz.figures import WIDTH, add_axes, blank_figure, house_style, set_ticks, step_of
+from rosmini.viz.rounding import fixed, points_to_keep, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
 from rosmini.viz.words import plural
@@ -22,8 +22,8 @@ Floats = NDArray[np.float64]
 
 LEFT, TOP, RIGHT, BOTTOM = 68.0, 14.0, 24.0, 44.0
 """Margins around the path [px]."""
-HIGHEST = 360.0
-LEAST = 0.2
+MAX_HEIGHT = 360.0
+MIN_EXTENT = 0.2
 """Minimum size of the area that a picture shows [m]."""
 COLUMNS = ("pose.pose.position.x", "pose.pose.position.y")
 """Columns of positions in a table of `nav_msgs/Odometry`."""
@@ -49,15 +49,15 @@ def track_picture(source: Any, *, title: str | None = None, width: float = WIDTH
     text = f"{title or 'track'}: {fixed(length, 2)} m from {start} to {end}, {counted}"
     alt = f"A way from above, {fixed(length, 2)} m long: it begins at {start} and ends at {end}, in metres."
     low, high = points.min(axis=0), points.max(axis=0)
-    extent = np.maximum(high - low, LEAST)
+    extent = np.maximum(high - low, MIN_EXTENT)
     low, high = (low + high - 1.12 * extent) / 2, (low + high + 1.12 * extent) / 2
-    scale = min((width - LEFT - RIGHT) / (high[0] - low[0]), HIGHEST / (high[1] - low[1]))
+    scale = min((width - LEFT - RIGHT) / (high[0] - low[0]), MAX_HEIGHT / (high[1] - low[1]))
     across, up = (float(side) for side in np.maximum(scale * (high - low), 60.0))
     middle = (low + high) / 2
     low, high = middle - np.array([across, up]) / (2 * scale), middle + np.array([across, up]) / (2 * scale)
     with house_style():
         figure = blank_figure(max(100.0, LEFT + across + RIGHT), TOP + up + BOTTOM)
-        axes = place(figure, LEFT, TOP, across, up)
+        axes = add_axes(figure, LEFT, TOP, across, up)
         _frame(axes, low, high, (across, up))
         _line(axes, points, 10.0 ** math.floor(math.log10(0.4 / scale)))
         return matplotlib_picture(figure, text=text, alt=alt, form="svg", caption=title)
@@ -88,13 +88,13 @@ def _frame(axes: Axes, low: Floats, high: Floats, size: tuple[float, float]) -> 
         step_of(float(side), max(2, int(pixels / 60))) for side, pixels in zip(high - low, size, strict=True)
     )
     for i, axis in enumerate((axes.xaxis, axes.yaxis)):
-        mark(axis, float(low[i]), float(high[i]), step)
+        set_ticks(axis, float(low[i]), float(high[i]), step)
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
 
 
 def _line(axes: Axes, points: Floats, tolerance: float) -> None:
-    drawn = snap(points[kept(points, tolerance)] if len(points) > 1 else points, tolerance)
+    drawn = snap(points[points_to_keep(points, tolerance)] if len(points) > 1 else points, tolerance)
     axes.plot(drawn[:, 0], drawn[:, 1], color=LIGHT["blue"], linewidth=1.8)
     for (x, y), fill, word, place_ in ((drawn[0], "page", "start", -11), (drawn[-1], "blue", "end", 11)):
         axes.plot([x], [y], "o", color=LIGHT["blue"], markerfacecolor=LIGHT[fill], markersize=7, zorder=3)

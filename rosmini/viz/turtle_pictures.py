@@ -10,13 +10,13 @@ from rosmini.sim.turtlesim.drawings import DRAWINGS
 from rosmini.sim.turtlesim.frame import Frame
 from rosmini.sim.turtlesim.paper import SIZE, Colour, Pen, Stroke
 from rosmini.sim.turtlesim.turtle import Turtle
-from rosmini.viz.rounding import degrees, fixed, kept, snap
+from rosmini.viz.rounding import degrees, fixed, points_to_keep, snap
 from rosmini.viz.svg import document, element, number
 from rosmini.viz.view import Picture, ViewError
 from rosmini.viz.words import plural
 
 KIND = "rosmini-turtles"
-MANY = 12
+MAX_DESCRIBED = 12
 """Maximum number of turtles that are described."""
 TOLERANCE = 0.3
 """Maximum deviation of a drawn line [px]."""
@@ -36,7 +36,7 @@ def turtle_picture(frame: Frame, *, title: str | None = None, size: float = 360.
     """
     if not size > 0:
         raise ViewError(f"the size of a picture must be a positive number of pixels, not {size}")
-    text = "\n".join([f"{title or 'turtlesim'}: {_contents(frame)}", *_told(frame)])
+    text = "\n".join([f"{title or 'turtlesim'}: {_contents(frame)}", *_descriptions(frame)])
     turtles = list(frame.turtles.values())
     alt = f"A window of turtlesim: {_contents(frame)}. " + " ".join(f"{_line(each)}." for each in turtles[:3])
     body = element("rect", width=SIZE, height=SIZE, fill=_hex(frame.paper.background))
@@ -63,10 +63,10 @@ def _contents(frame: Frame) -> str:
     return f"{there}, {plural(paper.count, 'stroke')} on {_rgb(paper.background)}{older}"
 
 
-def _told(frame: Frame) -> list[str]:
+def _descriptions(frame: Frame) -> list[str]:
     turtles = list(frame.turtles.values())
-    more = [f"and {len(turtles) - MANY} more"] if len(turtles) > MANY else []
-    return [_line(each) for each in turtles[:MANY]] + more
+    more = [f"and {len(turtles) - MAX_DESCRIBED} more"] if len(turtles) > MAX_DESCRIBED else []
+    return [_line(each) for each in turtles[:MAX_DESCRIBED]] + more
 
 
 def _line(turtle: Turtle) -> str:
@@ -93,7 +93,7 @@ def chains(strokes: Iterable[Stroke]) -> list[tuple[Pen, list[tuple[float, float
 
 def _drawn(pen: Pen, points: list[tuple[float, float]]) -> str:
     line = np.clip(np.array(points), -SIZE, 2 * SIZE)  # a teleport may start far outside
-    line = snap(line[kept(line, TOLERANCE)] if len(line) > 2 else line, TOLERANCE / 3)
+    line = snap(line[points_to_keep(line, TOLERANCE)] if len(line) > 2 else line, TOLERANCE / 3)
     path = "M" + "L".join(f"{number(float(x))},{number(float(y))}" for x, y in line)
     return element(
         "path", d=path, fill="none", stroke=_hex(pen.colour), stroke_width=float(pen.width),

@@ -18,7 +18,7 @@ COLOURS = ["page", "ink", "line", "muted", "node-fill", "node-line"]
 GAP = 30.0
 """Space between two boxes [px]."""
 PADDING = 12.0
-LONGEST = 90
+MAX_LENGTH = 90
 """Maximum number of characters of a line that are shown."""
 
 
@@ -46,7 +46,7 @@ def _lines(step: Step) -> list[str]:
 
 
 def _cut(line: str) -> str:
-    return line if len(line) <= LONGEST else line[: LONGEST - 3] + "..."
+    return line if len(line) <= MAX_LENGTH else line[: MAX_LENGTH - 3] + "..."
 
 
 def _size(lines: Sequence[str]) -> tuple[float, float]:

@@ -18,7 +18,7 @@ from rosmini.sim.shapes import Box, Polygon, Simple, outline_at
 from rosmini.sim.world import Obstacle, Walk, World
 from rosmini.viz.beams import Beams
 from rosmini.viz.metrics import text_width
-from rosmini.viz.rounding import kept, snap
+from rosmini.viz.rounding import points_to_keep, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT, LINE_WIDTH
 
 if TYPE_CHECKING:
@@ -35,13 +35,13 @@ SEEN, ONE_BEAM = 0.11, 0.5
 """Opacity of the area of a scan, and of a single beam."""
 TRAIL_WIDTH = 2.0
 DASHES = (6.0, 4.0)
-LEAST_ROBOT = 16.0
+MIN_ROBOT = 16.0
 """Minimum length of a robot, which is otherwise drawn to scale [px]."""
 TOLERANCE = 0.137
 """Maximum deviation of a drawn line [px]: it is invisible, and saves most points."""
 WHEEL_WIDTH = 0.55
 """Width of a wheel relative to its radius."""
-LASER_BY = 0.2
+LASER_LENGTH = 0.2
 """Maximum length of a robot from which the size of its laser is derived [m]: larger robots have the same laser."""
 
 
@@ -148,14 +148,14 @@ def draw_start(axes: Axes, point: ArrayLike, scale: float, *, colour: str = "blu
     _patch(axes, _circle(point, 4.5 / scale), fill="page", edge=colour, opacity=1.0, width=2.0, z=4.5)
 
 
-def draw_place(axes: Axes, obstacle: Obstacle) -> None:
+def draw_former_place(axes: Axes, obstacle: Obstacle) -> None:
     """Draw the former place of an object that was moved: a dashed outline."""
     colour = "line" if obstacle.colour in ("grey", "wall") else obstacle.colour
     for shape, pose in obstacle.parts():
         _patch(axes, _shape_path(shape, pose), edge=_edge(colour), width=1.2, dash=(3.0, 2.0), z=2.6)
 
 
-def draw_way(axes: Axes, points: Floats, colour: str, scale: float) -> None:
+def draw_moved_path(axes: Axes, points: Floats, colour: str, scale: float) -> None:
     """Draw the path of an object that was moved: a fine line through points (n, 2)."""
     line = _thinned(snap(points), scale)
     colour = "line" if colour in ("grey", "wall") else colour
@@ -194,7 +194,7 @@ def draw_name(
 
 def _aside(model: RobotModel, scale: float) -> float:
     """Return the distance of a robot's name from the robot [px]."""
-    return max(model.reach * scale, LEAST_ROBOT) + 3.0
+    return max(model.reach * scale, MIN_ROBOT) + 3.0
 
 
 def draw_robot(
@@ -203,7 +203,7 @@ def draw_robot(
     """Draw a robot from above: plate, wheels, laser, and a nose that points ahead. A ghost is a dashed outline."""
     xs, ys = np.array(model.footprint).T
     length = float(xs.max() - xs.min())
-    grown = max(1.0, LEAST_ROBOT / (length * scale))
+    grown = max(1.0, MIN_ROBOT / (length * scale))
 
     def put(points: Iterable[Sequence[float]]) -> Floats:
         return snap(transform_points(pose, np.array(list(points)) * grown), 1e-4)
@@ -222,7 +222,7 @@ def draw_robot(
     if model.drive == "differential":
         _wheels(axes, model, put)
     if model.lidar is not None:
-        centre, size = put([model.lidar.mount[:2]])[0], min(length, LASER_BY) * grown
+        centre, size = put([model.lidar.mount[:2]])[0], min(length, LASER_LENGTH) * grown
         _patch(axes, _circle(centre, 0.26 * size), fill="page", opacity=1.0, z=7.2)
         _patch(axes, _circle(centre, 0.11 * size), fill="vermilion", opacity=1.0, z=7.3)
 
@@ -318,4 +318,4 @@ def _chained(segments: list[list[float]]) -> list[list[tuple[float, float]]]:
 
 def _thinned(line: Floats, scale: float) -> Floats:
     """Return a line without the points that make no visible difference."""
-    return line[kept(line, TOLERANCE / scale)]
+    return line[points_to_keep(line, TOLERANCE / scale)]

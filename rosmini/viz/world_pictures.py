@@ -16,14 +16,14 @@ from rosmini.sim.models import BURGER, RobotModel
 from rosmini.sim.world import Obstacle, World
 from rosmini.viz.beams import Beams, beams_of
 from rosmini.viz.figures import (
-    LARGEST,
+    MAX_SIZE,
     WIDTH,
+    add_axes,
     blank_figure,
     house_style,
     legend,
     legend_width,
-    mark,
-    place,
+    set_ticks,
     step_of,
 )
 from rosmini.viz.rounding import degrees, fixed
@@ -32,13 +32,13 @@ from rosmini.viz.view import Picture, ViewError, matplotlib_picture
 from rosmini.viz.world_drawing import (
     DASHES,
     TRAIL_WIDTH,
+    draw_former_place,
+    draw_moved_path,
     draw_name,
-    draw_place,
     draw_robot,
     draw_scan,
     draw_start,
     draw_trail,
-    draw_way,
     draw_world,
     name_box,
 )
@@ -53,9 +53,9 @@ Bounds = tuple[float, float, float, float]
 LEFT, RIGHT, TOP, LEGEND, BOTTOM = 46.0, 8.0, 8.0, 28.0, 40.0
 """The margins around a map [px]; LEGEND is added to TOP."""
 HEIGHT = 540.0
-SMALLEST = 200.0
+MIN_SIZE = 200.0
 """Minimum width and height of a picture [px]."""
-FLATTEST = 0.2
+MIN_ASPECT = 0.2
 """Minimum ratio of the shorter side to the longer side of the visible area."""
 
 
@@ -148,9 +148,9 @@ class Scene:
         self.alone_too = False
         """True to use its name even if there are no others."""
         self.others: list[Other] = []
-        self.places: list[Obstacle] = []
+        self.former_places: list[Obstacle] = []
         """Objects at their places before they were moved."""
-        self.ways: list[tuple[Floats, str]] = []
+        self.moved_paths: list[tuple[Floats, str]] = []
         """Paths of moved objects, (n, 2), and their colours."""
 
     def fill(
@@ -168,12 +168,12 @@ class Scene:
                 raise ViewError("a scan is drawn from where it was taken: give robot=(x, y, heading) with it")
             several = np.ndim(each) == 2
             first = pose_of(each[0] if several else each, "the pose of a scan")
-            self.look(beams_of(scan, self.model.laser), first, each if several else None)
+            self.add_scan(beams_of(scan, self.model.laser), first, each if several else None)
         self.trail = None if trail is None else line_of(trail, "trail")
         self.odom = None if odom is None else line_of(odom, "odom")
         self.others, self.name = [other.checked() for other in others], name
 
-    def look(self, beams: Beams, robot: Pose, each: Floats | None) -> None:
+    def add_scan(self, beams: Beams, robot: Pose, each: Floats | None) -> None:
         """Add the scan of a robot at the pose `robot`, or with one of the poses `each` (beams, 3) per beam."""
         self.laser = laser_pose(robot, self.model)
         x, y, _ = self.model.laser.mount
@@ -193,10 +193,10 @@ class Scene:
 
     def _draw(self, axes: Axes, scale: float) -> None:
         draw_world(axes, self.world, scale)
-        for place_ in self.places:
-            draw_place(axes, place_)
-        for way, colour in self.ways:
-            draw_way(axes, way, colour, scale)
+        for place_ in self.former_places:
+            draw_former_place(axes, place_)
+        for way, colour in self.moved_paths:
+            draw_moved_path(axes, way, colour, scale)
         if self.beams is not None:
             draw_scan(axes, self.beams, self.laser, scale)
         if self.trail is not None:
@@ -288,7 +288,7 @@ class Scene:
             lines.append(f"scan: {self.beams.text()}")
         if self.trail is not None:
             lines.append(f"trail: {fixed(length_of(self.trail), 2)} m")
-        off = self._off()
+        off = self._odometry_error()
         if off is not None:
             lines.append(f"odometry: {off} m off at the end")
         elif self.odom is not None:
@@ -310,12 +310,12 @@ class Scene:
         if self.trail is not None:
             said.append(f"A solid line shows where it was, {fixed(length_of(self.trail), 2)} m long.")
         if self.odom is not None:
-            off = self._off()
+            off = self._odometry_error()
             end = f", at the end {off} m off" if off is not None else ""
             said.append(f"A dashed line shows where odometry believes that it was{end}.")
         return " ".join(said)
 
-    def _off(self) -> str | None:
+    def _odometry_error(self) -> str | None:
         if self.trail is None or self.odom is None or len(self.trail) != len(self.odom):
             return None
         return fixed(math.dist(self.trail[-1, :2], self.odom[-1, :2]), 3)
@@ -338,29 +338,29 @@ def laser_pose(robot: Pose, model: RobotModel) -> Pose:
 def map_axes(bounds: Bounds, size: tuple[float, float], legend_width: float) -> tuple[Figure, Axes, float]:
     """Return a figure with axes in metres, equal in x and y, a grid, and room for a legend; and pixels per metre."""
     for side in size:
-        if not SMALLEST <= side <= LARGEST:
-            raise ViewError(f"the size of a picture must be {SMALLEST:g} to {LARGEST:g} pixels, not {side}")
+        if not MIN_SIZE <= side <= MAX_SIZE:
+            raise ViewError(f"the size of a picture must be {MIN_SIZE:g} to {MAX_SIZE:g} pixels, not {side}")
     x0, y0, x1, y1 = bounds
     extent = max(x1 - x0, y1 - y0, 1.0)
-    x0, x1 = _wide(x0, x1, extent)
-    y0, y1 = _wide(y0, y1, extent)
+    x0, x1 = _axis_limits(x0, x1, extent)
+    y0, y1 = _axis_limits(y0, y1, extent)
     top = TOP + (LEGEND if legend_width else 0.0)
     scale = min((size[0] - LEFT - RIGHT) / (x1 - x0), (size[1] - top - BOTTOM) / (y1 - y0))
     width, height = (x1 - x0) * scale, (y1 - y0) * scale
     figure = blank_figure(
-        math.ceil(max(width + RIGHT, legend_width, SMALLEST - LEFT) + LEFT), math.ceil(height + top + BOTTOM)
+        math.ceil(max(width + RIGHT, legend_width, MIN_SIZE - LEFT) + LEFT), math.ceil(height + top + BOTTOM)
     )
-    axes = place(figure, LEFT, top, width, height)
+    axes = add_axes(figure, LEFT, top, width, height)
     axes.set(xlim=(x0, x1), ylim=(y0, y1), xlabel="x [m]", ylabel="y [m]")
     step = 1.0 if 2.0 <= extent <= 14.0 else step_of(extent, 10)
     for axis, low, high in ((axes.xaxis, x0, x1), (axes.yaxis, y0, y1)):
-        mark(axis, low, high, step)
+        set_ticks(axis, low, high, step)
     return figure, axes, scale
 
 
-def _wide(low: float, high: float, extent: float) -> tuple[float, float]:
+def _axis_limits(low: float, high: float, extent: float) -> tuple[float, float]:
     """Return the limits of an axis: its contents, with a margin, and not too narrow."""
-    spare = max(0.0, FLATTEST * extent - (high - low)) / 2 + 0.02 * extent
+    spare = max(0.0, MIN_ASPECT * extent - (high - low)) / 2 + 0.02 * extent
     return low - spare, high + spare
 
 

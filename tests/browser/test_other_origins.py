@@ -150,7 +150,7 @@ class Widget:
 
     script = "export default { render() {} };"
     state = {"secret": "42"}
-    elsewhere = None
+    sink = None
 
     def __init__(self) -> None:
         self.heard = []

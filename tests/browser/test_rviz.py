@@ -91,11 +91,11 @@ class Hand:
         said = self.window._said
         self.page.mouse.move(*self.at(*start))
         self.page.mouse.down()
-        self.until(lambda: self.window._held or self.window._said != said)
+        self.until(lambda: self.window._is_pressed or self.window._said != said)
         for end in ends:
             self.page.mouse.move(*self.at(*end), steps=3)
         self.page.mouse.up()
-        self.until(lambda: not self.window._held)
+        self.until(lambda: not self.window._is_pressed)
 
     def last(self, topic):
         self.until(lambda: self.heard[topic])

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from rosmini.viz import matplotlib_picture, style
 from rosmini.viz.dressing import CYCLE, dress
-from rosmini.viz.figures import blank_figure, house_style, place
+from rosmini.viz.figures import add_axes, blank_figure, house_style
 
 
 def drawn(figure: Figure) -> str:
@@ -64,7 +64,7 @@ def test_axes_that_somebody_opened_stay_as_they_are():
     assert axes.patch.get_visible()
     with house_style():
         ours = blank_figure(300, 200)
-        inner = place(ours, 30, 30, 200, 100)
+        inner = add_axes(ours, 30, 30, 200, 100)
         inner.tick_params(labelsize=7)
         dress(ours)
     assert inner.xaxis.get_ticklabels()[0].get_fontsize() == 7

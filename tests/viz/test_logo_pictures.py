@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini.sim.logo import Logo
-from rosmini.viz.logo_pictures import LONGEST, logo_picture
+from rosmini.viz.logo_pictures import MAX_DURATION, logo_picture
 from rosmini.viz.view import ViewError
 
 
@@ -43,7 +43,7 @@ def test_lines_grow_in_the_order_and_the_colours_of_the_program():
 
 def test_a_long_drawing_is_drawn_faster_and_a_large_one_is_seen_whole():
     run = run_of(logo_picture(drawing("repeat 36 [fd 300 rt 170]")))
-    assert run.duration == pytest.approx(LONGEST)
+    assert run.duration == pytest.approx(MAX_DURATION)
     assert run.bounds is None
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.viz.rounding import degrees, fixed, kept, snap
+from rosmini.viz.rounding import degrees, fixed, points_to_keep, snap
 
 NOISE = st.floats(-1e-12, 1e-12)
 
@@ -49,16 +49,16 @@ def test_snapped_values_are_near_and_bear_noise(halves, noise):
 def test_a_line_keeps_its_ends_and_its_corners_and_little_else():
     x = np.linspace(0, 1, 101)
     up = np.column_stack([np.concatenate([x, np.ones(100)]), np.concatenate([np.zeros(101), x[1:]])])
-    assert kept(up, 0.01) == [0, 100, 200]
-    assert kept(np.array([[1.0, 2.0]]), 0.01) == [0]
+    assert points_to_keep(up, 0.01) == [0, 100, 200]
+    assert points_to_keep(np.array([[1.0, 2.0]]), 0.01) == [0]
     back = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 0.0)])
-    assert kept(back, 0.01) == list(range(len(back)))
+    assert points_to_keep(back, 0.01) == list(range(len(back)))
 
 
 @given(st.lists(st.tuples(st.floats(-9, 9), st.floats(-9, 9)), min_size=2, max_size=40), st.floats(0.01, 3))
 def test_no_point_is_farther_from_the_line_that_is_kept_than_the_tolerance(points, tolerance):
     line = np.array(points)
-    chosen = line[kept(line, tolerance)]
+    chosen = line[points_to_keep(line, tolerance)]
     starts, sides = chosen[:-1], np.diff(chosen, axis=0)
     lengths = np.maximum((sides**2).sum(axis=1), 1e-300)
     for point in line:
@@ -71,4 +71,4 @@ def test_a_last_bit_never_changes_which_points_of_an_arc_are_kept(seed):
     angles = np.linspace(0.0, 2.0, 40)
     arc = np.column_stack([np.cos(angles), np.sin(angles)])
     noise = np.random.default_rng(seed).uniform(-1e-13, 1e-13, arc.shape)
-    assert kept(arc + noise, 0.01) == kept(arc, 0.01)
+    assert points_to_keep(arc + noise, 0.01) == points_to_keep(arc, 0.01)

@@ -21,7 +21,7 @@ from rosmini.navigation.hector_mapping import OccupancyGrid, match
 from rosmini.navigation.navfn import NavfnSearch
 from rosmini.navigation.navfn import show_steps as show_searches
 from rosmini.viz.stepped_pictures import (
-    MOST,
+    MAX_PARTICLES,
     filter_steps,
     inflation_steps,
     map_steps,
@@ -265,7 +265,7 @@ def test_of_many_particles_a_sample_is_drawn_and_the_heaviest():
     weights[4321] = 1.0
     many = particles(5000)
     drawn = filter_steps(house(), steps=[("weigh", many, weights, None)]).frames[0].pictures[0]
-    assert len(re.findall("M", drawn)) == MOST
+    assert len(re.findall("M", drawn)) == MAX_PARTICLES
     heavy = re.search(r'd="M(\d+) (\d+)l[^"M]*" class="rm-heavy"', drawn)
     x, y = many[4321, :2]
     assert [int(heavy[1]), int(heavy[2])] == pytest.approx([(x + 1) * 165, (2 - y) * 165], abs=0.6)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rosmini.viz import matplotlib_picture, style
-from rosmini.viz.figures import blank_figure, house_style, place, say, step_of, ticks
+from rosmini.viz.figures import add_axes, blank_figure, house_style, say, step_of, ticks
 from rosmini.viz.themed import themed_svg
 from rosmini.viz.view import ViewError
 
@@ -106,7 +106,7 @@ def test_many_markers_say_once_how_they_look():
     def svg(count: int) -> str:
         with house_style():
             figure = blank_figure(200, 100)
-            axes = place(figure, 10, 10, 180, 80)
+            axes = add_axes(figure, 10, 10, 180, 80)
             axes.plot(np.arange(count), np.arange(count) % 7, ".", color="#0072b2")
             return body(matplotlib_picture(figure, text="t", alt="a", form="svg").svg)
 
@@ -121,7 +121,7 @@ def test_a_coordinate_that_matplotlib_writes_alike_stays_alike():
     def svg(x: float) -> str:
         with house_style():
             figure = blank_figure(200, 100)
-            place(figure, 10, 10, 180, 80).plot([0, x, 1], [0, 1, 0], color="#0072b2")
+            add_axes(figure, 10, 10, 180, 80).plot([0, x, 1], [0, 1, 0], color="#0072b2")
             return matplotlib_picture(figure, text="t", alt="a", form="svg").svg
 
     assert svg(0.25) == svg(0.25 + 1e-13)
@@ -138,7 +138,7 @@ def test_a_zero_has_no_sign():
 def test_the_picture_is_one_document_with_text_that_stays_text():
     with house_style():
         figure = blank_figure(300, 150)
-        axes = place(figure, 50, 20, 200, 80)
+        axes = add_axes(figure, 50, 20, 200, 80)
         axes.set(xlabel="x [m]", title="<&>")
         view = matplotlib_picture(figure, text="first line\nsecond", alt="A plot.", form="svg", caption="C")
     root = ET.fromstring(view.svg)
@@ -170,7 +170,7 @@ def test_without_matplotlib_the_error_says_what_to_install(monkeypatch):
         pass
 
 
-@pytest.mark.parametrize("size", [(50, 300), (300, 9000), (float("nan"), 300)])
+@pytest.set_ticks.parametrize("size", [(50, 300), (300, 9000), (float("nan"), 300)])
 def test_a_picture_of_no_size_is_refused(size):
     with pytest.raises(ViewError, match="100 to 4000 pixels"):
         blank_figure(*size)
@@ -178,7 +178,7 @@ def test_a_picture_of_no_size_is_refused(size):
 
 def test_a_picture_with_no_room_for_its_axes_is_refused():
     with house_style(), pytest.raises(ViewError, match=r"200 by 100 pixels has no room .* wider"):
-        place(blank_figure(200, 100), 210, 10, -40, 50)
+        add_axes(blank_figure(200, 100), 210, 10, -40, 50)
 
 
 def test_steps_and_ticks_are_round_numbers():

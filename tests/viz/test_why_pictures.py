@@ -5,7 +5,7 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 
 from rosmini.ros.introspection.why import Step, Why
-from rosmini.viz.why_pictures import LONGEST, why_picture
+from rosmini.viz.why_pictures import MAX_LENGTH, why_picture
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -33,4 +33,4 @@ def test_causes_stand_above_what_they_led_to() -> None:
 def test_markup_in_names_and_long_lines_do_no_harm() -> None:
     why = Why((Step("<b> & 'c'", 1.0, "x" * 1000),), "and </svg>")
     assert texts(why)[0] == "<b> & 'c', at 1.000 s"
-    assert all(len(line) <= LONGEST for line in texts(why))
+    assert all(len(line) <= MAX_LENGTH for line in texts(why))

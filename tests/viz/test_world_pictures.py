@@ -18,7 +18,7 @@ from rosmini.sim.models import BURGER
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, Walk, World
 from rosmini.sim.worlds import world as built_in
 from rosmini.viz import ViewError, style, world_picture
-from rosmini.viz.world_drawing import LEAST_ROBOT
+from rosmini.viz.world_drawing import MIN_ROBOT
 
 from ..processes import run
 
@@ -135,7 +135,7 @@ def test_the_robot_is_drawn_to_scale_but_never_too_small_to_be_seen():
     footprint = np.ptp(np.array(BURGER.footprint)[:, 0])
     scale = (600 - 54) / (2 * 1.04)
     assert length(2.0) == pytest.approx(scale * footprint, rel=0.02)
-    assert length(100.0) == pytest.approx(LEAST_ROBOT, rel=0.05)
+    assert length(100.0) == pytest.approx(MIN_ROBOT, rel=0.05)
 
 
 def test_the_bytes_are_the_same_again_in_another_process_and_for_inputs_with_another_last_digit():

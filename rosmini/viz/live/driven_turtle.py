@@ -62,7 +62,7 @@ class DrivenTurtle:
             raise TeleopError(f"the turtle {self.name!r} is no longer in the window of {node.name}.")
         return self.sim.turtles[self.name]
 
-    def look(self) -> Pose:
+    def sample_pose(self) -> Pose:
         """Return the turtle's pose: x [m], y [m], heading [rad]."""
         turtle = self.turtle
         return turtle.x, turtle.y, turtle.theta
@@ -70,7 +70,7 @@ class DrivenTurtle:
     @property
     def blocked(self) -> bool:
         """True if the turtle pushes against the border of its window."""
-        turtle, (x, y, theta) = self.turtle, self.look()
+        turtle, (x, y, theta) = self.turtle, self.sample_pose()
         ahead = [turtle.forward * math.cos(theta), turtle.forward * math.sin(theta)]
         sides = zip((x, y), ahead, strict=True)
         return any((at <= 0 and way < 0) or (at >= LIMIT and way > 0) for at, way in sides)
@@ -78,7 +78,9 @@ class DrivenTurtle:
     def describe(self) -> str:
         """Return one line with the turtle's pose and the number of strokes, the same on every machine."""
         strokes = plural(self.sim.frame.paper.count, "stroke")
-        return f"{self.name} at {pose_text(self.look())} in the window of {self.sim.node.name}; {strokes}"
+        return (
+            f"{self.name} at {pose_text(self.sample_pose())} in the window of {self.sim.node.name}; {strokes}"
+        )
 
     def reset(self) -> None:
         """Reset the window by its service: one turtle in the middle and an empty background."""

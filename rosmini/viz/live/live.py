@@ -41,11 +41,11 @@ DEAD_MAN_S = 1.0
 """The robot stops if the page has been silent for this long [s]."""
 QUIET_S = 0.2
 """Interval between frames that repeat an unchanged state [s]; they show the page that the kernel responds."""
-SHORTEST_S = 0.015
+MIN_INTERVAL_S = 0.015
 """Minimum interval between frames [s]: a graph that runs ahead of the clock sends no more than a page can show."""
 
 
-AROUND_S = 1.0
+OTHERS_S = 1.0
 """Minimum interval between two searches for other drivers [s]."""
 
 
@@ -67,7 +67,7 @@ class Link(PageLink):
         self._drawn: tuple[int, int | None] = (0, None)
         """The turtle strokes that the page has: their number, and how often the background had been cleared."""
         self._last_sent = 0.0
-        self._looked = -AROUND_S
+        self._looked = -OTHERS_S
         self._scan: NDArray[np.float32] | None = None
         """A scan not yet sent to the page: ranges (beams,), then the robot's pose at each beam (beams, 3)."""
         self._scans: Subscriber | None = None
@@ -79,9 +79,9 @@ class Link(PageLink):
         pad = self.pad
         self._choices = tuple(pad.choices)
         data = pad_data(pad) | {"choices": list(self._choices), "chosen": pad.chosen}
-        if pad.sight is not None and pad.gone is None:
+        if pad.shown_robot is not None and pad.gone is None:
             # This also loads the laser's code now, while the cell runs, instead of at the first key.
-            data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
+            data["ranges"] = np.array(pad.shown_robot.measure(), dtype=np.float32).tobytes()
         return data
 
     @property
@@ -102,7 +102,7 @@ class Link(PageLink):
             if kind == "key":
                 self._driven_by_page = True
                 self.pad.press(str(content.get("key")))
-                self._look_around()
+                self._check_other_drivers()
             elif kind == "steer":
                 self._driven_by_page = True
                 self.pad.steer(float(content.get("linear", 0)), float(content.get("angular", 0)))
@@ -123,10 +123,10 @@ class Link(PageLink):
             else:
                 self._tell_gone(why)
 
-    def _look_around(self) -> None:
+    def _check_other_drivers(self) -> None:
         """Look for other drivers, separately from the keys: the Master may be remote, and no key may wait for it."""
         now = self._clock()
-        if now - self._looked >= AROUND_S:
+        if now - self._looked >= OTHERS_S:
             self._looked = now
             self.node.spawn(f"{self.node.name} other drivers", self._note_others)
 
@@ -156,22 +156,22 @@ class Link(PageLink):
         if pad.gone is not None:
             raise TeleopError(pad.gone)
         self._timer = pad.node.timer(1 / FRAME_HZ, self._frame)
-        if pad.sight is not None and self._scans is None:
+        if pad.shown_robot is not None and self._scans is None:
             self._scans = pad.node.subscriber(
-                pad.sight.scan_topic, message_class("sensor_msgs/LaserScan"), self._seen
+                pad.shown_robot.scan_topic, message_class("sensor_msgs/LaserScan"), self._seen
             )
 
     def _seen(self, scan: Any) -> None:
-        sight = self.pad.sight
-        if sight is not None and self.pad.gone is None:
+        shown_robot = self.pad.shown_robot
+        if shown_robot is not None and self.pad.gone is None:
             ranges = np.asarray(scan.ranges, dtype=np.float32)
-            poses = np.broadcast_to(sight.scan_poses, (len(ranges), 3)).astype(np.float32)
+            poses = np.broadcast_to(shown_robot.scan_poses, (len(ranges), 3)).astype(np.float32)
             self._scan = np.concatenate([ranges, poses.ravel()])
 
     def _hello(self) -> None:
-        sight = self.pad.sight
-        if sight is not None and sight.trail:
-            self._send({"type": "trail"}, [np.array(sight.trail, dtype=np.float32).tobytes()])
+        shown_robot = self.pad.shown_robot
+        if shown_robot is not None and shown_robot.trail:
+            self._send({"type": "trail"}, [np.array(shown_robot.trail, dtype=np.float32).tobytes()])
         self._drawn = (0, None)
         self._last, self._choices = (), ()
 
@@ -195,7 +195,7 @@ class Link(PageLink):
             self._timer.shutdown()
             self._timer = None
             return
-        if now - self._last_sent < SHORTEST_S:
+        if now - self._last_sent < MIN_INTERVAL_S:
             return
         why = self.pad.gone
         if why is None:
@@ -211,11 +211,15 @@ class Link(PageLink):
 
     def _show(self, now: float) -> None:
         pad = self.pad
-        pose, blocked, pushed = (np.nan, np.nan, np.nan), False, None
+        pose, blocked, moved_shapes = (np.nan, np.nan, np.nan), False, None
         if pad.turtle is not None:
-            pose, blocked = pad.turtle.look(), pad.turtle.blocked
-        if pad.sight is not None:
-            pose, blocked, pushed = pad.sight.look(), pad.sight.blocked, pad.sight.pushed()
+            pose, blocked = pad.turtle.sample_pose(), pad.turtle.blocked
+        if pad.shown_robot is not None:
+            pose, blocked, moved_shapes = (
+                pad.shown_robot.sample_pose(),
+                pad.shown_robot.blocked,
+                pad.shown_robot.moved_shapes(),
+            )
         scan, self._scan = self._scan, None
         teleop = pad.teleop
         window = None if pad.turtle is None else pad.turtle.state(*self._drawn)
@@ -235,12 +239,12 @@ class Link(PageLink):
             pad.sent,
         )
         # The Master, which may be remote, is asked for topics when the pad is opened.
-        choices = self._choices if pad.turtle is None and pad.sight is None else tuple(pad.choices)
+        choices = self._choices if pad.turtle is None and pad.shown_robot is None else tuple(pad.choices)
         is_new, self._choices = choices != self._choices, choices
         if (
             shown == self._last
             and scan is None
-            and pushed is None
+            and moved_shapes is None
             and not is_new
             and now - self._last_sent < QUIET_S
         ):
@@ -260,8 +264,8 @@ class Link(PageLink):
         if window is not None:
             content["window"] = window
             self._drawn = window["next"], window["clears"]
-        if pushed is not None:
-            content["pushed"] = pushed
+        if moved_shapes is not None:
+            content["pushed"] = moved_shapes
         if is_new:
             content["choices"] = list(choices)
         numbers = np.array([*pad.teleop.target, *pad.teleop.command, *pose], dtype=np.float64)

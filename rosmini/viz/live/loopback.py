@@ -27,13 +27,13 @@ from typing import Any, Protocol, Self
 from rosmini.viz.svg import escape
 
 LOOPBACK = "127.0.0.1"
-MOST_BYTES = 64_000
+MAX_BYTES = 64_000
 """Maximum length of a page's message [bytes]."""
-MOST_DIGITS = 12
+MAX_DIGITS = 12
 """Maximum number of digits accepted in `Content-Length`."""
-MOST_WAITING = 200
+MAX_WAITING = 200
 """Maximum number of messages queued for a page; a slower page is disconnected and starts again."""
-MOST_CONNECTIONS = 32
+MAX_CONNECTIONS = 32
 """Maximum number of connections of a server, each with a thread. A browser opens six."""
 SILENCE_S = 10.0
 """Keep-alive interval [s]: a silent page is sent an empty line, which fails if the page has gone."""
@@ -90,7 +90,7 @@ app.render({{ model, el: document.getElementById("page") }});
 class Served(Protocol):
     """The widget that a page server serves: :class:`~rosmini.viz.live.page_link.PageWidget`."""
 
-    elsewhere: Any
+    sink: Any
     """Receives the messages to the page in place of Jupyter."""
 
     @property
@@ -132,7 +132,7 @@ class PageServer:
         self._thread = threading.Thread(
             target=self._server.serve_forever, args=(0.1,), name="rosmini page", daemon=True
         )
-        widget.elsewhere = self._send
+        widget.sink = self._send
         self._thread.start()
 
     @property
@@ -147,7 +147,7 @@ class PageServer:
 
     def close(self) -> None:
         """Close the server and notify the open pages. Calling it again has no effect."""
-        self.widget.elsewhere = None
+        self.widget.sink = None
         with self._lock:
             for page in self._pages:
                 with suppress(queue.Full):
@@ -180,14 +180,14 @@ class PageServer:
 
     # -- from the pages, each in a thread of the server -----------------------------------------------------------
 
-    def opened(self) -> queue.Queue[str | None]:
+    def add_page(self) -> queue.Queue[str | None]:
         """Register a page that has started to listen, and return its queue."""
-        page: queue.Queue[str | None] = queue.Queue(MOST_WAITING)
+        page: queue.Queue[str | None] = queue.Queue(MAX_WAITING)
         with self._lock:
             self._pages.add(page)
         return page
 
-    def left(self, page: queue.Queue[str | None]) -> None:
+    def remove_page(self, page: queue.Queue[str | None]) -> None:
         """Remove a page."""
         with self._lock:
             self._pages.discard(page)
@@ -233,9 +233,9 @@ class _Server(ThreadingHTTPServer):
     request_queue_size = 128
 
     def __init__(self, *words: Any) -> None:
-        self._free = threading.BoundedSemaphore(MOST_CONNECTIONS)
+        self._free = threading.BoundedSemaphore(MAX_CONNECTIONS)
         self._lock = threading.Lock()
-        self._strangers: dict[Any, None] = {}
+        self._untrusted: dict[Any, None] = {}
         """Connections that have not presented the token, oldest first."""
         super().__init__(*words)
 
@@ -243,16 +243,16 @@ class _Server(ThreadingHTTPServer):
         """Handle a connection in a thread, or close it if all others have presented the token."""
         if not self._free.acquire(blocking=False):
             with self._lock:
-                oldest = next(iter(self._strangers), None)
+                oldest = next(iter(self._untrusted), None)
             if oldest is not None:
-                self.known(oldest)
+                self.trust(oldest)
                 with suppress(OSError):  # it may have just ended
                     oldest.shutdown(socket.SHUT_RDWR)
             if oldest is None or not self._free.acquire(timeout=END_S):
                 self.shutdown_request(request)
                 return
         with self._lock:
-            self._strangers[request] = None
+            self._untrusted[request] = None
         super().process_request(request, client_address)
 
     def process_request_thread(self, request: Any, client_address: Any) -> None:
@@ -260,13 +260,13 @@ class _Server(ThreadingHTTPServer):
         try:
             super().process_request_thread(request, client_address)
         finally:
-            self.known(request)
+            self.trust(request)
             self._free.release()
 
-    def known(self, connection: Any) -> None:
+    def trust(self, connection: Any) -> None:
         """Mark a connection as having presented the token."""
         with self._lock:
-            self._strangers.pop(connection, None)
+            self._untrusted.pop(connection, None)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Suppress the report of a broken connection, because the terminal belongs to the tool."""
@@ -288,7 +288,7 @@ class _Handler(BaseHTTPRequestHandler):
     def log_message(self, format: str, *args: Any) -> None:  # the base class's name for it
         """Suppress the access log, because the terminal belongs to the tool."""
 
-    def _asked(self) -> str | None:
+    def _checked_path(self) -> str | None:
         """Return the path below the token; send an error and return None if the request is not from our page."""
         hosts = {f"{name}:{self.pages.port}" for name in (LOOPBACK, "localhost")}
         origin = self.headers.get("Origin")
@@ -299,12 +299,12 @@ class _Handler(BaseHTTPRequestHandler):
         if not is_ours or not secrets.compare_digest(root.encode(), self.pages.token.encode()):
             self._answer(HTTPStatus.NOT_FOUND, "text/plain", b"there is nothing here\n")
             return None
-        self.server.known(self.request)
+        self.server.trust(self.request)
         return rest
 
     def do_GET(self) -> None:
         """Send the page, its module, its data or the stream of events."""
-        match self._asked():
+        match self._checked_path():
             case "":
                 page = PAGE.format(title=escape(self.pages.title))
                 self._answer(HTTPStatus.OK, "text/html; charset=utf-8", page.encode())
@@ -323,12 +323,12 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_POST(self) -> None:
         """Receive a message from the page."""
-        rest = self._asked()
+        rest = self._checked_path()
         if rest is None:
             return
         length = self._length()
         is_json = self.headers.get("Content-Type", "").partition(";")[0] == "application/json"
-        if rest != "say" or not is_json or length is None or length > MOST_BYTES:
+        if rest != "say" or not is_json or length is None or length > MAX_BYTES:
             self._answer(HTTPStatus.BAD_REQUEST, "text/plain", b"a page says a short message, as JSON\n")
             return
         try:
@@ -344,7 +344,7 @@ class _Handler(BaseHTTPRequestHandler):
     def _length(self) -> int | None:
         """Return the length of the request's body; None if the header is not a number."""
         text = self.headers.get("Content-Length", "")
-        is_number = text.isascii() and text.isdecimal() and len(text) <= MOST_DIGITS
+        is_number = text.isascii() and text.isdecimal() and len(text) <= MAX_DIGITS
         return int(text) if is_number else None
 
     def end_headers(self) -> None:
@@ -355,7 +355,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _events(self) -> None:
         """Send messages until the page disconnects or the server closes."""
-        page = self.pages.opened()
+        page = self.pages.add_page()
         self.close_connection = True
         self.send_response(HTTPStatus.OK)
         self.send_header("Content-Type", "text/event-stream")
@@ -372,7 +372,7 @@ class _Handler(BaseHTTPRequestHandler):
         except OSError:
             return  # the page was closed
         finally:
-            self.pages.left(page)
+            self.pages.remove_page(page)
 
     def _answer(self, status: HTTPStatus, kind: str, body: bytes) -> None:
         if status not in (HTTPStatus.OK, HTTPStatus.NO_CONTENT):

@@ -30,7 +30,7 @@ from rosmini.msgs import message_class
 from rosmini.sim.simulation import Simulation
 from rosmini.sim.turtlesim import TurtleSim
 
-from .chosen import Chosen
+from .driven_robot import DrivenRobot
 from .driven_turtle import DrivenTurtle
 from .key_maps import key_map
 from .live_view import LiveView
@@ -96,7 +96,7 @@ class TeleopPad(LiveView):
         solid: bool = False,
         title: str | None = None,
     ) -> None:
-        self.sight: Chosen | None = None
+        self.shown_robot: DrivenRobot | None = None
         self.turtle: DrivenTurtle | None = None
         self.chosen = ""
         """Name of the one of `choices` that is driven."""
@@ -108,7 +108,7 @@ class TeleopPad(LiveView):
             self.graph: GraphCore = driven
         elif isinstance(driven, Simulation | TurtleSim):
             self.graph = driven.node.graph
-            chosen = self._see(driven, robot)
+            chosen = self._set_driven(driven, robot)
             namespace = chosen.namespace
             topic = chosen.topic if topic is None else driven.node.resolve(topic)
         else:
@@ -133,22 +133,22 @@ class TeleopPad(LiveView):
         self._twist = self.twist_class()
         self._timer: Timer | None = None
         self._listeners: list[Callable[[Any], object]] = []
-        self._meet_listeners()
+        self._wait_for_subscribers()
 
-    def _see(self, driven: Simulation | TurtleSim, robot: str) -> Chosen | DrivenTurtle:
-        chosen: Chosen | DrivenTurtle
+    def _set_driven(self, driven: Simulation | TurtleSim, robot: str) -> DrivenRobot | DrivenTurtle:
+        chosen: DrivenRobot | DrivenTurtle
         if isinstance(driven, TurtleSim):
             chosen = self.turtle = DrivenTurtle(driven, robot)
         else:
-            chosen = Chosen(driven, robot)
-            self.sight = chosen if chosen.sees else None
+            chosen = DrivenRobot(driven, robot)
+            self.shown_robot = chosen if chosen.has_laser else None
         self.chosen, self._robot_limits = chosen.name, chosen.limits
         return chosen
 
     def _limits_now(self) -> Limits | None:
         return self._limits or getattr(self, "_robot_limits", None)
 
-    def _meet_listeners(self) -> None:
+    def _wait_for_subscribers(self) -> None:
         if self.topic in dict(self.node.master.ask("getSystemState")[1]):
             try:
                 self._publisher.wait_for_subscribers(timeout=CONNECT_S)
@@ -215,7 +215,7 @@ class TeleopPad(LiveView):
     def choices(self) -> tuple[str, ...]:
         """Names that can be driven: the simulation's robots, the turtles, or the graph's topics with subscribers."""
         if isinstance(self._driven, Simulation):
-            return Chosen.names(self._driven)
+            return DrivenRobot.names(self._driven)
         if isinstance(self._driven, TurtleSim):
             return DrivenTurtle.names(self._driven)
         master = self.node.master
@@ -230,11 +230,11 @@ class TeleopPad(LiveView):
         Raises `TeleopError` for any other name, and `ROSException` if the node was shut down.
         """
         if isinstance(self._driven, Simulation | TurtleSim):
-            kind = Chosen if isinstance(self._driven, Simulation) else DrivenTurtle
+            kind = DrivenRobot if isinstance(self._driven, Simulation) else DrivenTurtle
             if name not in self.choices:
                 kind(self._driven, name)  # type: ignore[arg-type]  # raises an error with the available names
             self._rest()
-            topic = self._see(self._driven, name).topic
+            topic = self._set_driven(self._driven, name).topic
         else:
             if name not in self.choices:
                 raise TeleopError(
@@ -246,7 +246,7 @@ class TeleopPad(LiveView):
         if topic != self.topic:
             self._publisher.unregister()
             self._publisher = self.node.publisher(topic, self.twist_class, queue_size=10)
-            self._meet_listeners()
+            self._wait_for_subscribers()
 
     @property
     def others(self) -> tuple[str, ...]:
@@ -264,13 +264,13 @@ class TeleopPad(LiveView):
             self.stop()
             self.turtle.reset()
             return
-        if self.sight is None:
+        if self.shown_robot is None:
             raise TeleopError(
                 "this pad has no simulator, so it cannot reset a robot; give it one: TeleopPad(simulator)"
             )
         self.stop()
-        self.sight.reset()
-        self.sight.trail.clear()
+        self.shown_robot.reset()
+        self.shown_robot.trail.clear()
 
     def on_publish(self, callback: Callable[[Any], object]) -> None:
         """Call `callback(twist)` for each message published from now on."""
@@ -308,9 +308,13 @@ class TeleopPad(LiveView):
         """Reason why there is nothing left to drive (robot removed or node shut down), or None."""
         if self.node.is_shutdown():
             return f"the node {self.node.name} was shut down."
-        if self.sight is not None or self.turtle is not None:
+        if self.shown_robot is not None or self.turtle is not None:
             try:
-                _ = self.sight.truth() if self.sight is not None else self.turtle and self.turtle.turtle
+                _ = (
+                    self.shown_robot.truth()
+                    if self.shown_robot is not None
+                    else self.turtle and self.turtle.turtle
+                )
             except RosminiError as error:
                 return str(error)
         return None
@@ -338,14 +342,14 @@ class TeleopPad(LiveView):
         why = self.gone
         if why is not None:
             lines.append(f"nothing to drive: {why}")
-        elif self.sight is not None or self.turtle is not None:
-            lines.append((self.sight or self.turtle).describe())  # type: ignore[union-attr]  # one of them exists
+        elif self.shown_robot is not None or self.turtle is not None:
+            lines.append((self.shown_robot or self.turtle).describe())  # type: ignore[union-attr]  # one of them exists
         return "\n".join(lines)
 
     @property
     def alt(self) -> str:
         """Alternative text: the pad in one or two sentences."""
-        drives = "" if self.sight is None else f" the {self.sight.model.name} in its world and"
+        drives = "" if self.shown_robot is None else f" the {self.shown_robot.model.name} in its world and"
         if self.turtle is not None:
             drives = " turtles in their window and"
         keys = "w, a, s, d and x" if self.teleop.keys.adds else f"of {self.keys}"

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Node
 
-    from .chosen import Chosen
+    from .driven_robot import DrivenRobot
     from .driven_turtle import DrivenTurtle
     from .teleop import Teleop
 
@@ -49,7 +49,7 @@ def scripts_of(pad: Pad) -> tuple[str, ...]:
 class Pad(Protocol):
     """A teleoperation pad, as its pages use it: :class:`~rosmini.viz.live.pad.TeleopPad`."""
 
-    sight: Chosen | None
+    shown_robot: DrivenRobot | None
     turtle: DrivenTurtle | None
     teleop: Teleop
     sent: int
@@ -121,22 +121,28 @@ def pad_data(pad: Pad) -> dict[str, Any]:
         "scan_rate": 0.0,
     }
     if pad.turtle is not None and pad.gone is None:
-        data |= {"turtle": pad.turtle.data(), "pose": list(pad.turtle.look()), "step": TURTLE_STEP}
-    if pad.sight is not None and pad.gone is None:
-        x, y, theta = pad.sight.look()
+        data |= {"turtle": pad.turtle.data(), "pose": list(pad.turtle.sample_pose()), "step": TURTLE_STEP}
+    if pad.shown_robot is not None and pad.gone is None:
+        x, y, theta = pad.shown_robot.sample_pose()
         pose = [round(x + 1e-8, 3) + 0.0, round(y + 1e-8, 3) + 0.0, round(theta + 1e-8, 4) + 0.0]
-        data |= {"scene": pad.sight.scene(), "pose": pose, "scan_rate": pad.sight.model.laser.rate}
+        data |= {
+            "scene": pad.shown_robot.scene(),
+            "pose": pose,
+            "scan_rate": pad.shown_robot.model.laser.rate,
+        }
         if pad.solid:
-            data["solid"] = _solid(pad.sight)
+            data["solid"] = _solid(pad.shown_robot)
     return data
 
 
-def _solid(sight: Chosen) -> dict[str, Any]:
+def _solid(shown_robot: DrivenRobot) -> dict[str, Any]:
     """Return the world and the robot in three dimensions, in the form that the viewer's script reads."""
     from rosmini.viz.meshcat.view import robot_3d
 
     view = robot_3d(
-        replace(sight.world, obstacles=(*sight.fixed(), *sight.moving())), sight.model, sight.look()
+        replace(shown_robot.world, obstacles=(*shown_robot.fixed(), *shown_robot.moving())),
+        shown_robot.model,
+        shown_robot.sample_pose(),
     )
     return view.data
 
@@ -154,10 +160,10 @@ def title(pad: Pad) -> str:
     """Return a short description of what the pad drives."""
     if pad.turtle is not None:
         return pad.turtle.title
-    if pad.sight is None:
+    if pad.shown_robot is None:
         return f"Drive on {pad.topic}"
-    model = pad.sight.model
-    return f"Drive the {model.title or model.name} in the world {pad.sight.world.name}"
+    model = pad.shown_robot.model
+    return f"Drive the {model.title or model.name} in the world {pad.shown_robot.world.name}"
 
 
 def static_html(pad: Pad, *, caption: str | None = None) -> str:
@@ -166,7 +172,7 @@ def static_html(pad: Pad, *, caption: str | None = None) -> str:
     A robot without two driven wheels (a car, or one that moves sideways) would move differently in the page, so it
     gets a still picture.
     """
-    if pad.sight is not None and not pad.sight.simple:
+    if pad.shown_robot is not None and not pad.shown_robot.is_differential:
         return _still(pad)
     return embed(
         scripts_of(pad),
@@ -193,9 +199,9 @@ def module(names: Sequence[str], driver: str) -> str:
 def _still(pad: Pad) -> str:
     """Return the content for print and for browsers without scripts: the world, if there is one, and the state."""
     words = element("p", escape(pad.text).replace("\n", "<br>"))
-    if (pad.sight is None and pad.turtle is None) or pad.gone is not None:
+    if (pad.shown_robot is None and pad.turtle is None) or pad.gone is not None:
         return words
     from rosmini.core.graph.show import show
 
-    picture = show("simulation", pad.sight) if pad.turtle is None else pad.turtle.sim.show()
+    picture = show("simulation", pad.shown_robot) if pad.turtle is None else pad.turtle.sim.show()
     return f"{picture.html or ''}{words}"

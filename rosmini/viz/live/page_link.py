@@ -31,15 +31,15 @@ class PageWidget(anywidget.AnyWidget):
 
     data = traitlets.Dict().tag(sync=True)
 
-    elsewhere: Callable[[dict[str, Any], list[bytes] | None], None] | None = None
+    sink: Callable[[dict[str, Any], list[bytes] | None], None] | None = None
     """Receives the messages to the page if a program serves it in place of Jupyter (`rosmini.viz.live.loopback`)."""
 
     def send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
         """Send a message to the page."""
-        if self.elsewhere is None:
+        if self.sink is None:
             super().send(content, buffers)
         else:
-            self.elsewhere(content, buffers)
+            self.sink(content, buffers)
 
     @property
     def script(self) -> str:
@@ -97,7 +97,7 @@ class PageLink(ABC):
             self._send({"type": "gone", "text": self.gone})
             return
         # Between two slices a program that serves the page does not drive the graph, but it soon will again.
-        is_driven = graph.is_live or graph.scheduler.driven or self.widget.elsewhere is not None
+        is_driven = graph.is_live or graph.scheduler.driven or self.widget.sink is not None
         if kind in self.acts and not graph.is_live:
             try:
                 graph.live()

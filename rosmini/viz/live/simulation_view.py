@@ -61,7 +61,7 @@ class SimulationView(LiveView):
     @property
     def names(self) -> tuple[str, ...]:
         """Names of everything that can be dragged."""
-        return self._on_hub(lambda: tuple(body.name for body in self.watch.bodies() if body.takeable))
+        return self._on_hub(lambda: tuple(body.name for body in self.watch.bodies() if body.is_draggable))
 
     def pose(self, name: str) -> Pose:
         """Return the pose of a robot or an object: x [m], y [m], heading [rad]. Raises `ViewError` for another name."""
@@ -159,7 +159,7 @@ class SimulationView(LiveView):
         lines += [
             f"{body.name} ({body.what}): {pose_text(watch.pose(body))}"
             for body in watch.bodies()
-            if body.takeable
+            if body.is_draggable
         ]
         why = watch.gone
         if why is not None:

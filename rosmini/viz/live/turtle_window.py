@@ -33,18 +33,18 @@ class PadOnDemand:
         self._sim = sim
         self._pad: TeleopPad | None = None
         self._lock = threading.Lock()
-        self._elsewhere: Callable[..., None] | None = None
+        self._sink: Callable[..., None] | None = None
 
     @property
-    def elsewhere(self) -> Any:
+    def sink(self) -> Any:
         """Receives the messages to the page."""
-        return self._elsewhere
+        return self._sink
 
-    @elsewhere.setter
-    def elsewhere(self, send: Any) -> None:
-        self._elsewhere = send
+    @sink.setter
+    def sink(self, send: Any) -> None:
+        self._sink = send
         if self._pad is not None:
-            self._pad.link.widget.elsewhere = send
+            self._pad.link.widget.sink = send
 
     @property
     def script(self) -> str:
@@ -76,7 +76,7 @@ class PadOnDemand:
     def _make(self, made: Future[TeleopPad]) -> None:
         try:
             pad: TeleopPad = self._sim.pad()
-            pad.link.widget.elsewhere = self._elsewhere
+            pad.link.widget.sink = self._sink
         except Exception as error:  # it belongs to the page, whose thread waits for it
             made.set_exception(error)
         else:

@@ -17,7 +17,7 @@ from rosmini.viz.view import ViewError
 from .teleop import TeleopError
 
 try:
-    from .live import FRAME_HZ, QUIET_S, SHORTEST_S
+    from .live import FRAME_HZ, MIN_INTERVAL_S, QUIET_S
     from .page_link import LEFT_S, PageLink
 except TeleopError as error:
     raise ViewError(
@@ -150,7 +150,7 @@ class ViewLink(PageLink):
         now = self._clock()
         if now - self._heard > LEFT_S:
             return
-        if now - self._last_sent >= SHORTEST_S or not self._last:
+        if now - self._last_sent >= MIN_INTERVAL_S or not self._last:
             self._show(now)
         node = self.watch.node
         # While time is paused and the graph is not live, a timer alone would keep a run going.
@@ -176,7 +176,7 @@ class ViewLink(PageLink):
         looked = bool(poses != self._seen or not self._last) and now - self._last_looked >= LASER_S
         if looked:
             self._seen, self._last_looked = poses, now
-            buffers.append(self._survey().tobytes())
+            buffers.append(self._measure().tobytes())
         self._last, self._last_sent = shown, now
         self._send(
             {"type": "frame", "time": watch.host.now, "paused": watch.host.paused, "scans": looked}, buffers
@@ -187,9 +187,9 @@ class ViewLink(PageLink):
         engine, host = self.watch.engine, self.watch.host
         return (_Same(engine.world), tuple(engine.robots), len(host.devices))
 
-    def _survey(self) -> NDArray[np.float32]:
+    def _measure(self) -> NDArray[np.float32]:
         lasers = self.watch.lasers(self._bodies)
-        looks = [self.watch.survey(name, lidar) for name, lidar in lasers.items()]
+        looks = [self.watch.measure(name, lidar) for name, lidar in lasers.items()]
         return np.concatenate(looks) if looks else np.zeros(0, dtype=np.float32)
 
     def _data(self) -> dict[str, Any]:
@@ -203,7 +203,7 @@ class ViewLink(PageLink):
             "scene": watch.scene(),
             "bodies": [body.data(lasers.get(body.name)) for body in self._bodies],
             "poses": [list(watch.pose(body)) for body in self._bodies],
-            "scans": self._survey().tobytes(),
+            "scans": self._measure().tobytes(),
             "time": watch.host.now,
             "paused": watch.host.paused,
             "step": STEP_S,

@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 HERE: Pose = (0.0, 0.0, 0.0)
 STEP_S = 0.1
 """Time by which the button Step advances the world [s]."""
-LASERS = 12
+MAX_LASERS = 12
 """Maximum number of lasers drawn; more would hide the scene."""
 
 
@@ -44,7 +44,7 @@ class Body:
     colour: str = "grey"
 
     @property
-    def takeable(self) -> bool:
+    def is_draggable(self) -> bool:
         """True if it can be dragged."""
         return self.kind != "mover"
 
@@ -53,7 +53,7 @@ class Body:
         """Description of the body."""
         if self.model is not None:
             return f"robot {self.model.title or self.model.name}"
-        return "thing that can be pushed" if self.takeable else "moves by itself"
+        return "thing that can be pushed" if self.is_draggable else "moves by itself"
 
     @property
     def reach(self) -> float:
@@ -163,11 +163,11 @@ class Watch:
         found: dict[str, LidarModel] = {}
         for body in bodies:
             lidar = None if body.model is None else body.model.lidar or self._lasers.get(body.name)
-            if lidar is not None and len(found) < LASERS:
+            if lidar is not None and len(found) < MAX_LASERS:
                 found[body.name] = lidar
         return found
 
-    def survey(self, name: str, lidar: LidarModel) -> NDArray[np.float32]:
+    def measure(self, name: str, lidar: LidarModel) -> NDArray[np.float32]:
         """Return a robot's pose and its laser's noise-free measurement now: x, y, heading, ranges."""
         ranges = self.engine.scan(name, None, lidar=lidar)
         return np.concatenate([self.engine.robot(name).pose, ranges]).astype(np.float32)

@@ -11,7 +11,7 @@ from rosmini.core.geometry.products import matrix_product, norm
 from rosmini.sim.gazebo.snapshot import ShownModel, Snapshot
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Sphere, outline_at
-from rosmini.viz.gazebo_pictures import places, when
+from rosmini.viz.gazebo_pictures import pose_lines, time_text
 from rosmini.viz.rounding import snap
 from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import pose_text
@@ -66,13 +66,13 @@ def gazebo_3d(
         _add(scene, model, collisions=collisions)
     kind = ", what is solid of them" if collisions else ""
     count = f"{len(snapshot.models)} model{'s' * (len(snapshot.models) != 1)}"
-    lines = [f"3D: {snapshot.name} with {count}{kind}, at {when(snapshot)}"]
+    lines = [f"3D: {snapshot.name} with {count}{kind}, at {time_text(snapshot)}"]
     lines += [f"{robot.name}: pose {pose_text(robot.pose)}" for robot in snapshot.robots]
-    lines += places(snapshot)
+    lines += pose_lines(snapshot)
     said = [f"{robot.name} at {pose_text(robot.pose)}" for robot in snapshot.robots]
     said += [f"{m.name} at {pose_text(m.place)}" for m in snapshot.things]
     there = f": {', '.join(said[:6])}{' and more' if len(said) > 6 else ''}" if said else ""
-    alt = f"{snapshot.title} in three dimensions, {count}{kind}, at {when(snapshot)}{there}."
+    alt = f"{snapshot.title} in three dimensions, {count}{kind}, at {time_text(snapshot)}{there}."
     return MeshcatView(
         scene, label=f"{snapshot.title} in 3D", text="\n".join(lines), alt=alt, title=title, height=height
     )

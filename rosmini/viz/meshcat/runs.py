@@ -151,9 +151,7 @@ def _run(
     bodies = own if robot is not None else []
     start = bodies[0].poses[0].tolist() if bodies else None
     if start is None:
-        camera_args = (
-            {**camera_args, "focus": "world"} if camera_args["focus"] == "robot" else camera_args
-        )
+        camera_args = {**camera_args, "focus": "world"} if camera_args["focus"] == "robot" else camera_args
     elif camera_args["focus"] == "robot" and camera_args["distance"] is None:
         camera_args = {**camera_args, "distance": ROBOT_DISTANCE}
     fence = np.array([(x0, y0, x1, y0), (x1, y1, x0, y1)])

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.products import norms
 from rosmini.viz.replay.packing import ANGLE, LENGTH, TIME, pack, pack_columns, whole
-from rosmini.viz.rounding import fixed, kept
+from rosmini.viz.rounding import fixed, points_to_keep
 from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
 
@@ -171,7 +171,7 @@ def _simplified(shape: Shape) -> Shape:
     """Return a shape without points that would not be visible."""
     points = shape.points
     if shape.mode in ("line", "closed") and len(points) > 2:
-        points = points[kept(points[:, :2], COARSE / 2)]
+        points = points[points_to_keep(points[:, :2], COARSE / 2)]
     elif len(points) > MAX_POINTS:
         points = points[:: -(-len(points) // MAX_POINTS)]
     return replace(shape, points=points)
@@ -300,9 +300,9 @@ class Strokes(Layer):
         """Return the points that matter, in space and time: a straight line at constant speed needs only its ends."""
         if len(stroke.times) < 3:
             return stroke
-        spatial = set(kept(stroke.points, self.tolerance))
+        spatial = set(points_to_keep(stroke.points, self.tolerance))
         length = np.concatenate([[0.0], np.cumsum(norms(np.diff(stroke.points, axis=0)))])
-        pace = set(kept(np.column_stack([stroke.times, length]), 10 * self.tolerance))
+        pace = set(points_to_keep(np.column_stack([stroke.times, length]), 10 * self.tolerance))
         which = sorted(spatial | pace)
         return replace(stroke, times=stroke.times[which], points=stroke.points[which])
 

@@ -10,7 +10,7 @@ from rosmini.viz.map_colours import ALPHA, UNKNOWN, colours_of, painted, scheme_
 from rosmini.viz.replay.grids import Grid, Grids, coarse
 from rosmini.viz.replay.layers import Layer, Scans, Shape, Shapes, Strokes
 from rosmini.viz.replay.run import Body, Run
-from rosmini.viz.rounding import kept, snap
+from rosmini.viz.rounding import points_to_keep, snap
 from rosmini.viz.style import LIGHT, variable
 from rosmini.viz.svg import document, element, number
 from rosmini.viz.view import Picture
@@ -46,7 +46,7 @@ class Canvas:
     def line(self, points: Floats, *, closed: bool = False) -> str:
         """Return the path data of a line without points that make no visible difference."""
         pixels = self.px(points)
-        pixels = pixels[kept(pixels, TOLERANCE)] if len(pixels) > 2 else pixels
+        pixels = pixels[points_to_keep(pixels, TOLERANCE)] if len(pixels) > 2 else pixels
         return (
             "M" + "L".join(f"{number(x)},{number(y)}" for x, y in pixels.tolist()) + ("Z" if closed else "")
         )

@@ -103,8 +103,8 @@ class RVizWindow(Panel):
         self._is_live = False
         """True if a live page shows the window."""
         self._has_webgl = is_possible()
-        self._held = self._is_dragged = False
-        self._hand = np.array(self._size) / 2
+        self._is_pressed = self._is_dragged = False
+        self._pointer = np.array(self._size) / 2
         self._said = self.tools.current.hint
         self._fits_until_ns = self.scene.context.now_ns + SETTLES_NS
 
@@ -125,7 +125,7 @@ class RVizWindow(Panel):
         self._layers = self.scene.update()
         if (
             self._projection is None
-            or not self._held
+            or not self._is_pressed
             or isinstance(self._projection, ParallelProjection) == self.is_solid
         ):
             self._projection = self._current_projection()  # keeps a dragged object under the pointer
@@ -199,7 +199,12 @@ class RVizWindow(Panel):
         """Return what the current tool draws."""
         tool, projection = self.tools.current, self._projection
         found = list(tool.primitives())
-        if isinstance(tool, Select) and tool.corners is not None and self._held and projection is not None:
+        if (
+            isinstance(tool, Select)
+            and tool.corners is not None
+            and self._is_pressed
+            and projection is not None
+        ):
             found.append(_rectangle(*tool.corners, projection))
         return found
 
@@ -284,7 +289,7 @@ class RVizWindow(Panel):
         if view is None or projection is None or title == self._type:
             return
         self._fits_until_ns = 0
-        self._held = False
+        self._is_pressed = False
         viewpoint = view.viewpoint(self.scene.context)
         self.scene.view = view_like(TYPES[title], viewpoint, view["Target Frame"], self.scene.context)
 
@@ -315,7 +320,7 @@ class RVizWindow(Panel):
             self._solid.turns = int(numbers[0])
             turn(self.scene, numbers[1:])
             return
-        self._hand = np.array(numbers[-2:])
+        self._pointer = np.array(numbers[-2:])
         if kind == "wheel":
             self.zoom(ZOOM ** -np.sign(numbers[0]))
         else:
@@ -327,13 +332,13 @@ class RVizWindow(Panel):
         if projection is None:
             return
         tool = self.tools.current
-        tool.ray = projection.ray(*self._hand)
+        tool.ray = projection.ray(*self._pointer)
         at = self._point(projection)
         if at is None and kind == "release" and tool.needs_object:
-            self._said, self._held = tool.hint, False
+            self._said, self._is_pressed = tool.hint, False
             return
-        place = np.array(projection.metres(*self._hand)) if at is None else at
-        self._held = kind != "release"
+        place = np.array(projection.metres(*self._pointer)) if at is None else at
+        self._is_pressed = kind != "release"
         tool.is_finished = False
         if kind == "release" and self._is_dragged:  # the page may skip the last move of a fast drag
             tool.move(place)
@@ -351,21 +356,21 @@ class RVizWindow(Panel):
     def _point(self, projection: Projection) -> Floats | None:
         """Return the scene point under the pointer if the tool picks objects, otherwise the point on the ground."""
         if self.tools.current.needs_object:
-            return hit(self._layers, projection, self._hand)
-        return np.array(projection.metres(*self._hand))
+            return hit(self._layers, projection, self._pointer)
+        return np.array(projection.metres(*self._pointer))
 
     def _press_key(self, key: str) -> None:
         """Select a tool by its key, move the pointer by arrow keys, press and release by Enter."""
         if key in ARROWS:
-            self._hand = np.clip(
-                self._hand + STEP * 0.1 * self._size[1] * np.array(ARROWS[key]), 0, self._size
+            self._pointer = np.clip(
+                self._pointer + STEP * 0.1 * self._size[1] * np.array(ARROWS[key]), 0, self._size
             )
-            if self._held:
+            if self._is_pressed:
                 self._use("move")
             else:
                 self._said = f"{self.tools.current.label}: {self._where()}"
         elif key == "Enter":
-            self._use("release" if self._held else "press")
+            self._use("release" if self._is_pressed else "press")
         elif key in ("+", "-"):
             self.zoom(ZOOM if key == "+" else 1 / ZOOM)
         else:
@@ -376,7 +381,7 @@ class RVizWindow(Panel):
     def _where(self) -> str:
         if self._projection is None:
             return ""
-        x, y, _ = self._projection.metres(*self._hand)
+        x, y, _ = self._projection.metres(*self._pointer)
         return f"at ({x:.2f}, {y:.2f})"
 
 

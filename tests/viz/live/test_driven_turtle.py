@@ -98,7 +98,7 @@ def test_a_border_blocks(sim, graph):
     assert not pad.turtle.blocked
     graph.run(15.0)
     assert pad.turtle.blocked
-    assert pad.turtle.look()[0] == pytest.approx(11.088889)
+    assert pad.turtle.sample_pose()[0] == pytest.approx(11.088889)
 
 
 def test_its_page_knows_the_window_and_is_sent_what_is_new(sim, graph):

@@ -253,7 +253,7 @@ def test_reset_puts_the_robot_back(page, pad, simulator):
     page.say("reset")
     page.run(0.5)
     assert simulator.truth() == pytest.approx((0, 0, 0), abs=1e-9)
-    assert pad.sight.trail == [(0.0, 0.0)]
+    assert pad.shown_robot.trail == [(0.0, 0.0)]
 
 
 def test_a_wrong_key_from_a_page_changes_nothing(page, pad):
@@ -331,7 +331,7 @@ def test_a_page_chooses_another_robot(graph):
     page.run(0.5)
     ((content, buffers),) = [sent for sent in page.sent if sent[0]["type"] == "pad"]
     assert (content["data"]["chosen"], content["data"]["topic"]) == ("tb3_1", "/tb3_1/cmd_vel")
-    assert content["data"]["pose"] == pytest.approx(pad.sight.truth(), abs=1e-3)
+    assert content["data"]["pose"] == pytest.approx(pad.shown_robot.truth(), abs=1e-3)
     assert len(buffers[0]) == 4 * 360
     page.say("choose", name="nobody")
     page.run(0.1)

@@ -12,7 +12,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from rosmini.viz.live.loopback import MOST_BYTES, MOST_CONNECTIONS, MOST_WAITING, PageServer
+from rosmini.viz.live.loopback import MAX_BYTES, MAX_CONNECTIONS, MAX_WAITING, PageServer
 
 from ...processes import PATIENCE
 
@@ -24,7 +24,7 @@ class Widget:
     state = {"title": "A page", "scans": b"\x00\x01\xff"}
 
     def __init__(self):
-        self.elsewhere = None
+        self.sink = None
         self.heard = []
         self.came = threading.Event()
 
@@ -78,7 +78,7 @@ def test_what_the_page_says_is_heard(served):
 def test_what_is_sent_reaches_each_page_with_its_buffers(served):
     widget, server = served
     answers = [listen(server) for _ in range(2)]
-    widget.elsewhere({"type": "frame", "at": b"\x01"}, [b"\xff\x00"])
+    widget.sink({"type": "frame", "at": b"\x01"}, [b"\xff\x00"])
     for answer in answers:
         event = json.loads(answer.readline().decode().removeprefix("data: "))
         assert event == {"content": {"type": "frame", "at": {"base64": "AQ=="}}, "buffers": ["/wA="]}
@@ -123,7 +123,7 @@ def test_what_is_no_message_is_refused(served, body, length):
     try:
         assert ask(server, "say", "POST", body, **headers)[0] == 400
     except ConnectionError:  # refused before all of it was read
-        assert len(body) > MOST_BYTES or length
+        assert len(body) > MAX_BYTES or length
     assert widget.heard == []
     assert say(server, {}) == 204
 
@@ -132,8 +132,8 @@ def test_a_page_that_does_not_read_costs_no_more_than_its_queue(served):
     widget, server = served
     answer = listen(server)
     big = {"text": "x" * 500_000}
-    for _ in range(MOST_WAITING + 60):
-        widget.elsewhere(big, None)
+    for _ in range(MAX_WAITING + 60):
+        widget.sink(big, None)
     assert len(server._pages) == 0
     answer.close()
     assert ask(server)[0] == 200
@@ -155,12 +155,12 @@ def test_silent_connections_cost_a_bounded_number_of_threads_and_keep_nobody_out
     listener = listen(server)
     before = threading.active_count()
     with ExitStack() as stack:
-        for _ in range(MOST_CONNECTIONS * 3):
+        for _ in range(MAX_CONNECTIONS * 3):
             raw = stack.enter_context(socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE))
             raw.sendall(b"GET / HT")
         assert ask(server)[0] == 200
-        assert threading.active_count() <= before + MOST_CONNECTIONS
-        server.widget.elsewhere({"type": "frame"}, None)
+        assert threading.active_count() <= before + MAX_CONNECTIONS
+        server.widget.sink({"type": "frame"}, None)
         assert any(b"frame" in line for line in listener)
 
 
@@ -171,6 +171,6 @@ def test_closing_ends_all_and_may_be_repeated():
     server.close()
     server.close()
     assert answer.read() == b""
-    assert widget.elsewhere is None
+    assert widget.sink is None
     with pytest.raises(OSError):
         ask(server)

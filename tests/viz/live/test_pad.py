@@ -108,11 +108,11 @@ def test_the_text_says_how_things_are(simulator, graph):
         == (
             "teleop_pad publishes geometry_msgs/Twist on /cmd_vel\n"
             "wanted 0.02 m/s and 0.3 rad/s; sent 0.02 m/s and 0.3 rad/s; 24 messages\n"
-            f"{pad.sight.describe()}"
+            f"{pad.shown_robot.describe()}"
         )
     )
-    assert pad.sight.describe().startswith("burger at (0.0")
-    assert pad.sight.describe().endswith("of 360 beams hit")
+    assert pad.shown_robot.describe().startswith("burger at (0.0")
+    assert pad.shown_robot.describe().endswith("of 360 beams hit")
 
 
 def test_a_pad_before_the_first_scan_says_so(simulator):
@@ -217,7 +217,7 @@ def test_one_pad_drives_several_robots_one_at_a_time(two, graph):
     pad.press("w", times=10)
     graph.run(1.0)
     pad.choose("tb3_1")
-    assert (pad.chosen, pad.topic, pad.sight.name) == ("tb3_1", "/tb3_1/cmd_vel", "tb3_1")
+    assert (pad.chosen, pad.topic, pad.shown_robot.name) == ("tb3_1", "/tb3_1/cmd_vel", "tb3_1")
     graph.run(1.0)
     assert stopped[-1] == 0.0  # the first one stands
     rest, before = two.truth("tb3_0"), two.truth("tb3_1")

@@ -55,7 +55,7 @@ def test_a_message_does_not_overtake_one_that_waits(link, graph):
 
 
 def test_a_page_that_a_program_serves_is_heard_between_two_drives(link, graph):
-    link.widget.elsewhere = link.keep
+    link.widget.sink = link.keep
     link.say("hello")
     link.say("act", number=1)
     graph.run(0.1)

@@ -245,7 +245,7 @@ def test_a_look_changes_nothing():
                 graph.run(0.05)
                 if link is not None:
                     assert link.view.text
-                    link._survey()
+                    link._measure()
                     link._data()
             return (*simulator.truth(), *simulator.last_scan().ranges)
 

@@ -25,7 +25,7 @@ from .teleop import Limits, TeleopError
 
 Floats = NDArray[np.float64]
 
-HIGHEST = 1000.0
+UNLIMITED_SPEED = 1000.0
 """A speed limit from here on counts as unlimited, as robots in Gazebo have none [m/s, rad/s]."""
 
 TRAIL_STEP = 0.02
@@ -35,7 +35,7 @@ TRAIL_JUMP = 0.3
 TRAIL_POINTS = 3000
 
 
-class Chosen:
+class DrivenRobot:
     """A robot that subscribes to a velocity topic, chosen by its name in the engine; by default the first.
 
     Raises `TeleopError`, with the names of the available robots, if there is no such robot.
@@ -99,17 +99,17 @@ class Chosen:
         usual = Limits()
         linear, angular = self.model.max_linear, self.model.max_angular
         return Limits(
-            linear if 0 < linear < HIGHEST else usual.linear,
-            angular if 0 < angular < HIGHEST else usual.angular,
+            linear if 0 < linear < UNLIMITED_SPEED else usual.linear,
+            angular if 0 < angular < UNLIMITED_SPEED else usual.angular,
         )
 
     @property
-    def sees(self) -> bool:
+    def has_laser(self) -> bool:
         """True if the robot has a laser."""
         return self._laser is not None
 
     @property
-    def simple(self) -> bool:
+    def is_differential(self) -> bool:
         """True if the robot moves on two driven wheels, like the robot in a page without a kernel."""
         return self.model.drive == "differential" and not self.drive.steered
 
@@ -179,7 +179,7 @@ class Chosen:
             shape["over"] = True
         return shape
 
-    def pushed(self) -> list[dict[str, Any]] | None:
+    def moved_shapes(self) -> list[dict[str, Any]] | None:
         """Return the shapes of the movable obstacles if any has moved since the last call; else None."""
         obstacles = self.moving()
         poses = [obstacle.pose for obstacle in obstacles]
@@ -188,7 +188,7 @@ class Chosen:
         self._poses = poses
         return [self._flagged(obstacle, shape) for obstacle in obstacles for shape in shapes_of(obstacle)]
 
-    def look(self) -> Pose:
+    def sample_pose(self) -> Pose:
         """Return the robot's pose and add it to the trail. Raises the simulator's error if the robot was removed."""
         x, y, theta = self.truth()
         gone = math.dist(self.trail[-1], (x, y)) if self.trail else math.inf
@@ -213,7 +213,7 @@ class Chosen:
             return f"{where}; no scan yet"
         return f"{where}; {int(np.isfinite(scan).sum())} of {len(scan)} beams hit"
 
-    def survey(self) -> Floats:
+    def measure(self) -> Floats:
         """Return the ranges (beams,) [m] that the laser would measure here and now, without noise."""
         return self.engine.scan(self.name, None)
 
