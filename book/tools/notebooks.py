@@ -14,8 +14,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rosmini.viz.book_form import BOOK, VARIABLE
-from rosmini.viz.embed import LIVE
+from rosmini.viz.embed import BOOK, LIVE, VARIABLE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from rosmini.viz.book_form import BOOK, VARIABLE
+from rosmini.viz.embed import BOOK, VARIABLE
 
 OF_ROS = ("ROS_", "ROSLISP_", "TURTLEBOT3_")
 """How the names of variables begin that belong to a ROS on this machine."""

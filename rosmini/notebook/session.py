@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import RosminiError
 from rosmini.core.graph import Graph, default_graph, set_default_graph
 from rosmini.ros.scripts import current_script
-from rosmini.viz.book_form import book_form
+from rosmini.viz.embed import book_form
 
 from .book_text import BookErrors, book_text
 from .output import CellSink, TypedFeed

@@ -22,17 +22,18 @@ import base64
 import gzip
 import hashlib
 import json
+import os
 import re
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from rosmini.core.errors import nearest
-from rosmini.viz.book_form import book_form
 from rosmini.viz.svg import element, escape
-from rosmini.viz.view import ViewError
+from rosmini.viz.view import SVG_MIME, View, ViewError
 
 STATIC = Path(__file__).parent / "static"
 MESHCAT = "meshcat.min.js"
@@ -212,3 +213,80 @@ ready.then(() => {
   return globalThis.%(call)s(host, data, {...%(options)s, book, asset, still, show});
 }).then((shown) => shown === false && show(false), (error) => { show(false); console.error(error); });
 """
+
+
+# -- views that move ---------------------------------------------------------------------------------------------------
+
+
+class MovingView(View):
+    """A view with a still picture, data, and scripts of `rosmini/viz/static/` that show the data."""
+
+    scripts: Sequence[str] = ()
+    """Scripts that run in this order before the call."""
+    assets: ClassVar[tuple[str, ...]] = ()
+    """Further files that the scripts may ask for."""
+    call: ClassVar[str]
+    """The JavaScript function that shows the data, as seen from the global object."""
+    usual_name: ClassVar[str] = ""
+    """The name used without a title."""
+    title: str | None = None
+    """A caption, and the first words of the text form."""
+
+    @property
+    def name(self) -> str:
+        """The name, in a few words."""
+        return self.title or self.usual_name
+
+    @property
+    @abstractmethod
+    def svg(self) -> str:
+        """The still picture."""
+
+    @property
+    @abstractmethod
+    def data(self) -> Mapping[str, Any]:
+        """The data for the scripts, as JSON; bytes become base64."""
+
+    @property
+    @abstractmethod
+    def height(self) -> int:
+        """The minimum height of the moving picture, with its controls [CSS px]."""
+
+    @property
+    def fallback(self) -> str:
+        """The HTML that a page shows without scripts and in print."""
+        return self.svg
+
+    def _images(self) -> dict[str, bytes]:
+        return {SVG_MIME: self.svg.encode()}
+
+    @property
+    def html(self) -> str:
+        """The moving picture: for the book or self-contained, according to `rosmini.viz.embed.book_form`."""
+        return self._html(None)
+
+    @property
+    def page(self) -> str:
+        """The moving picture with everything that it needs, for a separate file."""
+        return self._html(book=False)
+
+    def _html(self, book: bool | None) -> str:
+        return embed(
+            self.scripts, self.call, self.data, title=self.name, alt=self.alt, height=self.height,
+            fallback_html=self.fallback, caption=self.title, assets=self.assets, book=book,
+        )  # fmt: skip
+
+
+# -- the book's form or the live form ----------------------------------------------------------------------------------
+
+VARIABLE = "ROSMINI_DISPLAY"
+BOOK = "book"
+
+
+def book_form() -> bool:
+    """True if outputs are made for the book: the environment has `ROSMINI_DISPLAY=book`.
+
+    `python -m book.tools.notebooks execute` and the tests set it for the kernels that they start, so that committed
+    outputs hold small HTML that refers to the book's scripts. Elsewhere a view's HTML contains its scripts.
+    """
+    return os.environ.get(VARIABLE) == BOOK

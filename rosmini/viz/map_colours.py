@@ -13,6 +13,7 @@ are illegal (http://wiki.ros.org/rviz/DisplayTypes/Map).
 
 from __future__ import annotations
 
+import math
 from functools import cache
 
 import numpy as np
@@ -81,3 +82,25 @@ def painted(cells: ArrayLike, scheme: str = "map") -> Colours:
 def scheme_of(topic: str) -> str:
     """Return the default scheme of a grid on a topic: `costmap` if its name contains that word, otherwise `map`."""
     return "costmap" if "costmap" in topic else "map"
+
+
+MAX_SIDE = 640
+"""Maximum number of cells per side of a drawing: a page shows no more."""
+
+
+def thinned(cells: Colours, scheme: str) -> tuple[Colours, int]:
+    """Return a map (h, w) with at most `MAX_SIDE` cells a side, and the number of cells per side that each combines.
+
+    Of several cells, the most occupied one is used, so that walls are preserved; unknown is used last.
+    """
+    factor = math.ceil(max(cells.shape) / MAX_SIDE)
+    if factor <= 1:
+        return cells, 1
+    # -1 must not override known cells; as a signed byte it is the minimum
+    order = cells if scheme == "raw" else cells.view(np.int8)
+    least = order.min() if scheme == "raw" else np.int8(-128)
+    height, width = (-(-side // factor) * factor for side in cells.shape)
+    padded = np.full((height, width), least, dtype=order.dtype)
+    padded[: cells.shape[0], : cells.shape[1]] = order
+    best = padded.reshape(height // factor, factor, width // factor, factor).max(axis=(1, 3))
+    return best.view(np.uint8), factor

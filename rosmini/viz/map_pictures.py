@@ -16,10 +16,9 @@ from rosmini.core.geometry.poses import Pose, transform_points
 from rosmini.core.maps import GridMap
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.viz.figures import WIDTH, house_style, legend, legend_width
-from rosmini.viz.map_colours import colours_of, painted
+from rosmini.viz.map_colours import colours_of, painted, thinned
 from rosmini.viz.rounding import fixed
 from rosmini.viz.rviz.gifs import gif
-from rosmini.viz.rviz.thinning import thinned
 from rosmini.viz.style import LIGHT
 from rosmini.viz.svg import element
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture

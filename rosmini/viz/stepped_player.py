@@ -12,8 +12,8 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from rosmini.viz.embed import MovingView
 from rosmini.viz.figures import WIDTH
-from rosmini.viz.moving_view import MovingView
 from rosmini.viz.style import LABEL_SIZE, variable
 from rosmini.viz.svg import document, element, escape
 from rosmini.viz.view import ViewError

@@ -17,16 +17,33 @@ import hashlib
 import re
 from collections.abc import Collection, Iterator
 from decimal import Decimal
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from defusedxml.ElementTree import fromstring
 
 from rosmini.viz import style
-from rosmini.viz.dressing import CYCLE
+from rosmini.viz.style import HAIRLINE, LABEL_SIZE, LIGHT
 from rosmini.viz.svg import document, element, escape
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from xml.etree.ElementTree import Element
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+CYCLE: Mapping[str, str] = MappingProxyType(
+    {
+        "#1f77b4": LIGHT["blue"],
+        "#ff7f0e": LIGHT["orange"],
+        "#2ca02c": LIGHT["green"],
+        "#d62728": LIGHT["vermilion"],
+        "#9467bd": LIGHT["purple"],
+        "#17becf": LIGHT["sky"],
+    }
+)
+"""matplotlib's colours C0 to C4 and C9 and their replacements; the palette has no equivalent of the others."""
 
 KIND = "rosmini-plot"
 """The class of these pictures, so that rules of other pictures on the page do not apply to them."""
@@ -180,3 +197,50 @@ def _references(node: Element) -> Iterator[str]:
         if name.endswith("href") and value.startswith("#"):
             yield value[1:]
         yield from _REFERENCE.findall(value)
+
+
+# -- the house style for figures that readers make ---------------------------------------------------------------------
+
+_DEFAULT_SIZES = (10.0, 12.0)
+"""matplotlib's default sizes of text and titles [pt]; one point becomes one CSS pixel, and 10 px are hard to read."""
+
+
+def apply_house_style(figure: Figure) -> None:
+    """Give the boxed axes of a figure the house style: no box, a faint grid, our ink and sizes.
+
+    Axes without a box (in the house style, or because the reader removed it) stay as they are, and so does text whose
+    size is not matplotlib's default.
+    """
+    boxed = [axes for axes in figure.axes if axes.axison and _is_boxed(axes)]
+    if not boxed:
+        return
+    figure.patch.set_visible(False)
+    for axes in boxed:
+        _unbox(axes)
+    for each in [*figure.legends, *filter(None, (axes.get_legend() for axes in boxed))]:
+        each.get_frame().set_linewidth(0.0)
+    _enlarge(figure)
+
+
+def _is_boxed(axes: Axes) -> bool:
+    sides = [axes.spines[side] for side in ("left", "right", "bottom", "top") if side in axes.spines]
+    return len(sides) == 4 and all(side.get_visible() for side in sides)
+
+
+def _unbox(axes: Axes) -> None:
+    axes.patch.set_visible(False)
+    axes.spines[:].set_visible(False)
+    axes.set_axisbelow(True)
+    axes.tick_params(which="both", bottom=False, left=False, labelcolor=LIGHT["muted"], labelsize=LABEL_SIZE)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.label.set_color(LIGHT["muted"])
+    if not axes.images:
+        axes.grid(visible=True, color=LIGHT["group-line"], alpha=0.3, linewidth=HAIRLINE)
+
+
+def _enlarge(figure: Figure) -> None:
+    from matplotlib.text import Text
+
+    for words in figure.findobj(Text):
+        if isinstance(words, Text) and words.get_fontsize() in _DEFAULT_SIZES:
+            words.set_fontsize(LABEL_SIZE)

@@ -195,7 +195,7 @@ def matplotlib_picture(
     under: str = "",
     steady: Collection[str] = (),
 ) -> Picture:
-    """Return a picture of a matplotlib figure in the house style (`rosmini.viz.dressing`), without date and random ids.
+    """Return a picture of a matplotlib figure in the house style (`rosmini.viz.themed`), without date and random ids.
 
     An SVG follows the theme of its page where it uses black, white or colours of `rosmini.viz.style.LIGHT` (see
     `rosmini.viz.themed`), and with `adapt` also where it uses other colours; text is for DejaVu Sans. `under` are
@@ -211,10 +211,9 @@ def matplotlib_picture(
 
     import matplotlib as mpl
 
-    from rosmini.viz.dressing import dress
-    from rosmini.viz.themed import themed_svg
+    from rosmini.viz.themed import apply_house_style, themed_svg
 
-    dress(figure)
+    apply_house_style(figure)
     file = BytesIO()
     with mpl.rc_context({"svg.hashsalt": "rosmini", "svg.fonttype": "none"}):
         metadata = {"Date": None} if form == "svg" else {"Software": None}

@@ -16,7 +16,7 @@ import numpy as np
 
 from rosmini.msgs import message_class
 
-from .page import Pad, module, pad_data, scripts_of
+from .page import module, pad_data, scripts_of
 from .teleop import TeleopError
 
 try:
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from rosmini.core.graph import Node
     from rosmini.core.graph.clock import Timer
     from rosmini.core.graph.subscriber import Subscriber
+
+    from .pad import TeleopPad
 
 FRAME_HZ = 30.0
 DEAD_MAN_S = 1.0
@@ -55,7 +57,7 @@ class Link(PageLink):
     acts = frozenset({"key", "steer", "start", "reset", "choose", "keys"})
     signs = frozenset({"beat"})
 
-    def __init__(self, pad: Pad, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, pad: TeleopPad, clock: Callable[[], float] = time.monotonic) -> None:
         self.pad = pad
         self._driven_by_page = False
         self._timer: Timer | None = None

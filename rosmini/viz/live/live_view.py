@@ -7,7 +7,7 @@ from collections.abc import Collection
 from typing import Any
 
 from rosmini.core.graph.notebook import kernel_shell
-from rosmini.viz.book_form import book_form
+from rosmini.viz.embed import book_form
 from rosmini.viz.view import MimeBundle, View
 
 

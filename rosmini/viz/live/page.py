@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rosmini.viz.embed import MESHCAT, asset_path, embed, unpacking
 from rosmini.viz.svg import element, escape
@@ -13,13 +13,10 @@ from .key_maps import NAMES, key_map
 from .teleop import table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from rosmini.core.graph import Node
+    from collections.abc import Sequence
 
     from .driven_robot import DrivenRobot
-    from .driven_turtle import DrivenTurtle
-    from .teleop import Teleop
+    from .pad import TeleopPad
 
 STEP = 0.005
 """Time step of the robot in a page [s], equal to that of the engine's physics."""
@@ -39,75 +36,14 @@ SOLID = "rosmini-meshcat.js"
 HEIGHT = 420
 
 
-def scripts_of(pad: Pad) -> tuple[str, ...]:
+def scripts_of(pad: TeleopPad) -> tuple[str, ...]:
     """Return the scripts of a pad's page, in the order in which they run."""
     if pad.turtle is not None:
         return (*SCRIPTS, "rosmini-turtle.js")
     return (*SCRIPTS, SOLID) if pad.solid else SCRIPTS
 
 
-class Pad(Protocol):
-    """A teleoperation pad, as its pages use it: :class:`~rosmini.viz.live.pad.TeleopPad`."""
-
-    shown_robot: DrivenRobot | None
-    turtle: DrivenTurtle | None
-    teleop: Teleop
-    sent: int
-    hold: bool
-    solid: bool
-    chosen: str
-
-    @property
-    def node(self) -> Node:
-        """The node that publishes."""
-
-    @property
-    def topic(self) -> str:
-        """Topic that the pad publishes on."""
-
-    @property
-    def gone(self) -> str | None:
-        """Reason why there is nothing left to drive, or None."""
-
-    @property
-    def text(self) -> str:
-        """Text form: target and sent velocities, and the state of the robot."""
-
-    @property
-    def alt(self) -> str:
-        """Alternative text: the pad in one or two sentences."""
-
-    @property
-    def choices(self) -> Sequence[str]:
-        """Names that can be driven."""
-
-    @property
-    def others(self) -> Sequence[str]:
-        """Other nodes that publish on the topic."""
-
-    def press(self, key: str) -> None:
-        """Press a key."""
-
-    def steer(self, linear: float, angular: float) -> None:
-        """Set the target velocities."""
-
-    def use(self, keys: str) -> None:
-        """Switch to the keys of another program."""
-
-    def choose(self, name: str) -> None:
-        """Drive another of the choices."""
-
-    def stop(self) -> None:
-        """Stop at once."""
-
-    def reset(self) -> None:
-        """Reset the robot."""
-
-    def on_publish(self, callback: Callable[[Any], object]) -> None:
-        """Call `callback(twist)` for each published message."""
-
-
-def pad_data(pad: Pad) -> dict[str, Any]:
+def pad_data(pad: TeleopPad) -> dict[str, Any]:
     """Return all data that a page needs of a pad, as JSON. Lengths are rounded to 1 mm, angles to 0.0001 rad."""
     data: dict[str, Any] = {
         "title": title(pad),
@@ -147,7 +83,7 @@ def _solid(shown_robot: DrivenRobot) -> dict[str, Any]:
     return view.data
 
 
-def _maps(pad: Pad) -> list[str]:
+def _maps(pad: TeleopPad) -> list[str]:
     """Return the key maps that fit the pad: maps whose keys hold for a moment are for turtles."""
     return [
         name
@@ -156,7 +92,7 @@ def _maps(pad: Pad) -> list[str]:
     ]
 
 
-def title(pad: Pad) -> str:
+def title(pad: TeleopPad) -> str:
     """Return a short description of what the pad drives."""
     if pad.turtle is not None:
         return pad.turtle.title
@@ -166,7 +102,7 @@ def title(pad: Pad) -> str:
     return f"Drive the {model.title or model.name} in the world {pad.shown_robot.world.name}"
 
 
-def static_html(pad: Pad, *, caption: str | None = None) -> str:
+def static_html(pad: TeleopPad, *, caption: str | None = None) -> str:
     """Return the HTML of a pad that drives its own robot from the current pose; equal bytes for an equal state.
 
     A robot without two driven wheels (a car, or one that moves sideways) would move differently in the page, so it
@@ -196,7 +132,7 @@ def module(names: Sequence[str], driver: str) -> str:
     return "\n".join([*texts, f"export default {{ render: globalThis.{driver}.render }};\n"])
 
 
-def _still(pad: Pad) -> str:
+def _still(pad: TeleopPad) -> str:
     """Return the content for print and for browsers without scripts: the world, if there is one, and the state."""
     words = element("p", escape(pad.text).replace("\n", "<br>"))
     if (pad.shown_robot is None and pad.turtle is None) or pad.gone is not None:

@@ -6,7 +6,7 @@ Frames are sent at up to 30 Hz while the page is open. They do not keep an other
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +29,13 @@ from .page import module
 from .watch import STEP_S
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
 
     from rosmini.core.geometry.poses import Pose
     from rosmini.core.graph import Node
 
-    from .watch import Body, Watch
+    from .simulation_view import SimulationView
+    from .watch import Body
 
 SCRIPTS = (
     "rosmini-canvas.js",
@@ -44,32 +45,6 @@ SCRIPTS = (
 )
 LASER_S = 0.1
 """Minimum interval between two laser measurements [s]."""
-
-
-class LinkedView(Protocol):
-    """A simulation view, as its page uses it: :class:`~rosmini.viz.live.simulation_view.SimulationView`."""
-
-    watch: Watch
-    message: str
-
-    @property
-    def heading(self) -> str:
-        """Short description of the viewed world."""
-
-    def drag(self, name: str, to: Sequence[float]) -> None:
-        """Move a robot or a box."""
-
-    def pause(self) -> None:
-        """Pause the world's time."""
-
-    def unpause(self) -> None:
-        """Resume the world's time."""
-
-    def step(self, seconds: float) -> None:
-        """Advance the world's time by this many seconds."""
-
-    def reset(self) -> None:
-        """Reset everything to its initial pose."""
 
 
 class _Same:
@@ -89,7 +64,7 @@ class ViewLink(PageLink):
 
     acts = frozenset({"drag", "pause", "unpause", "step", "reset", "start"})
 
-    def __init__(self, view: LinkedView, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, view: SimulationView, clock: Callable[[], float] = time.monotonic) -> None:
         self.view = view
         self.watch = view.watch
         self._cancel: Callable[[], None] | None = None

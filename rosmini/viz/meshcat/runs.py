@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rosmini.sim.models import RobotModel, model
 from rosmini.sim.recording import Recording
 from rosmini.sim.world import Pose, World
+from rosmini.viz.embed import MESHCAT, MovingView
 from rosmini.viz.replay.layers import RANGE
 from rosmini.viz.replay.packing import LENGTH, pack, whole
 from rosmini.viz.replay.player import (
@@ -24,12 +25,12 @@ from rosmini.viz.replay.player import (
 from rosmini.viz.replay.run import BUDGET, Run, size, thinned
 from rosmini.viz.replay.still import still_of
 from rosmini.viz.rounding import fixed, snap
+from rosmini.viz.svg import element
 from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import colour_of, pose_text
 
 from .compression import compress
 from .scene3d import ROBOT, Scene3D, obstacle_node
-from .side_by_side import RunsView
 from .view import HEIGHT, Focus, MeshcatView, camera_for, node_of, title_of
 
 Floats = NDArray[np.float64]
@@ -243,3 +244,66 @@ def _scan_track(recording: Recording) -> dict[str, Any]:
         "unit": unit,
         "ranges": pack(whole(np.where(hit, ranges, 0.0), unit).ravel()),
     }
+
+
+# -- several runs side by side -----------------------------------------------------------------------------------------
+
+
+class RunsView(MovingView):
+    """Several runs, each in its own viewer, with one bar of controls; the image is that of the first."""
+
+    assets = (MESHCAT,)
+    call = "rosminiMeshcat.mount"
+
+    def __init__(
+        self, runs: Sequence[MeshcatView], names: Sequence[str], *, title: str | None = None
+    ) -> None:
+        self.runs = tuple(runs)
+        self.names = tuple(names)
+        self.title = title
+        self.scripts = max((run.scripts for run in runs), key=len)
+
+    @property
+    def name(self) -> str:
+        """The title, or a short description."""
+        return self.title or f"{len(self.runs)} runs in 3D, side by side"
+
+    @property
+    def text(self) -> str:
+        """The result of each run, in numbers."""
+        told = (f"{name}: {run.text}" for name, run in zip(self.names, self.runs, strict=True))
+        return "\n".join([self.name, *told])
+
+    @property
+    def alt(self) -> str:
+        """The runs in a few sentences."""
+        told = " ".join(f"{name}: {run.alt}" for name, run in zip(self.names, self.runs, strict=True))
+        return f"{len(self.runs)} runs side by side, by one clock. {told}"
+
+    @property
+    def svg(self) -> str:
+        """A picture of the first run."""
+        return self.runs[0].svg
+
+    @property
+    def fallback(self) -> str:
+        """Pictures of the runs, side by side."""
+        drawn = [element("div", run.svg, style="flex:1 1 18rem;min-width:0") for run in self.runs]
+        return element("div", "".join(drawn), style="display:flex;flex-wrap:wrap;gap:8px")
+
+    @property
+    def height(self) -> int:
+        """The height of one viewer [CSS px]."""
+        return self.runs[0].height
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The data for the viewers' script: the commands of all runs together, since much is the same in each."""
+        return {
+            "commands": compress(command for run in self.runs for command in run.scene.commands),
+            "duration": max(run.scene.duration for run in self.runs),
+            "runs": [
+                {**run.parts, "count": len(run.scene.commands), "title": name}
+                for name, run in zip(self.names, self.runs, strict=True)
+            ],
+        }

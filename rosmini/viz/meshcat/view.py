@@ -15,8 +15,7 @@ from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Pose, World
 from rosmini.viz import style
-from rosmini.viz.embed import MESHCAT
-from rosmini.viz.moving_view import MovingView
+from rosmini.viz.embed import MESHCAT, MovingView
 from rosmini.viz.rounding import snap
 from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import pose_text

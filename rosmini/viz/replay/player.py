@@ -14,7 +14,7 @@ from rosmini.ros.bag import Bag
 from rosmini.ros.bag.mcap import from_mcap
 from rosmini.sim.models import RobotModel, model
 from rosmini.sim.recording import Recording
-from rosmini.viz.moving_view import MovingView
+from rosmini.viz.embed import MovingView
 from rosmini.viz.recording_pictures import RunScene, recording_picture
 from rosmini.viz.replay.encode import replay_data
 from rosmini.viz.replay.messages import BagLog, MemoryLog, NothingToSee, run_of

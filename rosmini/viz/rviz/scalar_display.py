@@ -10,8 +10,7 @@ import numpy as np
 
 from .context import Context
 from .display import Level
-from .points_display import PointsDisplay
-from .points_style import styled
+from .points_display import PointsDisplay, styled
 from .primitives import INVALID, DisplayError, Primitive
 from .properties import Property
 from .topic_display import Received

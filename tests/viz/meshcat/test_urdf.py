@@ -15,7 +15,7 @@ from rosmini.sim.shapes import Box, Cylinder
 from rosmini.sim.urdf import UnknownJoint, load
 from rosmini.sim.worlds import world
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d
-from rosmini.viz.meshcat.depth_buffer import DepthBuffer
+from rosmini.viz.meshcat.drawing import DepthBuffer
 from rosmini.viz.meshcat.links import link_surfaces
 from rosmini.viz.meshcat.scene3d import OMITTED_COLOURS
 from rosmini.viz.view import ViewError

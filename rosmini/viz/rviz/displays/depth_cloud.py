@@ -13,8 +13,7 @@ from rosmini.core.errors import RosminiError
 from rosmini.viz.rviz.camera_images import depths, image_pixels, info_topic
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
-from rosmini.viz.rviz.points_display import PointsDisplay
-from rosmini.viz.rviz.points_style import styled
+from rosmini.viz.rviz.points_display import PointsDisplay, styled
 from rosmini.viz.rviz.primitives import DisplayError, Floats, Primitive
 from rosmini.viz.rviz.properties import Property
 from rosmini.viz.rviz.topic_display import Received

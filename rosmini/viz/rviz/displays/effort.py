@@ -16,7 +16,7 @@ from rosmini.sim.urdf import Joint, Robot, load
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.marker_shapes import towards
-from rosmini.viz.rviz.points_style import rainbow
+from rosmini.viz.rviz.points_display import rainbow
 from rosmini.viz.rviz.primitives import INVALID, DisplayError, Floats, Lines, Primitive
 from rosmini.viz.rviz.properties import Property, Tree
 from rosmini.viz.rviz.shapes import arrow

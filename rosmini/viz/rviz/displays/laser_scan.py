@@ -7,8 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from rosmini.viz.rviz.context import Context
-from rosmini.viz.rviz.points_display import PointsDisplay
-from rosmini.viz.rviz.points_style import styled
+from rosmini.viz.rviz.points_display import PointsDisplay, styled
 from rosmini.viz.rviz.primitives import DisplayError, Primitive
 from rosmini.viz.rviz.topic_display import Received
 

@@ -9,12 +9,11 @@ import numpy as np
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.tf.rigid import compose, matrix
-from rosmini.viz.map_colours import SCHEMES, painted
+from rosmini.viz.map_colours import SCHEMES, painted, thinned
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
 from rosmini.viz.rviz.primitives import DisplayError, Pixels, Primitive, Texture
 from rosmini.viz.rviz.properties import Property
-from rosmini.viz.rviz.thinning import thinned
 from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 MAX_CELLS = 100_000_000

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from rosmini.viz.rviz.clouds import MAX_SHOWN, channels_of
 from rosmini.viz.rviz.context import Context
-from rosmini.viz.rviz.points_display import PointsDisplay
-from rosmini.viz.rviz.points_style import styled
+from rosmini.viz.rviz.points_display import PointsDisplay, styled
 from rosmini.viz.rviz.primitives import DisplayError, Primitive
 from rosmini.viz.rviz.topic_display import Received
 

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 
 from rosmini.viz.rviz.clouds import channels_of, read_cloud
 from rosmini.viz.rviz.context import Context
-from rosmini.viz.rviz.points_display import PointsDisplay
-from rosmini.viz.rviz.points_style import styled
+from rosmini.viz.rviz.points_display import PointsDisplay, styled
 from rosmini.viz.rviz.primitives import Primitive
 from rosmini.viz.rviz.topic_display import Received
 

@@ -7,8 +7,7 @@ import pytest
 
 from rosmini.msgs.map_msgs.msg import OccupancyGridUpdate
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
-from rosmini.viz.map_colours import colours_of
-from rosmini.viz.rviz.thinning import MAX_SIDE, thinned
+from rosmini.viz.map_colours import MAX_SIDE, colours_of, thinned
 
 
 def grid(cells, resolution=0.5) -> OccupancyGrid:
