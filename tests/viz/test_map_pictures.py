@@ -99,5 +99,5 @@ def test_what_cannot_be_drawn_is_told(options, said):
 def test_only_maps_are_drawn():
     from rosmini.viz.map_pictures import map_picture
 
-    with pytest.raises(ViewError, match="a map is a GridMap, not a ndarray: load_map reads one"):
+    with pytest.raises(ViewError, match="a map must be a GridMap, not a ndarray: use load_map"):
         map_picture(CELLS)  # type: ignore[arg-type]

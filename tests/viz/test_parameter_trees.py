@@ -77,7 +77,7 @@ def test_a_graphs_parameters_without_roscores_own() -> None:
         assert "speed is 2.0" in parameter_tree(graph).alt
         with pytest.raises(ViewError, match=r"\[/nothing\] is not set"):
             parameter_tree(graph, "/nothing")
-        with pytest.raises(ViewError, match=r"/robot/speed is no namespace but a parameter, 2\.0"):
+        with pytest.raises(ViewError, match=r"/robot/speed is a parameter, 2\.0, not a namespace"):
             parameter_tree(graph, "/robot/speed")
     with pytest.raises(ViewError, match="int has no parameters"):
         parameter_tree(5)

@@ -48,5 +48,5 @@ def test_parents_are_lines_and_too_many_of_them_are_refused():
     search = NavfnSearch(np.zeros((8, 9), np.uint8), (2, 2), (6, 6), full=True, outline=False)
     search.expand()
     assert search.show(parents=True).svg.partition('class="rm-parents"')[0].count("M") >= 8 * 9 - 1
-    with pytest.raises(ViewError, match="parents of 10000 cells cannot be seen"):
+    with pytest.raises(ViewError, match="parents of 10000 cells would be too small"):
         NavfnSearch(np.zeros((100, 100), np.uint8), (2, 2), (6, 6)).show(parents=True)

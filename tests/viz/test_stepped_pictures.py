@@ -170,7 +170,7 @@ def test_searches_are_shown_after_equal_numbers_of_expanded_cells():
 def test_searches_that_cannot_be_stepped_are_refused():
     begun = NavfnSearch(walls(), (3, 5), (25, 5))
     begun.expand(5)
-    with pytest.raises(ViewError, match="the search 'A' has begun"):
+    with pytest.raises(ViewError, match="the search 'A' has started"):
         search_steps({"A": begun})
     with pytest.raises(ViewError, match="grids of one size"):
         search_steps({**searches(), "B": NavfnSearch(walls()[:18], (3, 5), (25, 5))})

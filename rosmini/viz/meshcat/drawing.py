@@ -23,6 +23,7 @@ from rosmini.viz.svg import document, element
 from .scene3d import Camera, Scene3D, grid
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 WIDTH, HEIGHT = 760, 420
 NEAR = 0.02
@@ -178,9 +179,6 @@ def _paths(faces: list[_Face]) -> Iterator[str]:
 
 
 # -- visible faces -----------------------------------------------------------------------------------------------------
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 class DepthBuffer:

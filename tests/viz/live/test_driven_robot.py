@@ -83,7 +83,7 @@ def test_what_is_no_robot_is_said(four, graph):
     with pytest.raises(RobotGone, match="no robot 'robot_9'"):
         four.pad("robot_9")
     server = rosrun("gazebo_ros", "gzserver", graph=graph).instance()
-    with pytest.raises(TeleopError, match="listens to velocities; robots that can: none"):
+    with pytest.raises(TeleopError, match="subscribes to velocities; robots that can: none"):
         server.pad()
 
 

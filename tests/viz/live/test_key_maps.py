@@ -39,7 +39,7 @@ def test_an_unknown_key_is_refused_with_the_nearest():
 def test_an_unknown_program_is_refused_with_the_nearest():
     with pytest.raises(TeleopError, match=r"teleop_twist_keybord.*teleop_twist_keyboard"):
         key_map("teleop_twist_keybord")
-    with pytest.raises(TeleopError, match="there are those of turtlebot3_teleop_key"):
+    with pytest.raises(TeleopError, match="the programs are turtlebot3_teleop_key"):
         key_map("rviz")
 
 

@@ -181,7 +181,7 @@ def test_robots_and_boxes_of_the_simulator_are_dragged(simulator, graph):
 
 def test_names_that_cannot_be_dragged_are_said(simulator):
     view = simulator.view()
-    with pytest.raises(ViewError, match="no 'burgr' that could be dragged; did you mean burger"):
+    with pytest.raises(ViewError, match="nothing named 'burgr' that can be dragged; did you mean burger"):
         view.drag("burgr", (0.0, 0.0))
     with pytest.raises(RobotGone, match="is fixed in the world 'room'"):
         simulator.drag(next(o.name for o in simulator.world.obstacles if o.fixed), (0.0, 0.0, 0.0))
@@ -316,7 +316,7 @@ def test_a_drag_of_the_page_is_answered(stage):
     ("name", "to", "text"),
     [
         ("crate_1", [-1.5, 0.0, 0.0], "'robot_0' is in its way"),
-        ("nobody", [0.0, 0.0, 0.0], "has no 'nobody'"),
+        ("nobody", [0.0, 0.0, 0.0], "has nothing named 'nobody'"),
         ("robot_0", [None, 0.0], "is no place"),
         ("robot_0", None, "is no place"),
         ("robot_0", [math.inf, 0.0, 0.0], "both finite"),

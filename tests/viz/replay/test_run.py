@@ -85,8 +85,8 @@ def test_two_runs_stand_side_by_side():
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: Run("r", 1.0, 0.0, turtle().bodies), "no time span"),
-        (lambda: Run("r", 0.0, math.nan, turtle().bodies), "no time span"),
+        (lambda: Run("r", 1.0, 0.0, turtle().bodies), "no valid time span"),
+        (lambda: Run("r", 0.0, math.nan, turtle().bodies), "no valid time span"),
         (lambda: Run("r", 0.0, 1.0), "nothing to see"),
         (lambda: Body("b", np.array([0.0]), np.array([(math.nan, 0.0, 0.0)])), "finite"),
         (lambda: Body("b", np.empty(0), np.empty((0, 3))), "at least one"),

@@ -84,7 +84,7 @@ def test_the_view_turns_with_the_page_and_the_page_with_the_view(window):
     window.set("fit")
     assert window.scene.view["Focal Point"][:2] == pytest.approx((2.0, 2.0), abs=0.01)
     for errors in ("orbit 1 2 3", "orbit 1 2 3 4 5 6 nan", "orbit"):
-        with pytest.raises(ViewError, match="a hand does"):
+        with pytest.raises(ViewError, match="a pointer action"):
             window.set("view", errors)
 
 
