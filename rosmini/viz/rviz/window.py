@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from rosmini.viz.rqt.parts import Part
     from rosmini.viz.rviz import Display, Layer
     from rosmini.viz.rviz.primitives import Floats, Primitive
-    from rosmini.viz.rviz.projection import ParallelProjection, Projection
+    from rosmini.viz.rviz.projection import Projection
 
     from .solid_page import Message
 
