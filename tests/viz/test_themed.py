@@ -171,7 +171,7 @@ def test_without_matplotlib_the_error_says_what_to_install(monkeypatch):
         pass
 
 
-@pytest.set_ticks.parametrize("size", [(50, 300), (300, 9000), (float("nan"), 300)])
+@pytest.mark.parametrize("size", [(50, 300), (300, 9000), (float("nan"), 300)])
 def test_a_picture_of_no_size_is_refused(size):
     with pytest.raises(ViewError, match="100 to 4000 pixels"):
         blank_figure(*size)
