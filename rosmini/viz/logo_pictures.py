@@ -14,6 +14,7 @@ from rosmini.viz.replay.layers import Layer, Strokes
 from rosmini.viz.replay.layers import Stroke as Line
 from rosmini.viz.replay.player import PlayerRun, ReplayView
 from rosmini.viz.replay.run import Body, Run
+from rosmini.viz.style import hex_colour
 from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
 
@@ -80,7 +81,7 @@ def logo_picture(drawing: Drawing, *, title: str | None = None, speed: float = 2
     bodies = tuple(_body(name, pose, drawing, times) for name, pose in drawing.turtles.items())
     run = Run(
         "Logo", 0.0, end, bodies=bodies, layers=layers, frame=drawing.place, bounds=_bounds(drawing),
-        background=_hex(BACKGROUND) if drawing.middle else None, opens_at_end=True,
+        background=hex_colour(BACKGROUND) if drawing.middle else None, opens_at_end=True,
     )  # fmt: skip
     return ReplayView([_LogoRun(drawing, run)], title=title)
 
@@ -112,7 +113,7 @@ def _strokes(drawing: Drawing, times: Floats) -> dict[str, tuple[Line, ...]]:
             when = np.array([times[members[0][0]], *(times[i + 1] for i, _ in members)])
             points = np.array([_metres(drawing, pose)[:2] for pose in poses])
             if (points != points[0]).any():
-                colour = _hex(pen.colour) if drawing.middle else "blue"
+                colour = hex_colour(pen.colour) if drawing.middle else "blue"
                 lines.append(Line(when, points, colour=colour, width=float(pen.size)))
         found[name] = tuple(lines)
     return found
@@ -154,7 +155,3 @@ def _lines(drawing: Drawing) -> str:
 def _turtle(name: str, pose: Pose) -> str:
     x, y, heading = (write(round(part, 1) + 0.0) for part in pose)
     return f"{name} at [{x} {y}], heading {heading}"
-
-
-def _hex(colour: tuple[int, int, int]) -> str:
-    return "#" + "".join(f"{part:02x}" for part in colour)

@@ -5,7 +5,6 @@ Its cells have the colours of RViz, also on a dark page, since white and black h
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,7 +17,7 @@ from rosmini.sim.models import BURGER, RobotModel
 from rosmini.viz.figures import WIDTH, house_style, legend, legend_width
 from rosmini.viz.map_colours import colours_of, painted, thinned
 from rosmini.viz.rounding import fixed
-from rosmini.viz.rviz.gifs import gif
+from rosmini.viz.rviz.gifs import gif, gif_url
 from rosmini.viz.style import LIGHT
 from rosmini.viz.svg import element
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
@@ -124,11 +123,6 @@ def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
         preserveAspectRatio="none", transform=f"matrix({a} {b} {c} {d} {e} {f})",
         style="image-rendering:pixelated" if pixelated else None, opacity=None if opacity == 1 else opacity,
     )  # fmt: skip
-
-
-def gif_url(data: bytes) -> str:
-    """Return a GIF as a data URL."""
-    return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
 
 def cells_element(address: str, **where: str | float) -> str:

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from rosmini.navigation.nav_core import PlanningFailure
 from rosmini.navigation.navfn import Search
 from rosmini.viz.figures import WIDTH
-from rosmini.viz.map_pictures import cells_element, gif_url
+from rosmini.viz.map_pictures import cells_element
 from rosmini.viz.rounding import fixed
-from rosmini.viz.rviz.gifs import gif
+from rosmini.viz.rviz.gifs import gif, gif_url
 from rosmini.viz.svg import document, element
 from rosmini.viz.view import Picture, ViewError
 

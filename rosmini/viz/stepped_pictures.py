@@ -26,9 +26,9 @@ from rosmini.viz import map_pictures
 from rosmini.viz.costmap_pictures import cells_of, published, shares
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.map_colours import painted
-from rosmini.viz.map_pictures import cells_element, gif_url
+from rosmini.viz.map_pictures import cells_element
 from rosmini.viz.rounding import fixed, points_to_keep, snap
-from rosmini.viz.rviz.gifs import gif
+from rosmini.viz.rviz.gifs import gif, gif_url
 from rosmini.viz.search_pictures import WAITING, describe_search, greys_of, path_of, shades
 from rosmini.viz.stepped_player import GAP, Axis, Frame, Panel, SteppedPlayer
 from rosmini.viz.style import LABEL_SIZE, variable

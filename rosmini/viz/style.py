@@ -107,6 +107,11 @@ def dark_of(colour: str) -> str:
     return "#" + "".join(f"{round(255 * part):02x}" for part in lighter)
 
 
+def hex_colour(parts: Iterable[int]) -> str:
+    """Return red, green and blue, or with alpha, from 0 to 255, as `#rrggbb` or `#rrggbbaa`."""
+    return "#" + "".join(f"{part:02x}" for part in parts)
+
+
 def themed(selector: str, names: list[str], others: Iterable[str] = ()) -> str:
     """Return rules for the dark palette on dark pages, and for the background of a picture opened by itself.
 

@@ -11,6 +11,7 @@ from rosmini.sim.turtlesim.frame import Frame
 from rosmini.sim.turtlesim.paper import SIZE, Colour, Pen, Stroke
 from rosmini.sim.turtlesim.turtle import Turtle
 from rosmini.viz.rounding import degrees, fixed, points_to_keep, snap
+from rosmini.viz.style import hex_colour
 from rosmini.viz.svg import document, element, number
 from rosmini.viz.view import Picture, ViewError
 from rosmini.viz.words import plural
@@ -39,7 +40,7 @@ def turtle_picture(frame: Frame, *, title: str | None = None, size: float = 360.
     text = "\n".join([f"{title or 'turtlesim'}: {_contents(frame)}", *_descriptions(frame)])
     turtles = list(frame.turtles.values())
     alt = f"A window of turtlesim: {_contents(frame)}. " + " ".join(f"{_line(each)}." for each in turtles[:3])
-    body = element("rect", width=SIZE, height=SIZE, fill=_hex(frame.paper.background))
+    body = element("rect", width=SIZE, height=SIZE, fill=hex_colour(frame.paper.background))
     body += "".join(_drawn(pen, points) for pen, points in chains(frame.paper.strokes()))
     body += "".join(_turtle(each) for each in turtles)
     inner = element("svg", body, viewBox=f"0 0 {SIZE} {SIZE}", width=size, height=size)
@@ -96,7 +97,7 @@ def _drawn(pen: Pen, points: list[tuple[float, float]]) -> str:
     line = snap(line[points_to_keep(line, TOLERANCE)] if len(line) > 2 else line, TOLERANCE / 3)
     path = "M" + "L".join(f"{number(float(x))},{number(float(y))}" for x, y in line)
     return element(
-        "path", d=path, fill="none", stroke=_hex(pen.colour), stroke_width=float(pen.width),
+        "path", d=path, fill="none", stroke=hex_colour(pen.colour), stroke_width=float(pen.width),
         stroke_linecap="square", stroke_linejoin="bevel",
     )  # fmt: skip
 
@@ -111,7 +112,3 @@ def _turtle(turtle: Turtle) -> str:
 
 def _rgb(colour: Colour) -> str:
     return f"rgb{colour}"
-
-
-def _hex(colour: Colour) -> str:
-    return "#" + "".join(f"{part:02x}" for part in colour)

@@ -10,6 +10,7 @@ from rosmini.sim.turtlesim.drawings import DRAWINGS
 from rosmini.sim.turtlesim.tape import Line, Tape, Track
 from rosmini.sim.turtlesim.turtle import LIMIT
 from rosmini.viz.replay import Body, ReplayView, Run, Stroke, Strokes, replay
+from rosmini.viz.style import hex_colour
 
 THINNER = 0.7
 """Width of pens relative to the window, because the player is smaller."""
@@ -43,7 +44,7 @@ def turtle_replay(tape: Tape, *, title: str | None = None) -> ReplayView:
         bodies=tuple(_body(track, tape) for track in tape.tracks),
         layers=(Strokes("drawing", strokes),) if strokes else (),
         bounds=(0.0, 0.0, LIMIT, LIMIT),
-        background=_hex(tape.background),
+        background=hex_colour(tape.background),
         notes=notes,
         opens_at_end=bool(strokes),
     )
@@ -70,11 +71,7 @@ def _stroke(line: Line) -> Stroke:
     return Stroke(
         np.array(line.times),
         np.array(line.points),
-        colour=_hex(line.pen.colour),
+        colour=hex_colour(line.pen.colour),
         width=THINNER * line.pen.width,
         until=line.until_s,
     )
-
-
-def _hex(colour: tuple[int, int, int]) -> str:
-    return "#" + "".join(f"{part:02x}" for part in colour)

@@ -19,7 +19,7 @@ from rosmini.viz.world_pictures import pose_text
 from .links import link_parts
 from .scene3d import OMITTED_COLOURS, Camera, Scene3D
 from .solids import Floats
-from .view import HEIGHT, MeshcatView, camera_for, free_sight
+from .view import HEIGHT, MeshcatView, camera_for, check_distance, free_sight
 from .visuals import SOLID, is_plain, surfaces
 
 MODEL_DISTANCE = 1.7
@@ -104,8 +104,7 @@ def _camera_on(
         raise ViewError(
             f"the focus of a 3D picture of Gazebo must be 'world' or the name of a model, not {name!r}; {hint}"
         )
-    if distance is not None and not 0 < distance < 1e4:
-        raise ViewError(f"the distance of the camera must be a number of metres above 0, not {distance!r}")
+    check_distance(distance)
     points = _corners(models[name])
     low, high = points.min(axis=0), points.max(axis=0)
     size = float(snap(norm(high - low), 0.01))

@@ -14,7 +14,7 @@ from rosmini.viz.words import plural
 
 from .links import link_parts, link_surfaces
 from .scene3d import ROBOT, Camera, Scene3D
-from .view import HEIGHT, MeshcatView
+from .view import HEIGHT, MeshcatView, check_distance
 
 
 def urdf_3d(
@@ -31,8 +31,7 @@ def urdf_3d(
         ViewError: there is nothing to see, or the distance is not positive.
 
     """
-    if distance is not None and not 0 < distance < 1e4:
-        raise ViewError(f"the distance of the camera must be a number of metres above 0, not {distance!r}")
+    check_distance(distance)
     shapes = {name: link_surfaces(robot, name, collisions=collisions) for name in robot.links}
     places = robot.transforms(joints)
     corners = [

@@ -119,8 +119,7 @@ def camera_for(
     """
     if focus not in {"robot", "world"}:
         raise ViewError(f"the focus of a 3D picture must be 'robot' or 'world', not {focus!r}")
-    if distance is not None and not 0 < distance < 1e4:
-        raise ViewError(f"the distance of the camera must be a number of metres above 0, not {distance!r}")
+    check_distance(distance)
     x0, y0, x1, y1 = world.bounds
     if focus == "robot" and pose is not None:
         middle = (pose[0], pose[1], 0.09)
@@ -135,6 +134,12 @@ def camera_for(
         usual[1] if azimuth is None else azimuth,
         usual[2] if elevation is None else elevation,
     )
+
+
+def check_distance(distance: float | None) -> None:
+    """Raise `ViewError` for an invalid distance of the camera; None is valid."""
+    if distance is not None and not 0 < distance < 1e4:
+        raise ViewError(f"the distance of the camera must be a number of metres above 0, not {distance!r}")
 
 
 def free_sight(world: World, pose: Pose, distance: float) -> tuple[float, float]:

@@ -15,6 +15,7 @@ from rosmini.viz.map_colours import UNKNOWN, colours_of, scheme_of
 from rosmini.viz.replay.layers import Bounds, Frames, around
 from rosmini.viz.replay.packing import ANGLE, LENGTH, pack, pack_columns, pack_natural
 from rosmini.viz.rounding import fixed
+from rosmini.viz.style import hex_colour
 from rosmini.viz.view import ViewError
 
 Cells = NDArray[np.uint8]
@@ -130,9 +131,7 @@ class Grids(Frames):
             before = each, numbers
         return {
             **self._head(),
-            "colours": [
-                "#" + "".join(f"{part:02x}" for part in self.colours[value].tolist()) for value in values
-            ],
+            "colours": [hex_colour(self.colours[value].tolist()) for value in values],
             "places": pack_columns(places, 1, 1, 1, LENGTH, LENGTH, ANGLE, 1, 1),
             "counts": pack(np.array(counts, dtype=np.int64)),
             "runs": pack_natural(np.concatenate([np.empty(0, dtype=np.int64), *runs])),

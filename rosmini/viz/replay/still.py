@@ -11,7 +11,7 @@ from rosmini.viz.replay.grids import Grid, Grids, coarse
 from rosmini.viz.replay.layers import Layer, Scans, Shape, Shapes, Strokes
 from rosmini.viz.replay.run import Body, Run
 from rosmini.viz.rounding import points_to_keep, snap
-from rosmini.viz.style import LIGHT, variable
+from rosmini.viz.style import LIGHT, hex_colour, variable
 from rosmini.viz.svg import document, element, number
 from rosmini.viz.view import Picture
 
@@ -128,7 +128,7 @@ def _grid(grid: Grid, scheme: str, canvas: Canvas) -> str:
     if (
         scheme == "map" and (cells == UNKNOWN).any()
     ):  # below all others, since the known cells of a map cover it
-        unknown = "#" + "".join(f"{part:02x}" for part in colours_of(scheme)[UNKNOWN, :3].tolist())
+        unknown = hex_colour(colours_of(scheme)[UNKNOWN, :3].tolist())
         drawn.insert(0, element("rect", width=cells.shape[1], height=cells.shape[0], style=f"fill:{unknown}"))
     return element("g", "".join(drawn), transform=placed, opacity=f"{ALPHA:g}", shape_rendering="crispEdges")
 

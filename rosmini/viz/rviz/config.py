@@ -30,7 +30,7 @@ OPTIONS = (
     Property("Background Color", Colour(48, 48, 48), "the colour behind everything"),
     Property("Default Light", True, "a light beside the camera"),
     Property("Fixed Frame", "map", "the frame in which everything is drawn"),
-    Property("Frame Rate", 30, "how often a live view is drawn", unit="Hz", minimum=1, maximum=1000),
+    Property("Frame Rate", 30, "rate at which a live view is drawn", unit="Hz", minimum=1, maximum=1000),
 )
 """The Global Options."""
 

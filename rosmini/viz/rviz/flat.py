@@ -6,7 +6,6 @@ are rounded, so that the same scene gives the same bytes on every machine.
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
@@ -19,7 +18,7 @@ from rosmini.viz.style import LABEL_SIZE, variable
 from rosmini.viz.svg import document, element, escape
 
 from .clipping import clipped, rectangles
-from .gifs import gif
+from .gifs import gif, gif_url
 from .labels import place_labels
 from .primitives import MAX_POINTS, Floats, Ints, Lines, Mesh, Pane, Points, Primitive, Text, Texture
 from .projection import Perspective, Projection
@@ -104,15 +103,13 @@ def _panes(panes: Sequence[Pane], width: float, top: float) -> tuple[str, float]
                 element("text", escape(heading), x=x, y=top + 17, font_size=LABEL_SIZE, fill=variable("ink"))
             )
             parts.append(
-                element("image", href=_url(data), x=x, y=top + 24, width=across * scale, height=tall * scale)
+                element(
+                    "image", href=gif_url(data), x=x, y=top + 24, width=across * scale, height=tall * scale
+                )
             )
             highest = max(highest, tall * scale)
         top += 24 + highest + GAP
     return "".join(parts), top
-
-
-def _url(data: bytes) -> str:
-    return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
 
 def _elements(primitive: Primitive, projection: Projection) -> Iterator[str]:
@@ -175,7 +172,7 @@ def _texture(texture: Texture, projection: Projection) -> Iterator[str]:
     rendering = "image-rendering:pixelated" if is_large else None
     a, b, c, d = (f"{value:.6g}" for value in (*(right - origin), *(up - origin)))
     yield element(
-        "image", href=_url(data), width=1, height=1,
+        "image", href=gif_url(data), width=1, height=1,
         preserveAspectRatio="none", transform=f"matrix({a} {b} {c} {d} {origin[0]:.6g} {origin[1]:.6g})",
         style=rendering, opacity=_opacity(opacity),
     )  # fmt: skip

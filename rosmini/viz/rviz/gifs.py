@@ -5,6 +5,7 @@ Pages are compared byte by byte, so their contents must be reproducible. A map h
 
 from __future__ import annotations
 
+import base64
 import io
 
 import numpy as np
@@ -52,3 +53,8 @@ def _written(image: object, transparency: int | None) -> bytes:
     options = {} if transparency is None else {"transparency": transparency}
     image.save(file, format="GIF", optimize=False, **options)  # type: ignore[attr-defined]
     return file.getvalue()
+
+
+def gif_url(data: bytes) -> str:
+    """Return a GIF as a data URL."""
+    return f"data:image/gif;base64,{base64.b64encode(data).decode()}"

@@ -25,8 +25,8 @@ class ImageDisplay(TopicDisplay):
     needs_transform = False
     properties: ClassVar[tuple[Property, ...]] = (
         Property("Image Topic", "", "the topic to subscribe to"),
-        Property("Transport Hint", "raw", "how images are sent; here always raw"),
-        Property("Queue Size", 2, "how many images wait", minimum=1, maximum=1000),
+        Property("Transport Hint", "raw", "transport of images; always raw"),
+        Property("Queue Size", 2, "maximum number of waiting images", minimum=1, maximum=1000),
     )
 
     def __init__(self, name: str = "", tree: Any = None) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from rosmini.core.plugins import PluginError
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.meshcat import MeshcatView
+from rosmini.viz.style import hex_colour
 from rosmini.viz.view import Picture, View, ViewError
 from rosmini.viz.words import plural
 
@@ -125,7 +126,7 @@ def turnable(
         drawing.add(layer.primitives)
     texts = [each for layer in layers for each in layer.primitives if isinstance(each, Text)]
     colour = scene.options["Background Color"]
-    background = "#" + "".join(f"{part:02x}" for part in colour)
+    background = hex_colour(colour)
     ink = "#ffffff" if sum(colour) < 384 else "#000000"
     high = round(height or DEFAULT_HEIGHT)
     view = RvizView(made, label=title or "RViz", text=text, alt=alt, height=high)

@@ -20,27 +20,31 @@ TRANSFORMERS = ("", "Intensity", "RGB8", "MONO8", "RGBF32", "FlatColor", "AxisCo
 
 POINT_PROPERTIES: tuple[Property, ...] = (
     Property("Style", "Flat Squares", "how a point is drawn", choices=STYLES),
-    Property("Size (m)", 0.01, "of a point, but in the style Points", unit="m", minimum=0.0001, maximum=1e4),
-    Property("Size (Pixels)", 3.0, "of a point in the style Points", unit="px", minimum=1.0, maximum=100.0),
-    Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
-    Property("Decay Time", 0.0, "for how long points stay; 0: the last message only", unit="s", minimum=0.0),
+    Property(
+        "Size (m)", 0.01, "size of a point, except in the style Points", unit="m", minimum=0.0001, maximum=1e4
+    ),
+    Property(
+        "Size (Pixels)", 3.0, "size of a point in the style Points", unit="px", minimum=1.0, maximum=100.0
+    ),
+    Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
+    Property("Decay Time", 0.0, "time that points stay; 0 for the last message only", unit="s", minimum=0.0),
     Property("Selectable", True, "whether points can be selected"),
     Property("Position Transformer", "XYZ", "where positions come from"),
     Property("Color Transformer", "Intensity", "where colours come from", choices=TRANSFORMERS),
     Property("Use Fixed Frame", True, "for AxisColor: the axis of the fixed frame, not the message's"),
     Property("Channel Name", "intensity", "for Intensity: the channel"),
     Property("Use rainbow", True, "for Intensity: a rainbow, not from Min Color to Max Color"),
-    Property("Invert Rainbow", False, "for Intensity: the other way round"),
-    Property("Min Color", Colour(0, 0, 0), "for Intensity: of the least value"),
-    Property("Max Color", Colour(255, 255, 255), "for Intensity: of the greatest value"),
-    Property("Autocompute Intensity Bounds", True, "for Intensity: from what comes"),
-    Property("Min Intensity", 0.0, "for Intensity: the least value"),
-    Property("Max Intensity", 4096.0, "for Intensity: the greatest value"),
+    Property("Invert Rainbow", False, "for Intensity: reverse the colours"),
+    Property("Min Color", Colour(0, 0, 0), "for Intensity: colour of the minimum"),
+    Property("Max Color", Colour(255, 255, 255), "for Intensity: colour of the maximum"),
+    Property("Autocompute Intensity Bounds", True, "for Intensity: bounds from the data"),
+    Property("Min Intensity", 0.0, "for Intensity: the minimum"),
+    Property("Max Intensity", 4096.0, "for Intensity: the maximum"),
     Property("Color", Colour(255, 255, 255), "for FlatColor: the colour"),
     Property("Axis", "Z", "for AxisColor: the axis", choices=("X", "Y", "Z")),
-    Property("Autocompute Value Bounds", True, "for AxisColor: from what comes"),
-    Property("Autocompute Value Bounds/Min Value", -10.0, "for AxisColor: the least value", unit="m"),
-    Property("Autocompute Value Bounds/Max Value", 10.0, "for AxisColor: the greatest value", unit="m"),
+    Property("Autocompute Value Bounds", True, "for AxisColor: bounds from the data"),
+    Property("Autocompute Value Bounds/Min Value", -10.0, "for AxisColor: the minimum", unit="m"),
+    Property("Autocompute Value Bounds/Max Value", 10.0, "for AxisColor: the maximum", unit="m"),
 )
 
 

@@ -21,33 +21,38 @@ UNKNOWN = 100.0
 """Standard deviation above which it counts as unknown, because drivers write huge variances then [m]."""
 
 
+def length_property(name: str, default: float) -> Property:
+    """Return the property of a length of a shape."""
+    return Property(name, default, "a length of the shape", unit="m", minimum=0.0, maximum=1e4)
+
+
 def pose_properties(prefix: str = "") -> tuple[Property, ...]:
     """Return the properties of an arrow and of axes; with a prefix, in the group of that name."""
 
     def length(name: str, default: float) -> Property:
-        return Property(f"{prefix}{name}", default, "of the shape", unit="m", minimum=0.0, maximum=1e4)
+        return length_property(f"{prefix}{name}", default)
 
     return (
         Property("Shape", "Arrow", "how a pose is drawn", choices=("Arrow", "Axes")),
-        Property(f"{prefix}Color", RED, "of the arrow"),
-        Property(f"{prefix}Alpha", 1.0, "how opaque the arrow is", minimum=0.0, maximum=1.0),
+        Property(f"{prefix}Color", RED, "colour of the arrow"),
+        Property(f"{prefix}Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
         length("Shaft Length", 1.0), length("Shaft Radius", 0.05), length("Head Length", 0.3),
         length("Head Radius", 0.1), length("Axes Length", 1.0), length("Axes Radius", 0.1),
     )  # fmt: skip
 
 
 COVARIANCE_PROPERTIES = (
-    Property("Covariance", True, "how uncertain a pose is"),
+    Property("Covariance", True, "show the uncertainty of a pose"),
     Property("Covariance/Position", True, "an ellipsoid with half axes of one standard deviation"),
-    Property("Covariance/Position/Color", Colour(204, 51, 204), "of the ellipsoid"),
-    Property("Covariance/Position/Alpha", 0.3, "how opaque it is", minimum=0.0, maximum=1.0),
+    Property("Covariance/Position/Color", Colour(204, 51, 204), "colour of the ellipsoid"),
+    Property("Covariance/Position/Alpha", 0.3, "opacity", minimum=0.0, maximum=1.0),
     Property("Covariance/Position/Scale", 1.0, "standard deviations", minimum=0.0, maximum=1e4),
     Property("Covariance/Orientation", True, "a sector of the headings, one standard deviation to each side"),
-    Property("Covariance/Orientation/Frame", "Local", "of the covariance", choices=("Local", "Fixed")),
-    Property("Covariance/Orientation/Color Style", "Unique", "one, or one for each axis", choices=("Unique", "RGB")),
-    Property("Covariance/Orientation/Color", Colour(255, 255, 127), "of the sector"),
-    Property("Covariance/Orientation/Alpha", 0.5, "how opaque it is", minimum=0.0, maximum=1.0),
-    Property("Covariance/Orientation/Offset", 1.0, "how long the sector is", unit="m", minimum=0.0, maximum=1e4),
+    Property("Covariance/Orientation/Frame", "Local", "frame of the covariance", choices=("Local", "Fixed")),
+    Property("Covariance/Orientation/Color Style", "Unique", "one colour, or one per axis", choices=("Unique", "RGB")),
+    Property("Covariance/Orientation/Color", Colour(255, 255, 127), "colour of the sector"),
+    Property("Covariance/Orientation/Alpha", 0.5, "opacity", minimum=0.0, maximum=1.0),
+    Property("Covariance/Orientation/Offset", 1.0, "radius of the sector", unit="m", minimum=0.0, maximum=1e4),
     Property("Covariance/Orientation/Scale", 1.0, "standard deviations", minimum=0.0, maximum=1e4),
 )  # fmt: skip
 

@@ -42,6 +42,11 @@ class Vector(NamedTuple):
 class Tree(dict[str, Any]):
     """A mapping of a file that a display reads itself, such as the frames of TF."""
 
+    def is_enabled(self, name: str) -> bool:
+        """Return False if an entry is switched off, by itself or by its `Value`."""
+        entry = self.get(name, True)
+        return bool(entry.get("Value", True) if isinstance(entry, dict) else entry)
+
 
 Value = bool | int | float | str | Colour | Vector | Tree
 

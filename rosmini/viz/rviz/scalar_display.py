@@ -20,8 +20,8 @@ def bounds(channel: str, low: float, high: float, *, invert: bool = False) -> tu
     """Return RViz's properties whose defaults differ from those of points: the channel and its range."""
     return (
         Property("Channel Name", channel, "the channel"),
-        Property("Autocompute Intensity Bounds", False, "from what comes"),
-        Property("Invert Rainbow", invert, "for Intensity: the other way round"),
+        Property("Autocompute Intensity Bounds", False, "bounds from the data"),
+        Property("Invert Rainbow", invert, "for Intensity: reverse the colours"),
         Property("Min Intensity", low, "the value at one end of the rainbow"),
         Property("Max Intensity", high, "the value at its other end"),
     )

@@ -15,7 +15,7 @@ from rosmini.viz.meshcat.scene3d import Camera, Scene3D
 from rosmini.viz.meshcat.solids import rounded
 from rosmini.viz.rounding import snap
 
-from .gifs import gif
+from .gifs import gif, gif_url
 from .labels import Label
 from .primitives import Floats, Lines, Mesh, Points, Primitive, Texture
 from .views import Viewpoint
@@ -236,10 +236,8 @@ class _GifImage(_Lowered):
         self._data = data
 
     def lower(self, object_data: Any) -> dict[str, Any]:
-        import base64
-
         del object_data
-        return {"uuid": self.uuid, "url": "data:image/gif;base64," + base64.b64encode(self._data).decode()}
+        return {"uuid": self.uuid, "url": gif_url(self._data)}
 
 
 def _largest(mesh: Mesh) -> Mesh:

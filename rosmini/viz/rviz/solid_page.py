@@ -20,6 +20,7 @@ from rosmini.viz.rviz.labels import Label
 from rosmini.viz.rviz.solid import text_labels
 from rosmini.viz.rviz.tools import Interact, MoveCamera, Tool
 from rosmini.viz.rviz.views import Orbit
+from rosmini.viz.style import hex_colour
 
 if TYPE_CHECKING:
     from rosmini.viz.rviz import Layer, Scene
@@ -107,6 +108,6 @@ class SolidPage:
             "labels": text_labels([Label(each, 0.0, 0.0, 0.0) for each in words], step),
             "grips": [f"/meshcat/rviz/{i}" for i in numbers] if is_interact else [],
             "turns": isinstance(tool, MoveCamera),
-            "background": "#" + "".join(f"{part:02x}" for part in colour),
+            "background": hex_colour(colour),
             "size": list(size),
         }

@@ -211,7 +211,7 @@ class SetInitialPose(PoseTool, plugin="rviz/SetInitialPose"):
 
     label, key, message = "2D Pose Estimate", "p", "geometry_msgs/PoseWithCovarianceStamped"
     properties = (
-        Property("Topic", "initialpose", "where poses are published"),
+        Property("Topic", "initialpose", "the topic of the poses"),
         Property("X std deviation", 0.5, "standard deviation of x", unit="m", minimum=0.0),
         Property("Y std deviation", 0.5, "standard deviation of y", unit="m", minimum=0.0),
         Property("Theta std deviation", math.pi / 12, "standard deviation of yaw", unit="rad", minimum=0.0),
@@ -233,7 +233,7 @@ class SetGoal(PoseTool, plugin="rviz/SetGoal"):
     """2D Nav Goal: sends a robot to a goal."""
 
     label, key, message = "2D Nav Goal", "g", "geometry_msgs/PoseStamped"
-    properties = (Property("Topic", "goal", "where goals are published"),)
+    properties = (Property("Topic", "goal", "the topic of the goals"),)
 
     def set_pose(self, x: float, y: float, yaw: float) -> str:
         """Publish the goal."""
@@ -254,8 +254,8 @@ class PublishPoint(PublishingTool, plugin="rviz/PublishPoint"):
     needs_object = True
     hint = "Move over an object to select the target point."
     properties = (
-        Property("Topic", "/clicked_point", "where points are published"),
-        Property("Single click", True, "put the tool away after one click"),
+        Property("Topic", "/clicked_point", "the topic of the points"),
+        Property("Single click", True, "end after one click"),
     )
 
     def move(self, at: Floats) -> str:
@@ -345,7 +345,7 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
     label, key = "Interact", "i"
     hint = "Click an interactive marker, or drag to move the camera."
     properties = (
-        Property("Hide Inactive Objects", True, "during a drag, show no controls of other markers"),
+        Property("Hide Inactive Objects", True, "hide the controls of other markers during a drag"),
     )
     _marker: InteractiveMarkers | None = None
 

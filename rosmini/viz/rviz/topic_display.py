@@ -101,9 +101,13 @@ class TopicDisplay(Display):
     properties: ClassVar[tuple[Property, ...]] = (
         Property("Topic", "", "the topic to subscribe to"),
         Property(
-            "Queue Size", 10, "how many messages wait for their transform", minimum=1, maximum=MAX_WAITING
+            "Queue Size",
+            10,
+            "maximum number of messages that wait for their transform",
+            minimum=1,
+            maximum=MAX_WAITING,
         ),
-        Property("Unreliable", False, "prefer UDP, which is not to be had here"),
+        Property("Unreliable", False, "prefer UDP; not supported"),
     )
 
     def __init__(self, name: str = "", tree: Any = None) -> None:

@@ -31,16 +31,18 @@ FIELD_OF_VIEW = 45.0
 
 _TARGET = Property("Target Frame", FIXED_FRAME, "the frame that the camera goes with")
 _FOCUS = (
-    Property("Distance", 10.0, "of the camera from the focal point", unit="m", minimum=0.01, maximum=1e6),
     Property(
-        "Focal Point", Vector(0.0, 0.0, 0.0), "what the camera looks at, from the target frame", unit="m"
+        "Distance", 10.0, "distance of the camera from the focal point", unit="m", minimum=0.01, maximum=1e6
     ),
-    Property("Yaw", math.pi / 4, "from which side the camera looks", unit="rad"),
-    Property("Pitch", math.pi / 4, "how high from", unit="rad", minimum=-STEEPEST, maximum=STEEPEST),
+    Property("Focal Point", Vector(0.0, 0.0, 0.0), "target of the camera, in the target frame", unit="m"),
+    Property("Yaw", math.pi / 4, "direction of the camera", unit="rad"),
+    Property(
+        "Pitch", math.pi / 4, "elevation of the camera", unit="rad", minimum=-STEEPEST, maximum=STEEPEST
+    ),
     Property(
         "Field of View",
         math.radians(FIELD_OF_VIEW),
-        "from bottom to top",
+        "vertical field of view",
         unit="rad",
         minimum=0.01,
         maximum=3.0,
@@ -185,10 +187,10 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
 
     properties = (
         _TARGET,
-        Property("Scale", 10.0, "how large a metre is drawn", unit="px", minimum=1e-3, maximum=1e6),
-        Property("X", 0.0, "of the middle of the view, from the target frame", unit="m"),
-        Property("Y", 0.0, "of the middle of the view, from the target frame", unit="m"),
-        Property("Angle", 0.0, "how far the view is turned about the vertical", unit="rad"),
+        Property("Scale", 10.0, "size of a metre", unit="px", minimum=1e-3, maximum=1e6),
+        Property("X", 0.0, "middle of the view, in the target frame", unit="m"),
+        Property("Y", 0.0, "middle of the view, in the target frame", unit="m"),
+        Property("Angle", 0.0, "rotation of the view about the vertical", unit="rad"),
     )
 
     def viewpoint(self, context: Context) -> Viewpoint:

@@ -18,10 +18,10 @@ class Axes(Display, plugin="rviz/Axes"):
 
     properties = (
         Property("Reference Frame", FIXED_FRAME, "the frame that is shown"),
-        Property("Length", 1.0, "of each axis", unit="m", minimum=0.0001, maximum=1e4),
-        Property("Radius", 0.1, "of each axis", unit="m", minimum=0.0001, maximum=1e4),
-        Property("Alpha", 1.0, "how opaque it is", minimum=0.0, maximum=1.0),
-        Property("Show Trail", False, "not here"),
+        Property("Length", 1.0, "size of each axis", unit="m", minimum=0.0001, maximum=1e4),
+        Property("Radius", 0.1, "size of each axis", unit="m", minimum=0.0001, maximum=1e4),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
+        Property("Show Trail", False, "not supported"),
     )
 
     def primitives(self, context: Context) -> Iterable[Primitive]:

@@ -35,7 +35,7 @@ class Camera(ImageDisplay, plugin="rviz/Camera"):
 
     properties = (
         Property("Image Rendering", BOTH, "where the image is", choices=(BACKGROUND, OVERLAY, BOTH)),
-        Property("Overlay Alpha", 0.5, "how opaque the image is over the scene", minimum=0.0, maximum=1.0),
+        Property("Overlay Alpha", 0.5, "opacity of the image over the scene", minimum=0.0, maximum=1.0),
         Property("Zoom Factor", 1.0, "more than 1 magnifies", minimum=0.00001, maximum=100_000.0),
         Property("Visibility", Tree(), "which displays are seen by the camera"),
     )
@@ -85,14 +85,11 @@ class Camera(ImageDisplay, plugin="rviz/Camera"):
         scale = min(1.0, math.sqrt(MAX_SHOWN / (camera.width * camera.height)))
         zoom = float(self["Zoom Factor"])
         overlay = Overlay(camera.zoomed(zoom), pose, scale)
-        overlay.draw(each for name, primitives in shown if self._is_seen(name) for each in primitives)
+        visibility = self["Visibility"]
+        overlay.draw(each for name, primitives in shown if visibility.is_enabled(name) for each in primitives)
         rendering, alpha = self["Image Rendering"], float(self["Overlay Alpha"])
         behind = resized(pixels, overlay.width, overlay.height, zoom)
         seen = overlay.over(np.full_like(behind, EMPTY) if rendering == OVERLAY else behind)
         if rendering != BACKGROUND:
             seen = np.round(seen * (1.0 - alpha) + behind * alpha).astype(np.uint8)
         return Pane(self.name, seen, described(image, pixels))
-
-    def _is_seen(self, name: str) -> bool:
-        one = self["Visibility"].get(name, True)
-        return bool(one.get("Value", True) if isinstance(one, dict) else one)

@@ -30,15 +30,27 @@ class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
     topic_property = "Depth Map Topic"
     properties = (
         Property("Depth Map Topic", "", "the topic of depths"),
-        Property("Depth Map Transport Hint", "raw", "how images are sent; here always raw"),
-        Property("Color Image Topic", "", "the topic of colours; empty: none"),
-        Property("Color Transport Hint", "raw", "how images are sent; here always raw"),
-        Property("Queue Size", 5, "how many messages wait for their transform", minimum=1, maximum=1000),
-        Property("Topic Filter", True, "which topics are offered; here all"),
-        Property("Auto Size", True, "points are as large as a pixel at their distance"),
-        Property("Auto Size/Auto Size Factor", 1.0, "times this", minimum=0.0001),
-        Property("Occlusion Compensation", False, "points stay that nearer ones hide; not here"),
-        Property("Occlusion Compensation/Occlusion Time-Out", 30.0, "for how long", unit="s", minimum=0.0),
+        Property("Depth Map Transport Hint", "raw", "transport of images; always raw"),
+        Property("Color Image Topic", "", "the topic of colours; empty for none"),
+        Property("Color Transport Hint", "raw", "transport of images; always raw"),
+        Property(
+            "Queue Size",
+            5,
+            "maximum number of messages that wait for their transform",
+            minimum=1,
+            maximum=1000,
+        ),
+        Property("Topic Filter", True, "not used: all topics are offered"),
+        Property("Auto Size", True, "make points as large as a pixel at their distance"),
+        Property("Auto Size/Auto Size Factor", 1.0, "factor of that size", minimum=0.0001),
+        Property("Occlusion Compensation", False, "keep points that nearer ones hide; not supported"),
+        Property(
+            "Occlusion Compensation/Occlusion Time-Out",
+            30.0,
+            "its duration",
+            unit="s",
+            minimum=0.0,
+        ),
     )
 
     def __init__(self, name: str = "", tree: Any = None) -> None:

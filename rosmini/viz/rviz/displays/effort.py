@@ -34,12 +34,12 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
     history = "History Length"
     needs_transform = False
     properties = (
-        Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
-        Property("Width", 0.02, "of the circles' lines", unit="m", minimum=0.0),
-        Property("Scale", 1.0, "of the circles", minimum=0.0),
-        Property("History Length", 1, "how many messages are shown", minimum=1, maximum=100_000),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
+        Property("Width", 0.02, "width of the circles' lines", unit="m", minimum=0.0),
+        Property("Scale", 1.0, "scale of the circles", minimum=0.0),
+        Property("History Length", 1, "number of messages shown", minimum=1, maximum=100_000),
         Property("Robot Description", "robot_description", "the parameter with the URDF"),
-        Property("TF Prefix", "", "before the names of all links"),
+        Property("TF Prefix", "", "prefix of the names of all links"),
         Property("Joints", Tree(), "which joints are shown"),
     )
 
@@ -92,7 +92,7 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
         joints = {} if self._robot is None else self._robot.joints
         for name, effort in zip(received.message.name, received.message.effort, strict=True):
             joint = joints.get(name)
-            if joint is None or joint.type not in TURNING or not self._is_shown(name):
+            if joint is None or joint.type not in TURNING or not self["Joints"].is_enabled(name):
                 continue
             link = "/".join(filter(None, (self["TF Prefix"].strip("/"), joint.child)))
             try:
@@ -103,10 +103,6 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
             limit = 0.0 if joint.limit is None else joint.limit.effort
             self.set_status(Level.OK, name, f"{effort:.4g} N m" + (f" of {limit:g}" if limit else ""))
             yield from self._circle(joint, place, float(effort), limit)
-
-    def _is_shown(self, joint: str) -> bool:
-        one = self["Joints"].get(joint, True)
-        return bool(one.get("Value", True) if isinstance(one, dict) else one)
 
     def _circle(self, joint: Joint, place: Floats, effort: float, limit: float) -> Iterator[Primitive]:
         share = (min(abs(effort) / limit, 1.0) if limit else abs(effort)) + 0.05

@@ -28,11 +28,11 @@ class Grid(Display, plugin="rviz/Grid"):
         Property("Normal Cell Count", 0, "cells across the plane; 0: a flat grid", minimum=0, maximum=50),
         Property("Cell Size", 1.0, "the side of a cell", unit="m", minimum=0.0001, maximum=1e4),
         Property("Line Style", "Lines", "thin lines or wide ones", choices=("Lines", "Billboards")),
-        Property("Line Style/Line Width", 0.03, "of wide lines", unit="m", minimum=0.001),
-        Property("Color", Colour(160, 160, 164), "of the lines"),
-        Property("Alpha", 0.5, "how opaque it is", minimum=0.0, maximum=1.0),
+        Property("Line Style/Line Width", 0.03, "width of wide lines", unit="m", minimum=0.001),
+        Property("Color", Colour(160, 160, 164), "colour of the lines"),
+        Property("Alpha", 0.5, "opacity", minimum=0.0, maximum=1.0),
         Property("Plane", "XY", "the plane of the grid", choices=tuple(_AXES)),
-        Property("Offset", Vector(0.0, 0.0, 0.0), "of the middle from the frame's origin", unit="m"),
+        Property("Offset", Vector(0.0, 0.0, 0.0), "position of the middle in the frame", unit="m"),
     )
 
     def primitives(self, context: Context) -> Iterable[Primitive]:

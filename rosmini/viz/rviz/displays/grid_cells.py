@@ -18,8 +18,8 @@ class GridCells(TopicDisplay, plugin="rviz/GridCells"):
 
     message = "nav_msgs/GridCells"
     properties = (
-        Property("Color", Colour(25, 255, 0), "of the cells"),
-        Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
+        Property("Color", Colour(25, 255, 0), "colour of the cells"),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
     )
 
     def draw(self, received: Received, context: Context) -> Iterable[Primitive]:

@@ -17,10 +17,12 @@ class Image(ImageDisplay, plugin="rviz/Image"):
     """A `sensor_msgs/Image`; ranges are shown from black to white."""
 
     properties = (
-        Property("Normalize Range", True, "of an image of ranges: from its least value to its greatest"),
-        Property("Min Value", 0.0, "what is black if it is not normalised"),
-        Property("Max Value", 1.0, "what is white if it is not normalised"),
-        Property("Median window", 5, "over how many images the range is smoothed", minimum=1, maximum=1000),
+        Property("Normalize Range", True, "for an image of ranges: from its minimum to its maximum"),
+        Property("Min Value", 0.0, "value of black if it is not normalised"),
+        Property("Max Value", 1.0, "value of white if it is not normalised"),
+        Property(
+            "Median window", 5, "number of images over which the range is smoothed", minimum=1, maximum=1000
+        ),
     )
 
     def pane(self, image: Any, context: Context, shown: Sequence[Shown]) -> Pane | None:

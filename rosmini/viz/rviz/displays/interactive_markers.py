@@ -38,10 +38,8 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         Property("Update Topic", "", "the topic of updates, /NAME/update"),
         Property("Show Descriptions", True, "the markers' descriptions, above them"),
         Property("Show Axes", False, "the markers' axes"),
-        Property("Show Visual Aids", False, "helping lines during a drag; not here"),
-        Property(
-            "Enable Transparency", True, "whether handles without looks of their own are half transparent"
-        ),
+        Property("Show Visual Aids", False, "guide lines during a drag; not supported"),
+        Property("Enable Transparency", True, "make handles without markers half transparent"),
     )
 
     def __init__(self, name: str = "", tree: Any = None) -> None:

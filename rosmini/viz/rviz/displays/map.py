@@ -24,7 +24,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
 
     message = "nav_msgs/OccupancyGrid"
     properties = (
-        Property("Alpha", 0.7, "how opaque it is", minimum=0.0, maximum=1.0),
+        Property("Alpha", 0.7, "opacity", minimum=0.0, maximum=1.0),
         Property("Color Scheme", "map", "how cells are coloured", choices=SCHEMES),
         Property("Draw Behind", False, "behind everything else"),
         Property("Use Timestamp", False, "where the map's frame was at its stamp, not where it is now"),

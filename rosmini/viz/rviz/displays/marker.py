@@ -35,8 +35,14 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
     topic_property = "Marker Topic"
     properties: ClassVar[tuple[Property, ...]] = (
         Property("Marker Topic", "visualization_marker", "the topic to subscribe to"),
-        Property("Queue Size", 100, "how many markers wait for their transform", minimum=0, maximum=1000),
-        Property("Namespaces", Tree(), "which namespaces are shown; others are, too"),
+        Property(
+            "Queue Size",
+            100,
+            "maximum number of markers that wait for their transform",
+            minimum=0,
+            maximum=1000,
+        ),
+        Property("Namespaces", Tree(), "which namespaces are shown; unlisted ones are shown too"),
     )
 
     def __init__(self, name: str = "", tree: Any = None) -> None:

@@ -8,16 +8,13 @@ import numpy as np
 
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.pose_style import length_property
 from rosmini.viz.rviz.primitives import DisplayError, Floats, Lines, Primitive
 from rosmini.viz.rviz.properties import Colour, Property, Vector
 from rosmini.viz.rviz.shapes import arrow, axes
 from rosmini.viz.rviz.topic_display import Received, TopicDisplay
 
 MAX_POSES, MAX_SHAPES = 200_000, 500
-
-
-def _length(name: str, default: float) -> Property:
-    return Property(name, default, "of the shapes of poses", unit="m", minimum=0.0, maximum=1e4)
 
 
 class Path(TopicDisplay, plugin="rviz/Path"):
@@ -27,15 +24,16 @@ class Path(TopicDisplay, plugin="rviz/Path"):
     history = "Buffer Length"
     properties = (
         Property("Line Style", "Lines", "thin lines or wide ones", choices=("Lines", "Billboards")),
-        Property("Line Width", 0.03, "of wide lines", unit="m", minimum=0.001, maximum=1e4),
-        Property("Color", Colour(25, 255, 0), "of the line"),
-        Property("Alpha", 1.0, "how opaque it is", minimum=0.0, maximum=1.0),
-        Property("Buffer Length", 1, "how many paths stay", minimum=1, maximum=1000),
-        Property("Offset", Vector(0.0, 0.0, 0.0), "by how much it is moved", unit="m"),
+        Property("Line Width", 0.03, "width of wide lines", unit="m", minimum=0.001, maximum=1e4),
+        Property("Color", Colour(25, 255, 0), "colour of the line"),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
+        Property("Buffer Length", 1, "number of paths shown", minimum=1, maximum=1000),
+        Property("Offset", Vector(0.0, 0.0, 0.0), "displacement", unit="m"),
         Property("Pose Style", "None", "how its poses are drawn", choices=("None", "Axes", "Arrows")),
-        Property("Pose Color", Colour(255, 85, 255), "of the arrows"),
-        _length("Length", 0.3), _length("Radius", 0.03), _length("Shaft Length", 0.1),
-        _length("Head Length", 0.2), _length("Shaft Diameter", 0.1), _length("Head Diameter", 0.3),
+        Property("Pose Color", Colour(255, 85, 255), "colour of the arrows"),
+        length_property("Length", 0.3), length_property("Radius", 0.03), length_property("Shaft Length", 0.1),
+        length_property("Head Length", 0.2), length_property("Shaft Diameter", 0.1),
+        length_property("Head Diameter", 0.3),
     )  # fmt: skip
 
     def draw(self, received: Received, context: Context) -> Iterable[Primitive]:

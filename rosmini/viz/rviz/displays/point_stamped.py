@@ -19,10 +19,10 @@ class PointStamped(TopicDisplay, plugin="rviz/PointStamped"):
     message = "geometry_msgs/PointStamped"
     history = "History Length"
     properties = (
-        Property("Color", Colour(204, 41, 204), "of the balls"),
-        Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
-        Property("Radius", 0.2, "of the balls", unit="m", minimum=0.0, maximum=1e4),
-        Property("History Length", 1, "how many points stay", minimum=1, maximum=10_000),
+        Property("Color", Colour(204, 41, 204), "colour of the balls"),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
+        Property("Radius", 0.2, "radius of the balls", unit="m", minimum=0.0, maximum=1e4),
+        Property("History Length", 1, "number of points shown", minimum=1, maximum=10_000),
     )
 
     def draw(self, received: Received, context: Context) -> Iterable[Primitive]:

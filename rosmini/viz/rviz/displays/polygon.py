@@ -16,8 +16,8 @@ class Polygon(TopicDisplay, plugin="rviz/Polygon"):
 
     message = "geometry_msgs/PolygonStamped"
     properties = (
-        Property("Color", Colour(25, 255, 0), "of the line"),
-        Property("Alpha", 1.0, "how opaque it is", minimum=0.0, maximum=1.0),
+        Property("Color", Colour(25, 255, 0), "colour of the line"),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
     )
 
     def draw(self, received: Received, context: Context) -> Iterable[Primitive]:

@@ -10,6 +10,7 @@ from rosmini.core.geometry.products import matrix_product
 from rosmini.core.tf.rigid import matrix
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.pose_style import length_property
 from rosmini.viz.rviz.primitives import Floats, Lines, Primitive
 from rosmini.viz.rviz.properties import Colour, Property
 from rosmini.viz.rviz.shapes import arrow, axes, flat_arrow
@@ -20,21 +21,17 @@ MAX_FLAT, MAX_SOLID = 20_000, 500
 """Maximum numbers of poses drawn; of more, an evenly spaced selection is drawn."""
 
 
-def _length(name: str, default: float) -> Property:
-    return Property(name, default, "of the shape", unit="m", minimum=0.0, maximum=1e4)
-
-
 class PoseArray(TopicDisplay, plugin="rviz/PoseArray"):
     """A `geometry_msgs/PoseArray` as flat arrows, which form one primitive, or as 3D arrows or axes."""
 
     message = "geometry_msgs/PoseArray"
     properties = (
         Property("Shape", "Arrow (Flat)", "how a pose is drawn", choices=SHAPES),
-        Property("Color", Colour(255, 25, 0), "of the arrows"),
-        Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
-        _length("Arrow Length", 0.3), _length("Axes Length", 0.3), _length("Axes Radius", 0.01),
-        _length("Head Length", 0.07), _length("Head Radius", 0.03), _length("Shaft Length", 0.23),
-        _length("Shaft Radius", 0.01),
+        Property("Color", Colour(255, 25, 0), "colour of the arrows"),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
+        length_property("Arrow Length", 0.3), length_property("Axes Length", 0.3), length_property("Axes Radius", 0.01),
+        length_property("Head Length", 0.07), length_property("Head Radius", 0.03),
+        length_property("Shaft Length", 0.23), length_property("Shaft Radius", 0.01),
     )  # fmt: skip
 
     def draw(self, received: Received, context: Context) -> Iterable[Primitive]:

@@ -22,9 +22,9 @@ class Range(TopicDisplay, plugin="rviz/Range"):
     message = "sensor_msgs/Range"
     history = "Buffer Length"
     properties = (
-        Property("Color", Colour(255, 255, 255), "of the cones"),
-        Property("Alpha", 0.5, "how opaque they are", minimum=0.0, maximum=1.0),
-        Property("Buffer Length", 1, "how many messages stay", minimum=1, maximum=1000),
+        Property("Color", Colour(255, 255, 255), "colour of the cones"),
+        Property("Alpha", 0.5, "opacity", minimum=0.0, maximum=1.0),
+        Property("Buffer Length", 1, "number of messages shown", minimum=1, maximum=1000),
     )
 
     def draw(self, received: Received, context: Context) -> Iterable[Primitive]:

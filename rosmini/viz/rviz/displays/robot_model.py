@@ -26,13 +26,11 @@ class RobotModel(Display, plugin="rviz/RobotModel"):
 
     properties = (
         Property("Robot Description", "robot_description", "the parameter with the URDF"),
-        Property("TF Prefix", "", "before the names of all links"),
-        Property(
-            "Update Interval", 0.0, "how often links are moved; here at each picture", unit="s", minimum=0.0
-        ),
-        Property("Alpha", 1.0, "how opaque the robot is", minimum=0.0, maximum=1.0),
-        Property("Visual Enabled", True, "what one sees of it"),
-        Property("Collision Enabled", False, "what touches others"),
+        Property("TF Prefix", "", "prefix of the names of all links"),
+        Property("Update Interval", 0.0, "not used: links move with each picture", unit="s", minimum=0.0),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
+        Property("Visual Enabled", True, "show the visual shapes"),
+        Property("Collision Enabled", False, "show the collision shapes"),
         Property("Links", Tree(), "which links are shown"),
     )
 

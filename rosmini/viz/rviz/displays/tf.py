@@ -29,22 +29,22 @@ class TF(Display, plugin="rviz/TF"):
         Property("Show Names", True, "the frames' names"),
         Property("Show Axes", True, "the frames' axes"),
         Property("Show Arrows", True, "an arrow from each frame to its parent"),
-        Property("Marker Scale", 1.0, "of axes, names and arrows", minimum=0.0, maximum=1e4),
-        Property("Marker Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
+        Property("Marker Scale", 1.0, "scale of axes, names and arrows", minimum=0.0, maximum=1e4),
+        Property("Marker Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
         Property(
             "Update Interval",
             0.0,
-            "how often frames are looked at; here at each picture",
+            "not used: frames move with each picture",
             unit="s",
             minimum=0.0,
         ),
         Property(
-            "Frame Timeout", 15.0, "after this without news a frame is no longer shown", unit="s", minimum=1.0
+            "Frame Timeout", 15.0, "time without updates after which a frame is hidden", unit="s", minimum=1.0
         ),
-        Property("Filter (whitelist)", "", "a regular expression; not here"),
-        Property("Filter (blacklist)", "", "a regular expression; not here"),
+        Property("Filter (whitelist)", "", "a regular expression; not supported"),
+        Property("Filter (blacklist)", "", "a regular expression; not supported"),
         Property("Frames", Tree({"All Enabled": True}), "which frames are shown"),
-        Property("Tree", Tree(), "the tree, as the window of RViz had it folded"),
+        Property("Tree", Tree(), "folded parts of the tree in RViz's window"),
     )
 
     def primitives(self, context: Context) -> Iterable[Primitive]:

@@ -26,14 +26,16 @@ class WrenchStamped(TopicDisplay, plugin="rviz/WrenchStamped"):
     message = "geometry_msgs/WrenchStamped"
     history = "History Length"
     properties = (
-        Property("Force Color", Colour(204, 51, 51), "of forces"),
-        Property("Torque Color", Colour(204, 204, 51), "of torques"),
-        Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
-        Property("Force Arrow Scale", 2.0, "how long a newton is", unit="m/N", minimum=0.0),
-        Property("Torque Arrow Scale", 2.0, "how long a newton metre is", unit="m/(N m)", minimum=0.0),
-        Property("Arrow Width", 0.5, "how wide arrows are", unit="m", minimum=0.0),
-        Property("Hide Small Values", True, "arrows that are shorter than wide are left out"),
-        Property("History Length", 1, "how many messages are shown", minimum=1, maximum=100_000),
+        Property("Force Color", Colour(204, 51, 51), "colour of forces"),
+        Property("Torque Color", Colour(204, 204, 51), "colour of torques"),
+        Property("Alpha", 1.0, "opacity", minimum=0.0, maximum=1.0),
+        Property("Force Arrow Scale", 2.0, "length of an arrow per newton", unit="m/N", minimum=0.0),
+        Property(
+            "Torque Arrow Scale", 2.0, "length of an arrow per newton metre", unit="m/(N m)", minimum=0.0
+        ),
+        Property("Arrow Width", 0.5, "width of the arrows", unit="m", minimum=0.0),
+        Property("Hide Small Values", True, "hide arrows that are shorter than wide"),
+        Property("History Length", 1, "number of messages shown", minimum=1, maximum=100_000),
     )
 
     def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
