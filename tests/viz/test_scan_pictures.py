@@ -118,7 +118,7 @@ def test_the_angle_max_of_a_driver_may_be_one_beam_off():
             message([1.0] * 200),
             r"200 ranges, but its angles from 0.0000 to 6.2657 rad by 0.017453 rad are those of 360 beams",
         ),
-        (message([1.0] * 360, angle_increment=0.0), "an angle_min and an angle_increment, not 0.0 and 0.0 rad"),
+        (message([1.0] * 360, angle_increment=0.0), "angle_increment 0.0 rad"),
         (message([1.0] * 360, angle_min=math.nan), "not nan and"),
         (np.ones((2, 2)), r"array \(n,\), not \(2, 2\)"),
         (np.empty(0), r"not \(0,\)"),

@@ -277,8 +277,8 @@ def test_of_many_particles_a_sample_is_drawn_and_the_heaviest():
         ([], "1 to 200 steps"),
         ([("a", np.zeros((3, 2)), None, None)], "rows of finite x, y and heading"),
         ([("a", np.full((3, 3), np.nan), None, None)], "rows of finite x, y and heading"),
-        ([("a", np.zeros((3, 3)), [1.0, 2.0], None)], "3 numbers, none below 0"),
-        ([("a", np.zeros((3, 3)), [0.0, 0.0, 0.0], None)], "3 numbers, none below 0"),
+        ([("a", np.zeros((3, 3)), [1.0, 2.0], None)], "3 numbers >= 0"),
+        ([("a", np.zeros((3, 3)), [0.0, 0.0, 0.0], None)], "3 numbers >= 0"),
         ([("a", np.zeros((3, 3)), None, (1.0, 2.0))], "true pose"),
     ],
 )

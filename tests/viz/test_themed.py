@@ -178,7 +178,7 @@ def test_a_picture_of_no_size_is_refused(size):
 
 
 def test_a_picture_with_no_room_for_its_axes_is_refused():
-    with house_style(), pytest.raises(ViewError, match=r"200 by 100 pixels has no room .* wider"):
+    with house_style(), pytest.raises(ViewError, match=r"200 by 100 pixels is too small .* wider"):
         add_axes(blank_figure(200, 100), 210, 10, -40, 50)
 
 

@@ -195,7 +195,7 @@ def test_buttons_and_menus(shop):
     shop.display.choose("menu", "Mode/Fast")
     shop.graph.run(0.1)
     assert chosen == [2]
-    with pytest.raises(DisplayError, match="here nothing that comes by a topic runs"):
+    with pytest.raises(DisplayError, match="rosmini runs no program named in a message"):
         shop.display.choose("menu", "Shell")
     with pytest.raises(DisplayError, match="no entry 'Slow'; it has Mode, Mode/Fast, Shell"):
         shop.display.choose("menu", "Slow")

@@ -126,7 +126,7 @@ def test_missing_meshes_are_named(shown):
     assert len(drawn) == 1
     assert said["a/0"][0] == "Error"
     assert "did you mean burger_base.dae?" in said["a/0"][1]
-    assert "begins with package:// or file://" in said["a/1"][1]
+    assert "begin with package:// or file://" in said["a/1"][1]
 
 
 WRONG = {
@@ -165,7 +165,7 @@ WRONG = {
     "kind": (marker(77), "Error", "Unknown marker type: 77"),
     "action": (marker(Marker.CUBE, action=9), "Error", "Unknown marker action: 9"),
     "clear": (marker(Marker.POINTS, points=SOMEWHERE), "Ok", "Marker is fully transparent (color.a is 0.0)"),
-    "far": (marker(Marker.CUBE_LIST, points=[Point(1e9, 0.0, 0.0)]), "Error", "farther than"),
+    "far": (marker(Marker.CUBE_LIST, points=[Point(1e9, 0.0, 0.0)]), "Error", "larger than"),
 }
 WRONG["clear"][0].color.a = 0.0
 
