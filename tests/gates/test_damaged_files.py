@@ -140,7 +140,7 @@ def _read_launch(path: Path) -> None:
 
 def _read_rviz(path: Path) -> None:
     config = Config.read(path)
-    config.strangers()
+    config.unknown_classes()
     config.with_parts(
         config.mappings("Displays"), config.options(), config.mapping("Views", "Current")
     ).text()

@@ -98,11 +98,8 @@ def test_data_that_json_cannot_hold_are_refused():
         embed(["test.js"], "test.mount", {"a": float("nan")}, **GIVEN)
 
 
-# -- views that move ---------------------------------------------------------------------------------------------------
-
-
 class Clock(MovingView):
-    scripts = ("rosmini-canvas.js",)
+    scripts = ("test.js",)
     call = "rosminiClock.mount"
     usual_name = "a clock"
     text, alt, svg = "noon", "A clock at noon.", "<svg><title>noon</title></svg>"

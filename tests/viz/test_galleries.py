@@ -62,7 +62,7 @@ def test_a_page_gets_their_own_figures_with_their_captions(views):
 def test_what_cannot_stand_in_a_grid_is_refused(views):
     with pytest.raises(ViewError, match="at least one view"):
         grid()
-    with pytest.raises(ViewError, match="3 in 0"):
+    with pytest.raises(ViewError, match="3 views in 0"):
         grid(*views, columns=0)
     with pytest.raises(ViewError, match="'one pixel' has no vector form"):
         grid(views[0], Picture(PNG, text="one pixel", alt="A pixel."))

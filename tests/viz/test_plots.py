@@ -44,7 +44,7 @@ def test_a_single_point_and_a_flat_line_have_a_frame() -> None:
     [
         ({}, "1 to 5 series"),
         ({str(i): ([0], [0]) for i in range(6)}, "not 6"),
-        ({"a": ([0, 1], [0])}, "one length"),
+        ({"a": ([0, 1], [0])}, "same length"),
         ({"a": ([], [])}, "at least one"),
         ({"a": ([0], ["x"])}, "numbers"),
         ({"a": ([0], [float("nan")])}, "finite"),

@@ -109,7 +109,7 @@ def test_bytes_are_the_same_whatever_the_last_digit_and_few(picture):
 def test_a_run_of_a_moment_has_a_picture_but_no_plots():
     moment = run().window(0.0, 0.0)
     assert "0.00 m in 0.0 s" in recording_picture(moment).text
-    with pytest.raises(ViewError, match="single moment"):
+    with pytest.raises(ViewError, match="without duration"):
         recording_plots(moment)
 
 

@@ -119,7 +119,7 @@ def test_the_angle_max_of_a_driver_may_be_one_beam_off():
             r"200 ranges, but its angles from 0.0000 to 6.2657 rad by 0.017453 rad are those of 360 beams",
         ),
         (message([1.0] * 360, angle_increment=0.0), "angle_increment 0.0 rad"),
-        (message([1.0] * 360, angle_min=math.nan), "not nan and"),
+        (message([1.0] * 360, angle_min=math.nan), "angle_min is nan"),
         (np.ones((2, 2)), r"array \(n,\), not \(2, 2\)"),
         (np.empty(0), r"not \(0,\)"),
         ({"ranges": 1}, "not a dict"),

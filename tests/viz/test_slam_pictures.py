@@ -39,7 +39,7 @@ def test_a_film_is_played(film):
             lambda film: GridSlam(Settings(), random=np.random.default_rng(0)).show(),
             "no scan has been processed",
         ),
-        (lambda film: Film(film.slam).show(), "nothing was taken"),
+        (lambda film: Film(film.slam).show(), "the film is empty"),
     ],
 )
 def test_what_cannot_be_drawn(film, make, said):

@@ -97,9 +97,9 @@ def test_a_new_configuration_has_the_parts_that_the_real_one_reads(stage, tmp_pa
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "no configuration"),
-        ("[]", "no configuration"),
-        ("Visualization Manager: 3", "no configuration"),
+        ("", "not a configuration"),
+        ("[]", "not a configuration"),
+        ("Visualization Manager: 3", "not a configuration"),
         ("Visualization Manager: {a: [}", "line 1"),
         ("a: &a [*a]\nVisualization Manager: {}", "contains itself"),
         ("Visualization Manager: " + "{a: " * (MAX_DEPTH + 5) + "1" + "}" * (MAX_DEPTH + 5), "deeper"),

@@ -117,7 +117,7 @@ def test_a_map_lies_on_the_ground(filmed):
 
 WRONG = {
     "nan": ({"P": [math.nan] * 12}, "Contains invalid floating point values (nans or infs)"),
-    "zeros": ({"P": [0.0] * 12}, "focal lengths 0 and 0"),
+    "zeros": ({"P": [0.0] * 12}, "must be more than 0, not 0 and 0"),
     "huge": ({"width": 4_000_000_000}, "is too large to draw"),
 }
 
