@@ -6,8 +6,8 @@ A display of a topic names its message class, declares its properties, and draws
         message = "geometry_msgs/PointStamped"
         properties = (ALPHA, Property("Radius", 0.2, "radius of the sphere", unit="m", minimum=0.0))
 
-        def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
-            yield sphere(heard.points([heard.message.point]), self["Radius"], self["Color"].rgba(self["Alpha"]))
+        def draw(self, received: Received, context: Context) -> Iterable[Primitive]:
+            yield sphere(received.points([received.message.point]), self["Radius"], self["Color"].rgba(self["Alpha"]))
 
 An exception becomes its status, and the scene continues. Displays are plugins under RViz's names (`rosmini.plugins`).
 """
