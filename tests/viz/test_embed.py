@@ -117,7 +117,7 @@ def test_a_page_has_the_still_picture_the_data_and_the_scripts(monkeypatch):
     data = re.search(r'type="application/json">(.*?)<', view.html)
     assert data is not None and json.loads(data[1]) == {"hands": "AAE="}
     assert view.svg in view.html and "rosminiClock.mount" in view.html and "figcaption" not in view.html
-    assert len(view.page) > len(view.html), "the page for a file of its own brings its script"
+    assert SCRIPT in view.page and SCRIPT not in view.html, "the page for a file of its own brings its script"
 
 
 def test_a_title_is_its_name_and_its_caption():
