@@ -1,4 +1,4 @@
 """Notebooks whose cells are terminals and scripts: `%load_ext rosmini`, `%roscore`, `%%node`.
 
-What belongs to one notebook is a :class:`~rosmini.notebook.session.Session`; nothing is kept in this package itself.
+The state of a notebook is in its :class:`~rosmini.notebook.session.Session`; this package itself has none.
 """

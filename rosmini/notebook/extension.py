@@ -7,12 +7,12 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from rosmini.core.errors import UsageError
+from rosmini.core.errors import RosminiError, UsageError
+from rosmini.core.packages import PackageIndex
 from rosmini.ros.rospy.importer import install, ros_is_installed, uninstall
 from rosmini.tools import magics
 
 from . import file_cells, logo_cell, node_cell
-from .completion import complete
 from .saving import save_package
 from .session import Session, begin_session, end_session, session_of
 
@@ -56,6 +56,25 @@ def unload(shell: Any) -> None:
 def is_loaded(shell: Any) -> bool:
     """Return whether the shell has a session."""
     return vars(shell).get("rosmini_session") is not None
+
+
+def complete(_shell: Any, event: Any) -> list[str]:
+    """Complete a word after ``%rosrun``: return packages, or executables of the given package, that begin with it."""
+    before = event.text_until_cursor.lstrip().removeprefix("%").split()
+    if event.text_until_cursor[-1:].isspace():
+        before.append("")
+    packages = PackageIndex()
+    match before:
+        case [_, start]:
+            names = packages.names()
+        case [_, package, start]:
+            try:
+                names = packages.executables(package)
+            except RosminiError:
+                return []
+        case _:
+            return []
+    return [name for name in names if name.startswith(start)]
 
 
 def report_which_ros() -> None:
