@@ -32,21 +32,21 @@ class DeviceGroup:
         self.rate = rate
         self.period = 1e9 / rate
         self.devices: list[Due] = []
-        self.before: dict[str, int] = {}
+        self.offsets: dict[str, int] = {}
         self.begin(start_ns, now_ns)
 
     def begin(self, start_ns: int, now_ns: int) -> None:
         """Count from `start_ns`; the next instant is the first after `now_ns`."""
         self.start_ns = start_ns
-        self.to(1)
+        self.set_next(1)
         self.skip(now_ns)
 
-    def to(self, number: int) -> None:
+    def set_next(self, number: int) -> None:
         """Make this the number of the next instant."""
         self.number = number
         self.due_ns = self.start_ns + round(number * self.period)
 
-    def after(self, now_ns: int) -> int:
+    def number_after(self, now_ns: int) -> int:
         """Return the number of the first instant after this time, or of the next one if that is later."""
         if self.due_ns > now_ns:
             return self.number
@@ -56,14 +56,14 @@ class DeviceGroup:
     def skip(self, now_ns: int) -> None:
         """Skip to the first instant after this time."""
         if self.due_ns <= now_ns:
-            self.to(self.after(now_ns))
+            self.set_next(self.number_after(now_ns))
 
     def sort(self) -> None:
         """Sort the devices by their order."""
         self.devices.sort(key=lambda device: device.order)  # a stable sort
         self.always = any(device.always for device in self.devices)
         self._calls = tuple(
-            (None if device.always else device.wanted, device.due, self.before[device.name])
+            (None if device.always else device.wanted, device.due, self.offsets[device.name])
             for device in self.devices
         )
 

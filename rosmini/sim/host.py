@@ -52,7 +52,7 @@ class Device:
 
     def __init__(self, host: Host, name: str, rate: float) -> None:
         if not 0 < rate < float("inf"):
-            msg = f"the rate of {name!r} is {rate}; it has to be a positive number of times a second"
+            msg = f"the rate of {name!r} is {rate}; it must be a positive number of times a second"
             raise RosminiError(msg)
         self.host = host
         self.name = name
@@ -69,12 +69,12 @@ class Device:
     def reset(self) -> None:
         """Return to the initial state, because the world does; most sensors need not do anything."""
 
-    kept: ClassVar[tuple[str, ...]] = ()
+    saved: ClassVar[tuple[str, ...]] = ()
     """The attributes that change at run time and are saved."""
 
     def state(self) -> Any:
         """Return everything that changes at run time, as a copy that can be pickled."""
-        return copy.deepcopy({name: getattr(self, name) for name in self.kept})
+        return copy.deepcopy({name: getattr(self, name) for name in self.saved})
 
     def restore(self, state: Any) -> None:
         """Restore what `state` returned."""
@@ -232,8 +232,8 @@ class Host:
         for group in self._order:
             group.skip(now)
             passed = group.number - 1
-            for name in group.before:
-                group.before[name] -= passed
+            for name in group.offsets:
+                group.offsets[name] -= passed
             group.begin(now, now)
             group.sort()
         self._plan()
@@ -286,7 +286,7 @@ class Host:
             group = self._groups[device.rate] = DeviceGroup(device.rate, self._zero_ns, now)
         self._devices[device.name] = device
         group.devices.append(device)
-        group.before[device.name] = group.after(now) - 1
+        group.offsets[device.name] = group.number_after(now) - 1
         group.sort()
         self._arrange()
         return device
@@ -298,7 +298,7 @@ class Host:
         del self._devices[device.name]
         group = self._groups[device.rate]
         group.devices.remove(device)
-        del group.before[device.name]
+        del group.offsets[device.name]
         if group.devices:
             group.sort()
         else:
@@ -324,7 +324,7 @@ class Host:
         """Return the number of a device's instants up to the engine's time, as last passed to `due`."""
         group = self._groups[device.rate]
         # the engine may be a nanosecond short of an instant, and would miss it
-        return group.after(round(self.engine.now * SECOND) + 1) - 1 - group.before[device.name]
+        return group.number_after(round(self.engine.now * SECOND) + 1) - 1 - group.offsets[device.name]
 
     def rng(self, name: str) -> np.random.Generator:
         """Return the random generator of a name: the same on each run, and independent of all others."""
@@ -396,7 +396,7 @@ class Host:
                 if group.always or group.wanted():
                     if group.due_ns == due:
                         group.serve(stamp)
-                        group.to(group.number + 1)
+                        group.set_next(group.number + 1)
                     elif group.due_ns < due:
                         group.skip(due)
                     following = min(following, group.due_ns)
@@ -415,7 +415,7 @@ class Host:
             engine=self.engine.state(),
             instants={rate: (group.start_ns, group.number) for rate, group in self._groups.items()},
             devices={
-                name: (self._groups[device.rate].before[name], device.state())
+                name: (self._groups[device.rate].offsets[name], device.state())
                 for name, device in self._devices.items()
             },
         )
@@ -446,13 +446,13 @@ class Host:
         self._clock_ns = self.clock.now_ns()
         for name, (before, own) in state.devices.items():
             device = self._devices[name]
-            self._groups[device.rate].before[name] = before
+            self._groups[device.rate].offsets[name] = before
             device.restore(own)
         self._devices = {name: self._devices[name] for name in state.devices}  # in the saved order
         self._groups = {rate: self._groups[rate] for rate in state.instants}
         for rate, group in self._groups.items():
             group.start_ns, number = state.instants[rate]
-            group.to(number)
+            group.set_next(number)
             group.devices = [each for each in self._devices.values() if each.rate == rate]
             group.sort()
         self._order = tuple(sorted(self._groups.values(), key=lambda group: group.devices[0].order))

@@ -37,19 +37,21 @@ class Markers:
         self.frame = frame
         self._array = message_class("visualization_msgs/MarkerArray")
         self._marker = message_class("visualization_msgs/Marker")
-        self._told: dict[str, int] = {}
+        self._published: dict[str, int] = {}
 
     def message(self, obstacles: Iterable[Obstacle], stamp: tuple[int, int]) -> Any:
         """Return a `visualization_msgs/MarkerArray` of the obstacles, with this stamp."""
-        array, told = self._array(), {}
+        array, published = self._array(), {}
         for obstacle in obstacles:
             parts = list(simple_parts(obstacle.shape, obstacle.pose))
-            told[obstacle.name] = len(parts)
+            published[obstacle.name] = len(parts)
             for i, (shape, pose) in enumerate(parts):
                 array.markers.append(self._part(obstacle, i, shape, pose, stamp))
-        for name, count in self._told.items():
-            array.markers += [self._header(name, i, stamp, DELETE) for i in range(told.get(name, 0), count)]
-        self._told = told
+        for name, count in self._published.items():
+            array.markers += [
+                self._header(name, i, stamp, DELETE) for i in range(published.get(name, 0), count)
+            ]
+        self._published = published
         return array
 
     def _header(self, name: str, number: int, stamp: tuple[int, int], action: int) -> Any:

@@ -169,7 +169,7 @@ class CameraModel:
             or not 0 < self.near < self.far
         ):
             msg = (
-                f"the camera {self.name!r} is not possible: it needs pixels, {MOST_PIXELS} at the most, 0 < near < far "
+                f"the camera {self.name!r} is not possible: it needs pixels, {MOST_PIXELS} at most, 0 < near < far "
                 f"and an angle between 0 and pi, not {self.width} x {self.height} pixels, near={self.near}, "
                 f"far={self.far}, horizontal_fov={self.horizontal_fov}"
             )
@@ -269,21 +269,21 @@ class RobotModel:
         if self.drive is not None and self.drive not in get_args(Drive):
             hint = nearest(str(self.drive), get_args(Drive))
             more = f"; {hint}" if hint else ""
-            return f"drive is {self.drive!r}; it has to be 'differential', 'holonomic' or None{more}"
+            return f"drive is {self.drive!r}; it must be 'differential', 'holonomic' or None{more}"
         for field in ("mass", "inertia", "height", "wheel_radius", "wheel_separation", "body_radius", "rate"):
             value = getattr(self, field)
             if not value > 0 or (math.isinf(value) and (self.drive or field not in ("mass", "inertia"))):
-                return f"{field} is {value!r}; it has to be a finite number above 0"
+                return f"{field} is {value!r}; it must be a finite number above 0"
         for field in ("wheel_acceleration", "linear_acceleration", "angular_acceleration"):
             if not getattr(self, field) > 0:
-                return f"{field} is {getattr(self, field)!r}; it has to be above 0; math.inf is no limit"
+                return f"{field} is {getattr(self, field)!r}; it must be above 0; math.inf is no limit"
         for field in ("max_linear", "max_angular", "max_lateral"):
             value = getattr(self, field)
             if value is not None and not value >= 0:
-                return f"{field} is {value!r}; it has to be 0 or more"
+                return f"{field} is {value!r}; it must be 0 or more"
         corners = self.footprint
         if len(corners) < 3 or not all(is_finite(part) for corner in corners for part in corner):
-            return f"footprint is {corners!r}; it has to be 3 or more corners of finite x and y"
+            return f"footprint is {corners!r}; it must be 3 or more corners of finite x and y"
         turns = [
             (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
             for (ax, ay), (bx, by), (cx, cy) in zip(
@@ -291,9 +291,7 @@ class RobotModel:
             )
         ]
         if min(turns) < -1e-12 or max(turns) <= 0:
-            return (
-                f"footprint is {corners!r}; it has to be convex, its corners counter-clockwise (see `hull`)"
-            )
+            return f"footprint is {corners!r}; it must be convex, its corners counter-clockwise (see `hull`)"
         return ""
 
     @cached_property

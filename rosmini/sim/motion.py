@@ -161,7 +161,7 @@ class Door:
             ("phase", self.phase),
         ):
             if not is_finite(value):
-                raise WorldError(f"the {what} of a door is {value!r}; it has to be a finite number")
+                raise WorldError(f"the {what} of a door is {value!r}; it must be a finite number")
 
     @property
     def period(self) -> float:
@@ -230,7 +230,7 @@ def _check_numbers(
 ) -> None:
     for field, value in (positive or {}).items():
         if not is_finite(value) or value <= 0:
-            raise WorldError(f"the {field} of a {what} is {value!r}; it has to be a finite number above 0")
+            raise WorldError(f"the {field} of a {what} is {value!r}; it must be a finite number above 0")
     for field, value in (least or {}).items():
         if not is_finite(value) or value < 0:
-            raise WorldError(f"the {field} of a {what} is {value!r}; it has to be a finite number, 0 or more")
+            raise WorldError(f"the {field} of a {what} is {value!r}; it must be a finite number, 0 or more")

@@ -30,7 +30,7 @@ Floats = NDArray[np.float64]
 TRUTH, ODOM, SCAN, COMMANDS = "base_pose_ground_truth", "odom", "scan", "cmd_vel"
 RECORDED = "rosmini.recorded_types"
 """Group of the entry points that name the types of messages that a replay shows."""
-LOOK_AGAIN = 0.5
+CHECK_PERIOD = 0.5
 """Interval between checks for new topics [s]."""
 
 
@@ -104,7 +104,7 @@ class Recorder:
         self.model = model
         self.node = graph.node(name, namespace=namespace or "/")
         self.scan_topic = scan
-        self._things = None if things is None else _Things(self, things)
+        self._things = None if things is None else _MovingObstacles(self, things)
         self._layers = _Layers(self, things) if layers else None
         self._runs: dict[str, _Run] = {}
         own = robots.pop(first, None)
@@ -125,7 +125,7 @@ class Recorder:
 
         """
         if name in self._runs:
-            raise RecordingError(f"a robot {name!r} is recorded already; give the other one another name")
+            raise RecordingError(f"a robot {name!r} is recorded already; give the new one a different name")
         self._runs[name] = _Run(self, name, model, name if namespace is None else namespace)
 
     def __repr__(self) -> str:
@@ -193,7 +193,7 @@ class Recorder:
             f"if the robot's topics have a namespace, give it: Recorder(..., namespace='/robot1')."
         )
 
-    def went_back(self, topic: str, by: float) -> None:
+    def clock_went_back(self, topic: str, by: float) -> None:
         """Log that the clock went back [s], and begin a new run."""
         self.node.logwarn(
             f"the time on {self.node.resolve(topic)} went back by {by:.3f} s: a new recording begins"
@@ -260,7 +260,7 @@ class _Run:
     def _add(self, topic: str, stamp: int, row: Any) -> None:
         back = self.tracks[topic].behind(stamp)
         if back:
-            self._recorder.went_back(self.topic(topic), back)
+            self._recorder.clock_went_back(self.topic(topic), back)
         self.tracks[topic].add(stamp, row)
 
     def _times(self) -> NDArray[np.int64]:
@@ -315,10 +315,10 @@ class _Layers:
         self._left_out = {self._node.resolve(things)} if things else set()
         self._subscribed: set[str] = set()
         self.kept: list[tuple[int, str, Any]] = []
-        self._look()
-        self._node.timer(LOOK_AGAIN, lambda _event: self._look())
+        self._subscribe_new()
+        self._node.timer(CHECK_PERIOD, lambda _event: self._subscribe_new())
 
-    def _look(self) -> None:
+    def _subscribe_new(self) -> None:
         """Subscribe to new topics."""
         for topic, kind in sorted(self._node.master.ask("getTopicTypes")):
             if kind in self._types and topic not in self._subscribed | self._left_out:
@@ -333,13 +333,13 @@ class _Layers:
         return tuple((max(0.0, (time - begin) / 1e9), topic, message) for time, topic, message in self.kept)
 
 
-class _Things:
+class _MovingObstacles:
     """The data from the topic with the poses of moving obstacles."""
 
     def __init__(self, recorder: Recorder, topic: str) -> None:
         self._recorder, self._topic = recorder, topic
         self._tracks: dict[str, _Track] = {}
-        self._looks: dict[str, Obstacle] = {}
+        self._appearances: dict[str, Obstacle] = {}
         if topic.rpartition("/")[2] == "model_states":
             recorder.node.subscriber(topic, message_class("gazebo_msgs/ModelStates"), self._states)
         else:
@@ -352,16 +352,16 @@ class _Things:
 
     def _markers(self, message: Any) -> None:
         poses = first_poses(message)
-        new = set(poses) - set(self._looks)
+        new = set(poses) - set(self._appearances)
         if new:
             made = obstacles_of(message)
             for name in new:
                 known = self._known.get(name)
-                self._looks[name] = made[name] if known is None else known
+                self._appearances[name] = made[name] if known is None else known
         stamp = self._recorder.stamp(message.markers[0].header) if message.markers else 0
         for name, pose in poses.items():
-            look = self._looks[name]
-            _, offset = next(iter(simple_parts(look.shape)))
+            appearance = self._appearances[name]
+            _, offset = next(iter(simple_parts(appearance.shape)))
             self._add(name, stamp, compose(pose, inverse(offset)))
 
     def _states(self, message: Any) -> None:
@@ -369,7 +369,7 @@ class _Things:
         for name, pose in zip(message.name, message.pose, strict=True):
             if name in self._known:
                 q = pose.orientation
-                self._looks[name] = self._known[name]
+                self._appearances[name] = self._known[name]
                 self._add(
                     name, stamp, (pose.position.x, pose.position.y, yaw_from_quaternion(q.x, q.y, q.z, q.w))
                 )
@@ -378,7 +378,7 @@ class _Things:
         track = self._tracks.setdefault(name, _Track())
         back = track.behind(stamp)
         if back:
-            self._recorder.went_back(self._topic, back)
+            self._recorder.clock_went_back(self._topic, back)
             track = self._tracks.setdefault(name, _Track())
         track.add(stamp, pose)
 
@@ -389,8 +389,8 @@ class _Things:
             times = seconds(track.stamps, begin)
             poses = np.array(track.rows, dtype=float)
             poses[:, 2] = np.unwrap(poses[:, 2])
-            look = replace(self._looks[name], pose=tuple(poses[0].tolist()), motion=None)
-            whole = Moved(look, times, poses)
+            appearance = replace(self._appearances[name], pose=tuple(poses[0].tolist()), motion=None)
+            whole = Moved(appearance, times, poses)
             first, last = max(0.0, float(times[0])), min(end, float(times[-1]))
             inside = whole.window(first, max(first, last))
             keep = turning_points(inside.poses)

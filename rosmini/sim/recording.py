@@ -139,7 +139,9 @@ class Recording:
             bad = np.isnan(array) if name == "scans" else ~np.isfinite(array)
             if bad.any():
                 place = ", ".join(str(i) for i in np.argwhere(bad)[0])
-                raise RecordingError(f"{name}[{place}] of a recording is {array[bad][0]}, which is no number")
+                raise RecordingError(
+                    f"{name}[{place}] of a recording is {array[bad][0]}, which is not a number"
+                )
         for name in ("times", "scan_times"):
             if (np.diff(getattr(self, name)) <= 0).any():
                 raise RecordingError(f"{name} of a recording must increase")

@@ -120,7 +120,7 @@ class Part:
         problem = shape_problem(self.shape) or pose_problem("pose", self.pose) or colour_problem(self.colour)
         if not problem and not self.bottom < self.top:
             place = f"its bottom is at {self.bottom!r} and its top at {self.top!r}"
-            problem = f"{place}; the top has to be above the bottom"
+            problem = f"{place}; the top must be above the bottom"
         if problem:
             raise WorldError(f"a part of {self.name or 'a model'} is not possible: {problem}")
 
@@ -174,15 +174,15 @@ def is_finite(value: object) -> bool:
 def positive_problem(field_name: str, value: object) -> str:
     """Describe why a value is not a finite number above 0."""
     if not is_finite(value):
-        return f"{field_name} is {value!r}; it has to be a finite number"
-    return "" if float(value) > 0 else f"{field_name} is {value!r}; it has to be more than 0"  # type: ignore[arg-type]
+        return f"{field_name} is {value!r}; it must be a finite number"
+    return "" if float(value) > 0 else f"{field_name} is {value!r}; it must be more than 0"  # type: ignore[arg-type]
 
 
 def pose_problem(field_name: str, pose: object) -> str:
     """Describe why a value is not a pose."""
     if isinstance(pose, (tuple, list, np.ndarray)) and len(pose) == 3 and all(map(is_finite, pose)):
         return ""
-    return f"{field_name} is {pose!r}; it has to be finite x, y and heading"
+    return f"{field_name} is {pose!r}; it must be finite x, y and heading"
 
 
 def colour_problem(colour: object) -> str:
@@ -195,17 +195,17 @@ def colour_problem(colour: object) -> str:
             return ""
         return f"colour is {colour!r}; a colour by its parts is # and six digits from 0 to f, as '#c05020'"
     hint = nearest(text, COLOURS)
-    return f"colour is {colour!r}; it has to be one of {', '.join(COLOURS)}, or '#rrggbb'{'; ' + hint if hint else ''}"
+    return f"colour is {colour!r}; it must be one of {', '.join(COLOURS)}, or '#rrggbb'{'; ' + hint if hint else ''}"
 
 
 def shape_problem(shape: object) -> str:
     """Describe why a value is not a valid shape."""
     if not isinstance(shape, Shape):
-        return f"shape is {shape!r}; it has to be a Box, a Cylinder, a Sphere, a Polygon or a Compound"
+        return f"shape is {shape!r}; it must be a Box, a Cylinder, a Sphere, a Polygon or a Compound"
     try:
         return _size_problem(shape)
     except TypeError:  # an unhashable value is not a number
-        return f"shape is {shape!r}; its sizes have to be finite numbers"
+        return f"shape is {shape!r}; its sizes must be finite numbers"
 
 
 @lru_cache(maxsize=256)
@@ -224,7 +224,7 @@ def _size_problem(shape: Shape) -> str:
         return ""
     for i, corner in enumerate(shape.corners):
         if len(corner) != 2 or not all(map(is_finite, corner)):
-            return f"shape.corners[{i}] is {corner!r}; it has to be finite x and y"
+            return f"shape.corners[{i}] is {corner!r}; it must be finite x and y"
     if len(shape.corners) < 3:
         return f"shape.corners are {len(shape.corners)}; a polygon has 3 or more"
     crossing = polygons.crossing_sides(shape.outline)

@@ -33,7 +33,7 @@ from .host import Host
 from .models import RobotModel
 from .models import model as model_called
 from .simulation import Simulation
-from .starts import PLACE, Start, add, displacement, read_starts, start_pose
+from .starts import START_HELP, Start, add, displacement, read_starts, start_pose
 from .turtlebot import COMMAND_TIMEOUT, ODOMETRY, Options, TurtleBot
 from .world import World, WorldError
 from .worlds import world as world_called
@@ -125,7 +125,7 @@ class Simulator(Simulation):
             for start in starts:
                 add(engine, start)
         except WorldError as error:
-            raise WorldError(f"{error}. {PLACE}") from error
+            raise WorldError(f"{error}. {START_HELP}") from error
         if moved := displacement(engine, starts[0]):
             node.logwarn(moved)
         super().__init__(node, Host(node, engine))

@@ -28,7 +28,7 @@ KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
 MOST_ROBOTS = 1000
 """Maximum number of initial robots."""
 
-PLACE = (
+START_HELP = (
     "Say where with the arguments x:=, y:= and yaw:= of the launch file, or the parameters ~x, ~y and ~yaw"
 )
 """Advice to the user if a start is occupied."""
@@ -66,7 +66,7 @@ def read_starts(
         given = [f"tb3_{i}" for i in range(given)]
     if not isinstance(given, list) or not 0 < len(given) <= MOST_ROBOTS:
         msg = (
-            f"parameter {where} is {shown(given)}; it has to be a number of robots, up to {MOST_ROBOTS}, or a list of "
+            f"parameter {where} is {shown(given)}; it must be a number of robots, up to {MOST_ROBOTS}, or a list of "
             "their names or of what is to be known of each"
         )
         raise ParameterError(msg)
@@ -75,7 +75,7 @@ def read_starts(
     for name in names:
         if names.count(name) > 1:
             raise ParameterError(
-                f"parameter {where}: two robots are called {name!r}; give each a name of its own"
+                f"parameter {where}: two robots are called {name!r}; give them different names"
             )
     return starts
 
@@ -85,7 +85,7 @@ def _read(where: str, entry: Any, model: RobotModel, world: World) -> Start:
         entry = {"name": entry}
     if not isinstance(entry, dict) or not isinstance(entry.get("name"), str) or not entry["name"]:
         msg = (
-            f"parameter {where} is {shown(entry)}; it has to be the name of a robot, or a mapping "
+            f"parameter {where} is {shown(entry)}; it must be the name of a robot, or a mapping "
             f"with a 'name' and any of {', '.join(KEYS[1:])}"
         )
         raise ParameterError(msg)
@@ -96,7 +96,7 @@ def _read(where: str, entry: Any, model: RobotModel, world: World) -> Start:
         number = key in ("x", "y", "yaw")
         if not isinstance(value, (int, float) if number else str) or isinstance(value, bool):
             kind = "a number" if number else "a string"
-            raise ParameterError(f"parameter {where}/{key} is {shown(value)}; it has to be {kind}")
+            raise ParameterError(f"parameter {where}/{key} is {shown(value)}; it must be {kind}")
     name = entry["name"]
     space = str(entry.get("namespace", name))
     return Start(
@@ -155,7 +155,7 @@ def displacement(engine: Engine, start: Start) -> str:
     x, y, theta = engine.robot(start.name).pose
     wanted = f"({first[0]:.2f}, {first[1]:.2f})"
     there = f"the robot {start.name!r} cannot start at {wanted} in the world {engine.world.name!r}: {blocked} is there"
-    return f"{there}. It starts at ({x:.2f}, {y:.2f}) with heading {theta:.2f}. {PLACE}"
+    return f"{there}. It starts at ({x:.2f}, {y:.2f}) with heading {theta:.2f}. {START_HELP}"
 
 
 def _check(name: str) -> None:

@@ -110,14 +110,12 @@ class Obstacle:
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name.strip():
-            raise WorldError(f"an obstacle has the name {self.name!r}; each needs one, to be spoken of")
+            raise WorldError(f"an obstacle has the name {self.name!r}; every obstacle needs a name")
         problem = (
             shape_problem(self.shape)
             or pose_problem("pose", self.pose)
             or (
-                f"bottom is {self.bottom!r}; it has to be a finite number"
-                if not is_finite(self.bottom)
-                else ""
+                f"bottom is {self.bottom!r}; it must be a finite number" if not is_finite(self.bottom) else ""
             )
         )
         if not problem and isinstance(self.shape, Sphere):
@@ -126,7 +124,7 @@ class Obstacle:
             problem
             or positive_problem("height", self.height)
             or (
-                f"its bottom is at {self.bottom!r} and its height is {self.height!r}; the top has to be above the "
+                f"its bottom is at {self.bottom!r} and its height is {self.height!r}; the top must be above the "
                 "bottom"
                 if self.height <= self.bottom
                 else ""
@@ -149,7 +147,7 @@ class Obstacle:
         if self.motion is None:
             return ""
         if not isinstance(self.motion, Motion):
-            return f"motion is {self.motion!r}; it has to be a Walk or a Door"
+            return f"motion is {self.motion!r}; it must be a Walk or a Door"
         return (
             "it has a mass, so robots push it, and a motion of its own; it can have one of them"
             if self.mass
@@ -228,14 +226,14 @@ class World:
         try:
             walls = np.array(self.walls, dtype=np.float64)
         except (TypeError, ValueError):
-            return "walls has to be a table of numbers (n, 4), each row x1, y1, x2, y2"
+            return "walls must be a table of numbers (n, 4), each row x1, y1, x2, y2"
         if not walls.size:
             walls = walls.reshape(0, 4)
         if walls.ndim != 2 or walls.shape[1] != 4:
-            return f"walls has to be a table (n, 4), each row x1, y1, x2, y2, not {walls.shape}"
+            return f"walls must be a table (n, 4), each row x1, y1, x2, y2, not {walls.shape}"
         wrong = np.flatnonzero(~np.isfinite(walls).all(axis=1))
         if len(wrong):
-            return f"walls[{wrong[0]}] is {walls[wrong[0]].tolist()}; its numbers have to be finite"
+            return f"walls[{wrong[0]}] is {walls[wrong[0]].tolist()}; its numbers must be finite"
         walls.flags.writeable = False
         object.__setattr__(self, "walls", walls)
         if not self.solid:
@@ -434,4 +432,4 @@ def _range_problem(field_name: str, value: object, most: float) -> str:
     if is_finite(value) and 0 <= float(value) <= most:  # type: ignore[arg-type]
         return ""
     bound = "on" if math.isinf(most) else f"to {most:g}"
-    return f"{field_name} is {value!r}; it has to be a finite number from 0 {bound}"
+    return f"{field_name} is {value!r}; it must be a finite number from 0 {bound}"

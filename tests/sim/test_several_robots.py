@@ -135,8 +135,8 @@ def test_robots_are_told_one_by_one(graph):
         ([], "number of robots"),
         ([{"x": 1.0}], "the name of a robot"),
         ([{"name": "a", "modle": "burger"}], "did you mean model"),
-        ([{"name": "a", "x": "far"}], "has to be a number"),
-        ([{"name": "a", "namespace": 3}], "has to be a string"),
+        ([{"name": "a", "x": "far"}], "must be a number"),
+        ([{"name": "a", "namespace": 3}], "must be a string"),
         (["a", "a"], "two robots are called 'a'"),
     ],
 )
@@ -656,8 +656,8 @@ def test_the_launch_files_say_what_the_simulator_understands(graph, name):
         ({"y": -3.0}, "outside of the world 'arena'"),
         ({"x": 1e308}, "outside of the world 'arena'"),
         ({"robots": [{"name": "a", "x": 50.0}]}, "the robot 'a' cannot start there"),
-        ({"robots": 10**9}, r"/simulator/robots is 1000000000; it has to be a number of robots, up to 1000"),
-        ({"robots": ["a"] * 1001}, (r"/simulator/robots is \['a', 'a', .*\.\.\.; it has to be a number of robots, up "
+        ({"robots": 10**9}, r"/simulator/robots is 1000000000; it must be a number of robots, up to 1000"),
+        ({"robots": ["a"] * 1001}, (r"/simulator/robots is \['a', 'a', .*\.\.\.; it must be a number of robots, up "
                                    r"to 1000")),
     ],
 )  # fmt: skip

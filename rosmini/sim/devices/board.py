@@ -42,7 +42,7 @@ class BatteryDevice(Device):
     """
 
     order = 70.0
-    kept = ("battery", "shown", "_used", "_since")
+    saved = ("battery", "shown", "_used", "_since")
 
     def __init__(
         self,
@@ -89,7 +89,7 @@ class BatteryDevice(Device):
         self._since += period
         if self._since >= DRAIN_S:
             self._drain()
-        if self._outlet is not None and self._outlet.heard():
+        if self._outlet is not None and self._outlet.num_connections():
             shown = self.shown
             self._outlet.publish(
                 stamp, (shown.voltage, shown.current, shown.charge, shown.percentage, not shown.empty)

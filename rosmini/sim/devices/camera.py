@@ -23,7 +23,7 @@ Image = NDArray[np.uint8]
 Depths = NDArray[np.float32]
 
 
-DEAR = 20e6
+WARN_PIXEL_RATE = 20e6
 """Rendering load [pixels/s of simulated time] that causes a warning: it takes about two seconds or more."""
 
 
@@ -95,7 +95,7 @@ class CameraDevice(Device):
 
     def wanted(self) -> bool:
         """Return True if any of its topics has a subscriber."""
-        return any(outlet.heard() for outlet in self.outlets())
+        return any(outlet.num_connections() for outlet in self.outlets())
 
     def due(self, stamp: Stamp, number: int, /) -> None:
         """Render and publish to the topics that have subscribers.
@@ -103,34 +103,35 @@ class CameraDevice(Device):
         The noise depends on the image's number alone, whether or not earlier images were rendered.
         """
         for info in (self._info, self._depth_info):
-            if info is not None and info.heard():
+            if info is not None and info.num_connections():
                 info.publish(stamp)
-        if not (heard(self._image) or heard(self._depth) or heard(self._points)):
+        if not (has_subscriber(self._image) or has_subscriber(self._depth) or has_subscriber(self._points)):
             return
         self.warn()
         image, depths = self.look(number)
-        if self._points is not None and self._points.heard():
+        if self._points is not None and self._points.num_connections():
             self._points.publish(stamp, [cloud(self.camera, image, depths).tobytes()])
         self.publish_pixels(stamp, image, depths)
 
     def publish_pixels(self, stamp: Stamp, image: NDArray[Any], depths: NDArray[Any]) -> None:
         """Publish an image and depths, each if its topic has a subscriber."""
         for outlet, pixels in ((self._image, image), (self._depth, depths)):
-            if outlet is not None and outlet.heard():
+            if outlet is not None and outlet.num_connections():
                 outlet.publish(stamp, [pixels.tobytes()])
 
     def warn(self) -> None:
         """Warn, once, if rendering takes longer than real time."""
         width, height = self.camera.width, self.camera.height
         pixels = width * height * self.rate
-        if self._warned or pixels < DEAR:
+        if self._warned or pixels < WARN_PIXEL_RATE:
             return
         self._warned = True
         self.host.node.logwarn(
-            f"the camera {self.name}, whose images somebody hears, draws {width} x {height} pixels {self.rate:g} times "
-            f"a second: {pixels / 1e6:.0f} million pixels for each simulated second, where {DEAR / 1e6:.0f} million "
-            f"take a computer about two seconds. Give it a smaller width and height, a lower rate (for example "
-            f"{DEAR / pixels * self.rate:.2g} Hz), or end the subscriptions that nobody needs"
+            f"the camera {self.name}, which has subscribers, renders {width} x {height} pixels {self.rate:g} times "
+            f"a second: {pixels / 1e6:.0f} million pixels for each simulated second, while "
+            f"{WARN_PIXEL_RATE / 1e6:.0f} million take a computer about two seconds. Give it a smaller width and "
+            f"height, a lower rate (for example {WARN_PIXEL_RATE / pixels * self.rate:.2g} Hz), or end unneeded "
+            "subscriptions"
         )
 
     def look(self, number: int = 0) -> tuple[Image, Depths]:
@@ -158,9 +159,9 @@ class CameraDevice(Device):
             outlet.close()
 
 
-def heard(outlet: Outlet | None) -> bool:
+def has_subscriber(outlet: Outlet | None) -> bool:
     """Return True if there is such a topic and it has a subscriber."""
-    return outlet is not None and outlet.heard() > 0
+    return outlet is not None and outlet.num_connections() > 0
 
 
 def image_message(camera: CameraModel, frame: str, encoding: str, size: int) -> Any:

@@ -28,10 +28,10 @@ class ClockDevice(Device):
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Publish the time."""
-        if self._outlet.heard():
+        if self._outlet.num_connections():
             self._outlet.publish(stamp, stamp)
 
-    def tell(self) -> None:
+    def publish_now(self) -> None:
         """Publish the time immediately: after a reset of time, or a step while paused."""
         now = self.host.stamp
         self.due((now.secs, now.nsecs), 0)

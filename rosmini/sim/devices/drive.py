@@ -46,7 +46,7 @@ relative to where the robot started.
 """
 
 
-class Reckoned(NamedTuple):
+class OdometryReading(NamedTuple):
     """Odometry as reported: the pose in its frame, and the speeds ahead and aside [m/s] and to the left [rad/s]."""
 
     pose: Pose
@@ -109,10 +109,10 @@ class DifferentialDrive(Device):
         self._heading = 0.0
         self.powered = True
         """False: the motors have no power, and commands have no effect."""
-        self.reckoned = Reckoned((0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
+        self.reckoned = OdometryReading((0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
         """The odometry that was reported last."""
         self._zero: Pose = self.robot.start
-        self._complained: set[str] = set()
+        self._warned: set[str] = set()
         self._outlet: Outlet | None = None
         if odom is not None:
             message = message_class("nav_msgs/Odometry")()
@@ -172,16 +172,16 @@ class DifferentialDrive(Device):
         if not math.isfinite(v + vy + w):
             for field, value in (("linear.x", v), ("linear.y", vy), ("angular.z", w)):
                 if not math.isfinite(value):
-                    self._refuse(message, field, value)
+                    self._warn_invalid(message, field, value)
             v = vy = w = 0.0
         self.command(v, w, vy)
 
-    def _refuse(self, message: Any, field: str, value: float) -> None:
+    def _warn_invalid(self, message: Any, field: str, value: float) -> None:
         sender = (message._connection_header or {}).get("callerid", "somebody")
-        if sender not in self._complained and self._commands is not None:
-            self._complained.add(sender)
+        if sender not in self._warned and self._commands is not None:
+            self._warned.add(sender)
             self.host.node.logwarn(
-                f"{sender} published {field} = {value} on {self._commands.topic}: a velocity has to be a finite "
+                f"{sender} published {field} = {value} on {self._commands.topic}: a velocity must be a finite "
                 f"number. The robot stops instead, and so it will at each such message of {sender}, without another "
                 "warning."
             )
@@ -191,7 +191,7 @@ class DifferentialDrive(Device):
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Update the odometry from the encoders and publish it."""
         self._update()
-        if self._outlet is not None and self._outlet.heard():
+        if self._outlet is not None and self._outlet.num_connections():
             self._outlet.publish(stamp, odometry_values(*self.reckoned))
 
     def _update(self) -> None:
@@ -199,7 +199,7 @@ class DifferentialDrive(Device):
         odometry = self.odometry
         odometry.update(*robot.ticks, 1 / self.rate, self._turn())
         if self.source == "encoder":
-            self.reckoned = Reckoned(odometry.pose, odometry.v, 0.0, odometry.w)
+            self.reckoned = OdometryReading(odometry.pose, odometry.v, 0.0, odometry.w)
         else:
             self.reckoned = self._true()
 
@@ -210,16 +210,16 @@ class DifferentialDrive(Device):
         before, self._heading = self._heading, self._imu.heading
         return float(normalize_angle(self._heading - before))
 
-    def _true(self) -> Reckoned:
+    def _true(self) -> OdometryReading:
         robot = self.robot
         v, vy, w = robot.velocity
         pose = robot.pose if self.source == "world" else compose(inverse(self._zero), robot.pose)
-        return Reckoned(pose, v, vy, w)
+        return OdometryReading(pose, v, vy, w)
 
     def reset(self) -> None:
         """Restart with zero odometry at the robot's start pose."""
         self.odometry = Odometry(self.model)
-        self.reckoned = Reckoned((0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
+        self.reckoned = OdometryReading((0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
         self._zero = self.robot.start
         self._turn()
 
@@ -261,7 +261,7 @@ class PlanarMove(DifferentialDrive):
         robot = self.robot
         if self.source == "encoder" and isinstance(robot, HolonomicRobot):
             v, vy, w = robot.speeds
-            self.reckoned = Reckoned(compose(inverse(self._reckoned_from), robot.reckoned), v, vy, w)
+            self.reckoned = OdometryReading(compose(inverse(self._reckoned_from), robot.reckoned), v, vy, w)
         else:
             self.reckoned = self._true()
 

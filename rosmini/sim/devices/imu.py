@@ -37,7 +37,7 @@ class ImuDevice(Sensor):
     default_topic = "imu"
     order = 60.0
     queue_size = 50
-    kept = ("_imu", "_heading")
+    saved = ("_imu", "_heading")
     varying = tuple(
         f"{field}.{axis}"
         for field, axes in (

@@ -40,7 +40,7 @@ class RangeDevice(Sensor):
     always = True
     varying = ("ranges", "intensities")
     queue_size = 5
-    kept = ("_rng", "pose", "ranges", "poses", "_last")
+    saved = ("_rng", "pose", "ranges", "poses", "_last")
 
     def __init__(
         self,
@@ -83,7 +83,7 @@ class RangeDevice(Sensor):
             ranges, intensities = found
             self.ranges = ranges
             self._last = (*stamp, ranges.astype(np.float32), intensities)
-            if self.outlet.heard():
+            if self.outlet.num_connections():
                 self.outlet.publisher.publish_frozen(self.outlet.make(*self._last))
 
     @property
@@ -154,7 +154,7 @@ class Laser(RangeDevice):
         noise = None
         if self._deviation:
             noise = self._rng.standard_normal(self.lidar.beams) * self._deviation
-        if not (self.measures or self.outlet.heard()):
+        if not (self.measures or self.outlet.num_connections()):
             return None
         engine, name = self.host.engine, self.robot.name
         if self._beam_time:

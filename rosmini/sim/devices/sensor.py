@@ -27,7 +27,7 @@ class Outlet:
         self, node: Node, topic: str, message: Any, varying: Sequence[str] = (), *, queue_size: int = 10
     ) -> None:
         self.publisher = node.publisher(topic, type(message), queue_size=queue_size)
-        self.heard = self.publisher.num_connections
+        self.num_connections = self.publisher.num_connections
         """Returns the number of subscribers."""
         self._stamped = bool(message._has_header)
         self.make = template(message, *(STAMP if self._stamped else ()), *varying)
@@ -113,7 +113,7 @@ class Sensor(Device):
 
     def wanted(self) -> bool:
         """Return True if the topic has a subscriber; otherwise no sample is taken."""
-        return self.outlet.heard() > 0
+        return self.outlet.num_connections() > 0
 
     def due(self, stamp: Stamp, number: int, /) -> None:
         """Publish a sample."""

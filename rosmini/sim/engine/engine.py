@@ -156,7 +156,7 @@ class Engine:
             return
         world = self.world.name
         raise RosminiError(
-            f"there is {kind} {name!r} in the world {world!r} already; give the other one another name"
+            f"there is {kind} {name!r} in the world {world!r} already; give the new one a different name"
         )
 
     def remove(self, name: str) -> None:
@@ -192,7 +192,7 @@ class Engine:
         itself, and `RobotGone` for an unknown name.
         """
         if not all(math.isfinite(part) for part in (*pose, *velocity)):
-            msg = f"{name!r} cannot be placed at {pose} with the velocity {velocity}: all numbers have to be finite"
+            msg = f"{name!r} cannot be placed at {pose} with the velocity {velocity}: all numbers must be finite"
             raise WorldError(msg)
         if name not in self.robots:
             self._put_obstacle(self.obstacle(name), pose, velocity)
@@ -254,7 +254,7 @@ class Engine:
         told = self.robot(name)
         if not math.isfinite(v + w + vy):
             aside = f", {vy} m/s to its side" if vy else ""
-            msg = f"the robot {name!r} cannot go {v} m/s{aside} and {w} rad/s: both have to be finite"
+            msg = f"the robot {name!r} cannot go {v} m/s{aside} and {w} rad/s: both must be finite"
             raise RosminiError(msg)
         told.command(v, vy, w)
         told.expires_ns = self._population.instant.ns + to_ns(timeout) if timeout else math.inf
@@ -380,7 +380,7 @@ class Engine:
         """
         for what, value in changes.items():
             if not (math.isfinite(value) and value >= 0):
-                raise WorldError(f"{what} cannot be {value}; it has to be a finite number, 0 or more")
+                raise WorldError(f"{what} cannot be {value}; it must be a finite number, 0 or more")
         self.contacts.set_surface(replace(self.contacts.surface, **changes))
 
     # -- time ----------------------------------------------------------------------------------------------------

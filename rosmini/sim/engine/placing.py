@@ -25,7 +25,7 @@ def free_pose(
     `WorldError`, which names the nearest free position, also for numbers that are not finite.
     """
     if not all(math.isfinite(part) for part in pose):
-        raise WorldError(f"a robot cannot be placed at {pose}: x, y and heading have to be finite numbers")
+        raise WorldError(f"a robot cannot be placed at {pose}: x, y and heading must be finite numbers")
     x, y, theta = map(float, pose)
     found = obstruction(pose)
     if found is not None:

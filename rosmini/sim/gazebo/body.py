@@ -59,7 +59,7 @@ class Body:
         hint = nearest(name, names) or f"its joints are: {', '.join(names) or 'none'}"
         raise SpawnError(f"the model {self.model.name!r} has no joint {name!r}; {hint}")
 
-    def put_on_wheels(
+    def set_wheels(
         self, left: str, right: str, separation: float, radius: float, rear: tuple[str, str] | None = None
     ) -> None:
         """Set a drive with two wheels, or four with two in the `rear`. Their positions determine the left side.

@@ -123,7 +123,7 @@ class GazeboWorld(ABC):
             return model.pose, model.velocity
         return model.link_pose(link), model.link_velocity(link)
 
-    def holds(self, name: str) -> bool:
+    def is_immovable(self, name: str) -> bool:
         """Return True if the engine's object of this name cannot be pushed: a wall or a fixed obstacle."""
         if name in self.engine.robots:
             return math.isinf(self.engine.robots[name].model.mass)
@@ -222,7 +222,9 @@ class Model:
                 self.name if self.body is not None else self.obstacles[0]
             ):
                 inwards = min(0.0, vx * touch.nx + vy * touch.ny)
-                if inwards and self.world.holds(touch.other):  # it cannot be pushed, so this part is lost
+                if inwards and self.world.is_immovable(
+                    touch.other
+                ):  # it cannot be pushed, so this part is lost
                     vx, vy = vx - inwards * touch.nx, vy - inwards * touch.ny
         with contextlib.suppress(WorldError):
             self.world.move(self, self.pose, (vx, vy, w))

@@ -59,13 +59,13 @@ class PhysicsProperties(Parameters):
         numbers |= {f"gravity.{axis}": part for axis, part in zip("xyz", self.gravity, strict=True)}
         for name, value in numbers.items():
             if not math.isfinite(value):
-                raise GazeboError(f"{name} is {value}; it has to be a finite number")
+                raise GazeboError(f"{name} is {value}; it must be a finite number")
         if not SHORTEST <= self.time_step <= LONGEST:
             span = f"from {SHORTEST:g} to {LONGEST:g} s"
-            raise GazeboError(f"time_step is {self.time_step} s; it has to be {span}")
+            raise GazeboError(f"time_step is {self.time_step} s; it must be {span}")
         if self.max_update_rate < 0:
             what = f"max_update_rate is {self.max_update_rate} Hz"
-            raise GazeboError(f"{what}; it has to be 0 (as fast as it can) or more")
+            raise GazeboError(f"{what}; it must be 0 (as fast as it can) or more")
         x, y, z = self.gravity
         if x or y or z > 0:
             why = "the ground is level here, so it has to point down (0, 0, -9.8), or be zero"

@@ -161,7 +161,7 @@ def _run(path: Path, name: str) -> None:
     """Run a file that defines a plugin."""
     spec = importlib.util.spec_from_file_location(f"gazebo_plugin_{name}", path)
     if spec is None or spec.loader is None:
-        raise UnknownPlugin(f"{path} is no Python file")
+        raise UnknownPlugin(f"{path} is not a Python file")
     module = importlib.util.module_from_spec(spec)
     try:
         spec.loader.exec_module(module)

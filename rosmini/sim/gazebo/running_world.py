@@ -58,10 +58,10 @@ class ModelState:
         """Return the current state of a model."""
         return cls(model.sdf, model.start, model.namespace, dict(model.frames), model.obstacles, model.fixed)
 
-    def came_as(self, model: Model) -> bool:
+    def spawned_like(self, model: Model) -> bool:
         """Return True if a model was spawned in the same way as this one."""
         return all(
-            alike(getattr(self, name), getattr(model, name))
+            is_equal(getattr(self, name), getattr(model, name))
             for name in ("namespace", "start", "frames", "sdf")
         )
 
@@ -106,7 +106,7 @@ class RunningWorld(GazeboWorld):
             flat, notes = converted(replace(source, models=tuple(still)))
             if source.warnings:
                 wrong = map(str, source.warnings)
-                node.logwarn("\n".join([f"the world {source.name!r} is not whole:", *wrong]))
+                node.logwarn("\n".join([f"the world {source.name!r} is incomplete:", *wrong]))
             for note in notes:
                 node.loginfo(str(note))
             rate = source.physics.real_time_update_rate
@@ -117,19 +117,19 @@ class RunningWorld(GazeboWorld):
         self.engine = Engine(flat, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=noise)
         self.host = Host(node, self.engine, from_zero=True, paused=paused, speed=self.physics.speed)
         if isinstance(source, SdfWorld):
-            self._bring_all(source, still)
+            self._insert_models(source, still)
         else:
             for obstacle in flat.obstacles:
                 self._note_obstacle(obstacle)
         self.set_physics(self.physics)
 
-    def _bring_all(self, source: SdfWorld, still: list[SdfModel]) -> None:
+    def _insert_models(self, source: SdfWorld, still: list[SdfModel]) -> None:
         for model in source.models:
             if any(model is each for each in still):
                 self._note_fixed(model)
             else:
                 try:
-                    self._bring(replace(model, pose=ORIGIN), model.name, model.pose, check=False)
+                    self._insert(replace(model, pose=ORIGIN), model.name, model.pose, check=False)
                 except SpawnError as error:
                     self.node.logerr(f"{model.path}:{model.line}: {error}. The world goes on without it")
         for actor in source.actors:
@@ -198,7 +198,7 @@ class RunningWorld(GazeboWorld):
     def remove_new(self, state: WorldState) -> None:
         """Delete the models that the state does not contain or that differ there; restore its physics settings."""
         for name, model in list(self.models.items()):
-            if name not in state.models or not state.models[name].came_as(model):
+            if name not in state.models or not state.models[name].spawned_like(model):
                 self.delete(name)
         self.set_physics(state.physics)
 
@@ -206,10 +206,10 @@ class RunningWorld(GazeboWorld):
         """Restore the plugins and forces of the models in a restored engine."""
         for name, old in state.models.items():
             if name not in self.models:
-                self._bring(
+                self._insert(
                     old.sdf, name, old.start, old.namespace, old.frames, check=False, there=old.obstacles
                 )
-                self._tell("insert", self.models[name])
+                self._notify("insert", self.models[name])
             self.models[name].obstacles, self.models[name].fixed = old.obstacles, old.fixed
         self.models = {name: self.models[name] for name in state.models}
         self.wrenches.restore(state.forces)
@@ -229,13 +229,13 @@ class RunningWorld(GazeboWorld):
         called = name or sdf.name
         where = sdf.pose if pose is None else compose6(pose, sdf.pose)
         self.host.catch_up()
-        model = self._bring(
+        model = self._insert(
             replace(sdf, name=called, pose=ORIGIN), called, where, namespace, frames, check=True
         )
-        self._tell("insert", model)
+        self._notify("insert", model)
         return model
 
-    def _bring(
+    def _insert(
         self,
         sdf: SdfModel,
         name: str,
@@ -271,7 +271,7 @@ class RunningWorld(GazeboWorld):
         try:
             self._load(model, found, sensors)
         except Exception as error:  # a plugin can raise anything
-            self._take(model)
+            self._remove(model)
             why = (
                 error
                 if isinstance(error, RosminiError)
@@ -289,7 +289,7 @@ class RunningWorld(GazeboWorld):
             )
         if not all(math.isfinite(part) for part in pose):
             raise SpawnError(
-                f"the model {name!r} cannot come to {pose}: all numbers of a pose have to be finite"
+                f"the model {name!r} cannot be placed at {pose}: all numbers of a pose must be finite"
             )
 
     def _add_robot(self, model: Model, body: Body) -> None:
@@ -339,10 +339,10 @@ class RunningWorld(GazeboWorld):
     def delete(self, name: str) -> None:
         """See `GazeboWorld.delete`."""
         model = self.model(name)
-        self._take(model)
-        self._tell("delete", model)
+        self._remove(model)
+        self._notify("delete", model)
 
-    def _take(self, model: Model) -> None:
+    def _remove(self, model: Model) -> None:
         """Remove a model; exceptions of its plugins are reported and do not prevent it."""
         self.host.catch_up()
         with ExitStack() as ends:
@@ -361,7 +361,7 @@ class RunningWorld(GazeboWorld):
         """See `GazeboWorld.move`."""
         if not all(math.isfinite(part) for part in (*pose, *velocity)):
             what = f"put to {pose} with the velocity {velocity}"
-            raise GazeboError(f"the model {model.name!r} cannot be {what}: all numbers have to be finite")
+            raise GazeboError(f"the model {model.name!r} cannot be {what}: all numbers must be finite")
         self.host.catch_up()
         if model.fixed is not None:
             self._move_fixed(model, pose)
@@ -374,7 +374,7 @@ class RunningWorld(GazeboWorld):
                     here = {each.name: each for each in self.engine.obstacles()}
                     check_room(self.engine, here[model.obstacles[0]], at)
                 self.engine.put(model.obstacles[0], at, velocity)
-        self._tell("move", model)
+        self._notify("move", model)
 
     def _move_fixed(self, model: Model, pose: Pose6) -> None:
         """Move a fixed model; it stays where it was if there is no room."""
@@ -404,7 +404,7 @@ class RunningWorld(GazeboWorld):
             raise
         return tuple(added)
 
-    def _tell(self, what: str, model: Model) -> None:
+    def _notify(self, what: str, model: Model) -> None:
         for callback in self.on_change:
             callback(what, model)
 
@@ -423,7 +423,7 @@ class RunningWorld(GazeboWorld):
                 continue
             if not issubclass(cls, kind):
                 self.node.logwarn(
-                    f"{tag.element.path}:{tag.line}: {tag.filename!r} is a {cls.kind} plugin, but stands in {whose}, "
+                    f"{tag.element.path}:{tag.line}: {tag.filename!r} is a {cls.kind} plugin, but is in {whose}, "
                     f"which takes {kind.kind} plugins: left out"
                 )
                 continue
@@ -453,14 +453,14 @@ class RunningWorld(GazeboWorld):
                 ends.callback(self.node.guarded, plugin.close, what=f"the end of {plugin.name}")
 
 
-def alike(a: Any, b: Any) -> bool:
+def is_equal(a: Any, b: Any) -> bool:
     """Return True if two descriptions are equal; markup elements are equal only to themselves."""
     if type(a) is not type(b):
         return False
     if is_dataclass(a):
-        return a is b or all(alike(getattr(a, each.name), getattr(b, each.name)) for each in fields(a))
+        return a is b or all(is_equal(getattr(a, each.name), getattr(b, each.name)) for each in fields(a))
     if isinstance(a, dict):
-        return a.keys() == b.keys() and all(alike(value, b[key]) for key, value in a.items())
+        return a.keys() == b.keys() and all(is_equal(value, b[key]) for key, value in a.items())
     if isinstance(a, (list, tuple)):
-        return len(a) == len(b) and all(map(alike, a, b))
+        return len(a) == len(b) and all(map(is_equal, a, b))
     return bool(a == b)

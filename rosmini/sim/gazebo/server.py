@@ -104,7 +104,7 @@ class GazeboServer(Pictured, Simulation):
             )
         self.world = RunningWorld(node, found, paused=options.pause, noise=noise)
         self.clock = ClockDevice(self.world.host, rate=_rate(node))
-        self.master = GazeboMaster(self.world, self.clock.tell)
+        self.master = GazeboMaster(self.world, self.clock.publish_now)
         super().__init__(node, self.world.host)
         self.world.host.add(self.clock)
         node.set_param("/use_sim_time", True)
@@ -235,9 +235,7 @@ def _rate(node: Node) -> float:
     name = "~pub_clock_frequency"
     rate = node.get_param(name, CLOCK_RATE, expect=float)
     if not rate > 0:
-        raise ParameterError(
-            f"parameter {node.resolve_parameter(name)} is {rate}; it has to be more than 0 Hz"
-        )
+        raise ParameterError(f"parameter {node.resolve_parameter(name)} is {rate}; it must be more than 0 Hz")
     return float(rate)
 
 

@@ -36,7 +36,7 @@ class Refusal(GazeboError):
 
 
 @contextmanager
-def otherwise(refusal: str) -> Iterator[None]:
+def refusing_with(refusal: str) -> Iterator[None]:
     """Turn an error into a refusal with this text, followed by the error's own."""
     try:
         yield
@@ -46,7 +46,7 @@ def otherwise(refusal: str) -> Iterator[None]:
         raise Refusal(f"{refusal} {error}") from error
 
 
-def answering(handler: Callable[[Services, Any], Reply]) -> Callable[[Services, Any], Reply]:
+def answer_refusals(handler: Callable[[Services, Any], Reply]) -> Callable[[Services, Any], Reply]:
     """Return a refusal as the answer of a service."""
 
     @functools.wraps(handler)
@@ -59,7 +59,7 @@ def answering(handler: Callable[[Services, Any], Reply]) -> Callable[[Services, 
     return answer
 
 
-def done(message: str, **fields: Any) -> Reply:
+def success(message: str, **fields: Any) -> Reply:
     """Return the answer of a successful service."""
     return {"success": True, "status_message": message, **fields}
 
@@ -109,12 +109,12 @@ class Services:
 
     # -- models come and go --------------------------------------------------------------------------------------
 
-    @answering
+    @answer_refusals
     def spawn_urdf(self, request: Any) -> Reply:
         """Insert the robot described by a URDF."""
         return self._spawn(request, ("robot",), "SpawnModel: Failure - model format is not URDF.")
 
-    @answering
+    @answer_refusals
     def spawn_sdf(self, request: Any) -> Reply:
         """Insert the model described by an SDF (or a URDF, as in Gazebo)."""
         return self._spawn(
@@ -126,67 +126,69 @@ class Services:
 
     def _spawn(self, request: Any, tags: tuple[str, ...], wrong: str) -> Reply:
         world, name = self.world, request.model_name
-        with otherwise("SpawnModel: Failure -"):
+        with refusing_with("SpawnModel: Failure -"):
             if parse(request.model_xml, "model_xml").tag not in tags:
                 raise Refusal(wrong)
             if name in world.models:
                 raise Refusal("SpawnModel: Failure - entity already exists.")
-            with otherwise(f"SpawnModel: reference reference_frame not found, {SCOPE.format('link')}"):
+            with refusing_with(f"SpawnModel: reference reference_frame not found, {SCOPE.format('link')}"):
                 frame, _ = world.frame(request.reference_frame)
             pose = compose(frame, pose_of(request.initial_pose))
             model = spawn_text(world, request.model_xml, name, pose, namespace=request.robot_namespace)
         world.node.loginfo(f"{model!r} came into the world {world.name!r}")
-        return done("SpawnModel: Successfully spawned entity")
+        return success("SpawnModel: Successfully spawned entity")
 
-    @answering
+    @answer_refusals
     def delete_model(self, request: Any) -> Reply:
         """Remove a model."""
-        with otherwise("DeleteModel: model does not exist:"):
+        with refusing_with("DeleteModel: model does not exist:"):
             self.world.delete(request.model_name)
-        return done("DeleteModel: successfully deleted model")
+        return success("DeleteModel: successfully deleted model")
 
     # -- poses and velocities ------------------------------------------------------------------------------------
 
-    @answering
+    @answer_refusals
     def get_model_state(self, request: Any) -> Reply:
         """Return pose and velocity of a model, relative to another one or the world."""
         name, other = request.model_name, request.relative_entity_name
-        with otherwise("GetModelState: model does not exist:"):
+        with refusing_with("GetModelState: model does not exist:"):
             model = self.world.model(name)
-        with otherwise(f"GetModelState: reference relative_entity_name not found, {SCOPE.format('body')}"):
+        with refusing_with(
+            f"GetModelState: reference relative_entity_name not found, {SCOPE.format('body')}"
+        ):
             pose, velocity = relative((model.pose, model.velocity), self.world.frame(other))
         seq = self._counts[name] = self._counts.get(name, 0) + 1
         header = message_class("std_msgs/Header")(seq=seq, stamp=self.world.host.stamp, frame_id=other)
-        return done(
+        return success(
             "GetModelState: got properties",
             header=header,
             pose=pose_message(pose),
             twist=twist_message(velocity),
         )
 
-    @answering
+    @answer_refusals
     def set_model_state(self, request: Any) -> Reply:
         """Move a model to another pose."""
         state = request.model_state
-        with otherwise("SetModelState: model does not exist:"):
+        with refusing_with("SetModelState: model does not exist:"):
             model = self.world.model(state.model_name)
-        with otherwise("SetModelState: specified reference frame entity does not exist:"):
+        with refusing_with("SetModelState: specified reference frame entity does not exist:"):
             frame, _ = self.world.frame(state.reference_frame)
         vx, vy, w = state.twist.linear.x, state.twist.linear.y, state.twist.angular.z
         c, s = math.cos(frame[5]), math.sin(frame[5])
-        with otherwise("SetModelState:"):
+        with refusing_with("SetModelState:"):
             self.world.move(model, compose(frame, pose_of(state.pose)), (c * vx - s * vy, s * vx + c * vy, w))
-        return done("SetModelState: set model state done")
+        return success("SetModelState: set model state done")
 
-    @answering
+    @answer_refusals
     def get_link_state(self, request: Any) -> Reply:
         """Return pose and velocity of a link."""
-        with otherwise(f"GetLinkState: link not found, {SCOPE.format('link')}"):
+        with refusing_with(f"GetLinkState: link not found, {SCOPE.format('link')}"):
             model, link = self._link(request.link_name)
-        with otherwise(f"GetLinkState: reference reference_frame not found, {SCOPE.format('link')}"):
+        with refusing_with(f"GetLinkState: reference reference_frame not found, {SCOPE.format('link')}"):
             frame = self.world.frame(request.reference_frame)
         pose, velocity = relative((model.link_pose(link), model.link_velocity(link)), frame)
-        return done(
+        return success(
             "GetLinkState: got state",
             link_state=message_class("gazebo_msgs/LinkState")(
                 link_name=request.link_name,
@@ -196,18 +198,18 @@ class Services:
             ),
         )
 
-    @answering
+    @answer_refusals
     def set_link_state(self, request: Any) -> Reply:
         """Move a model so that one of its links has the given pose."""
         state = request.link_state
-        with otherwise("SetLinkState: link does not exist:"):
+        with refusing_with("SetLinkState: link does not exist:"):
             model, link = self._link(state.link_name)
-        with otherwise("SetLinkState: failed:"):
+        with refusing_with("SetLinkState: failed:"):
             frame, _ = self.world.frame(state.reference_frame)
             target = compose(frame, pose_of(state.pose))
             velocity = (state.twist.linear.x, state.twist.linear.y, state.twist.angular.z)
             self.world.move(model, compose(target, inverse(model.link_frame(link))), velocity)
-        return done("SetLinkState: success")
+        return success("SetLinkState: success")
 
     def _link(self, name: str) -> tuple[Model, str]:
         """Return the model and the link named by model::link. Raises `UnknownEntity`."""
@@ -223,13 +225,13 @@ class Services:
 
     # -- properties ----------------------------------------------------------------------------------------------
 
-    @answering
+    @answer_refusals
     def get_model_properties(self, request: Any) -> Reply:
         """Return the links, shapes and joints of a model."""
-        with otherwise("GetModelProperties: model does not exist:"):
+        with refusing_with("GetModelProperties: model does not exist:"):
             model = self.world.model(request.model_name)
         links = list(model.links)
-        return done(
+        return success(
             "GetModelProperties: got properties",
             canonical_body_name=links[0] if links else "",
             body_names=links,
@@ -241,23 +243,23 @@ class Services:
 
     def get_world_properties(self, _: Any) -> Reply:
         """Return the time and the names of all models."""
-        return done(
+        return success(
             "GetWorldProperties: got properties",
             sim_time=self.world.now,
             model_names=list(self.world.models),
             rendering_enabled=True,
         )
 
-    @answering
+    @answer_refusals
     def get_link_properties(self, request: Any) -> Reply:
         """Return the mass and the inertia of a link."""
-        with otherwise(f"GetLinkProperties: link not found, {SCOPE.format('link')}"):
+        with refusing_with(f"GetLinkProperties: link not found, {SCOPE.format('link')}"):
             model, name = self._link(request.link_name)
             if name not in model.links:
                 raise UnknownEntity(f"the link {name!r} has become part of {model.frames[name][0]!r}")
         inertial = next(link.inertial for called, link, _ in placed_links(model.sdf) if called == name)
         inertia = zip(("ixx", "iyy", "izz", "ixy", "ixz", "iyz"), inertial.inertia, strict=True)
-        return done(
+        return success(
             "GetLinkProperties: got properties",
             com=pose_message(inertial.pose),
             gravity_mode=True,
@@ -265,7 +267,7 @@ class Services:
             **dict(inertia),
         )
 
-    @answering
+    @answer_refusals
     def get_joint_properties(self, request: Any) -> Reply:
         """Return the position and rate of a joint."""
         for model in self.world.models.values():
@@ -273,13 +275,13 @@ class Services:
                 if joint.name == request.joint_name:
                     position, rate = model.joint(joint.name)
                     message, kind = "GetJointProperties: got properties", JOINTS.get(joint.type, 0)
-                    return done(message, type=kind, position=[position], rate=[rate])
+                    return success(message, type=kind, position=[position], rate=[rate])
         raise Refusal("GetJointProperties: joint not found")
 
-    @answering
+    @answer_refusals
     def set_model_configuration(self, request: Any) -> Reply:
         """Check the positions: only driven wheels move here, so no position other than the current one is accepted."""
-        with otherwise("SetModelConfiguration: model does not exist:"):
+        with refusing_with("SetModelConfiguration: model does not exist:"):
             model = self.world.model(request.model_name)
             if len(request.joint_names) != len(request.joint_positions):
                 raise Refusal("SetModelConfiguration: joint name and position list have different lengths")
@@ -289,7 +291,7 @@ class Services:
                         f"SetModelConfiguration: the joint {name!r} cannot be put to {position:g}: rosmini moves no "
                         "joints but driven wheels"
                     )
-        return done("SetModelConfiguration: success")
+        return success("SetModelConfiguration: success")
 
     # -- physics -------------------------------------------------------------------------------------------------
 
@@ -301,23 +303,23 @@ class Services:
         response.status_message = "GetPhysicsProperties: got properties"
         return response
 
-    @answering
+    @answer_refusals
     def set_physics(self, request: Any) -> Reply:
         """Change the physics settings."""
-        with otherwise("physics engine not updated:"):
+        with refusing_with("physics engine not updated:"):
             self._set_physics(PhysicsProperties.of_request(request))
-        return done("physics engine updated")
+        return success("physics engine updated")
 
-    @answering
+    @answer_refusals
     def apply_body_wrench(self, request: Any) -> Reply:
         """Apply a force to a model for a while."""
-        with otherwise("ApplyBodyWrench: body does not exist:"):
+        with refusing_with("ApplyBodyWrench: body does not exist:"):
             model, link = self._link(request.body_name)
-        with otherwise("ApplyBodyWrench: reference_frame not found:"):
+        with refusing_with("ApplyBodyWrench: reference_frame not found:"):
             frame, _ = self.world.frame(request.reference_frame)
-        with otherwise("ApplyBodyWrench:"):
+        with refusing_with("ApplyBodyWrench:"):
             self.world.wrenches.apply(model, link, frame, request)
-        return done("")
+        return success("")
 
     def clear_body_wrenches(self, request: Any) -> Reply:
         """Stop all forces on a body."""

@@ -29,5 +29,5 @@ def spawn_text(world: GazeboWorld, text: str, name: str, pose: Pose6 | None, *, 
     """Insert the model described by a text. Raises `SpawnError` and the readers' errors."""
     converted = model_of_text(text)
     if converted.warnings:
-        world.node.logwarn("\n".join([f"the model {name!r} is not whole:", *converted.warnings]))
+        world.node.logwarn("\n".join([f"the model {name!r} is incomplete:", *converted.warnings]))
     return world.spawn(converted.model, name, pose, namespace=namespace, frames=converted.frames)

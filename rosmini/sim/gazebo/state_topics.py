@@ -62,12 +62,12 @@ class StateTopics:
             ("~set_model_state", "ModelState", services.set_model_state),
             ("~set_link_state", "LinkState", services.set_link_state),
         ):
-            node.subscriber(name, message_class(f"gazebo_msgs/{kind}"), _taking(node, kind, handler))
+            node.subscriber(name, message_class(f"gazebo_msgs/{kind}"), _callback(node, kind, handler))
         host.add(_States(host, world, "~model_states", "gazebo_msgs/ModelStates", rate))
         host.add(_LinkStates(host, world, "~link_states", "gazebo_msgs/LinkStates", rate))
 
 
-def _taking(node: Node, kind: str, handler: Callable[[Any], dict[str, Any]]) -> Callable[[Any], None]:
+def _callback(node: Node, kind: str, handler: Callable[[Any], dict[str, Any]]) -> Callable[[Any], None]:
     """Return a callback that handles a message like the service's request and logs a refusal."""
     field = {"ModelState": "model_state", "LinkState": "link_state"}[kind]
 

@@ -55,7 +55,7 @@ class Wrenches:
             )
         force, torque, point = request.wrench.force, request.wrench.torque, request.reference_point
         if not all(math.isfinite(each) for each in (force.x, force.y, torque.z, point.x, point.y)):
-            raise GazeboError("a force has to be finite")
+            raise GazeboError("a force must be finite")
         c, s = math.cos(frame[5]), math.sin(frame[5])
         fx, fy = c * force.x - s * force.y, s * force.x + c * force.y
         turn = torque.z + point.x * force.y - point.y * force.x

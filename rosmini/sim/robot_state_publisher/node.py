@@ -65,7 +65,7 @@ class RobotStatePublisher:
             node.logwarn(doubt)
         for name in self.chain.floating:
             node.loginfo(
-                f"Floating joint {name}: joint_states cannot tell where it is, so nothing is said of it"
+                f"Floating joint {name}: joint_states cannot contain its pose, so no transform is published"
             )
         self._broadcaster = TransformBroadcaster(node, self.prefix)
         period = self.interval_ns / SECOND_NS
@@ -127,8 +127,9 @@ class RobotStatePublisher:
             if name not in self.robot.joints and name not in self._unknown:
                 self._unknown.add(name)
                 hint = nearest(name, self.robot.joints)
+                more = f": {hint}" if hint else ""
                 self.node.logwarn(
-                    f"joint_states tells of {name}, which {self.robot.name!r} has not{f': {hint}' if hint else ''}"
+                    f"joint_states contains {name}, which {self.robot.name!r} does not have{more}"
                 )
         self._send(self._broadcaster, self.chain.transforms(dict(zip(names, positions, strict=True))), stamp)
         self._told.update(dict.fromkeys(names, stamp))

@@ -42,7 +42,7 @@ def _pose(element: Element) -> Pose6:
             element.text or "0 0 0 0 0 0 1", 7, "<pose> of a quaternion", most=FARTHEST
         )
         if not any(quaternion):
-            raise element.error("a quaternion of four zeros is no rotation; none at all is 0 0 0 1")
+            raise element.error("a quaternion of four zeros is not a rotation; the identity is 0 0 0 1")
         return (x, y, z, *from_quaternion(*quaternion))
     x, y, z, roll, pitch, yaw = element.floats(element.text or "0 0 0 0 0 0", 6, most=FARTHEST)
     if element.get("degrees", "false").strip().lower() in ("true", "1"):

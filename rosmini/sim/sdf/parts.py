@@ -146,7 +146,7 @@ def link(element: Element, scope: Scope, reading: Reading) -> SdfLink:
     here = scope.place(name_of(element), element)
     reading.unknown(element, LINK_TAGS)
     for light in element.all("light"):
-        reading.note(light, "a light: left out, all is lit alike", left_out="a light")
+        reading.note(light, "a light: left out, the light is the same everywhere", left_out="a light")
     return SdfLink(
         name_of(element),
         here,

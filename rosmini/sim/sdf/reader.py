@@ -55,7 +55,7 @@ def _document(root: Element, reading: Reading) -> Sdf:
     reading.cut(root)
     reading.unknown(root, ("world", "model", "actor", "light", "include"))
     for light in root.all("light"):
-        reading.note(light, "a light: left out, all is lit alike", left_out="a light")
+        reading.note(light, "a light: left out, the light is the same everywhere", left_out="a light")
     scope = Scope("world", what="the file")
     worlds = tuple(_world(each, reading) for each in unique(root.all("world"), "world"))
     models = tuple(_model(each, given(each).pose, reading, 0) for each in unique(root.all("model"), "model"))
@@ -69,7 +69,7 @@ def _document(root: Element, reading: Reading) -> Sdf:
 def _world(element: Element, reading: Reading) -> SdfWorld:
     reading.unknown(element, WORLD_TAGS)
     for left_out in element.all("light", "road", "population", "joint"):
-        why = "all is lit alike" if left_out.tag == "light" else "rosmini has none in a world"
+        why = "the light is the same everywhere" if left_out.tag == "light" else "rosmini has none in a world"
         reading.note(left_out, f"a {left_out.tag}: left out, {why}", left_out=f"a {left_out.tag}")
     name = name_of(element)
     scope = Scope("world", what=f"the world {name!r}")

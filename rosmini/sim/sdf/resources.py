@@ -89,7 +89,7 @@ class Resources:
             try:
                 path = Path(files.path_of(uri.strip()))
             except OSError as error:
-                raise asked.error(f"{uri!r} is no address of a file") from error
+                raise asked.error(f"{uri!r} is not the address of a file") from error
             for folder in [] if path.is_absolute() else [_beside(asked), *_listed(RESOURCE_PATH)]:
                 if files.exists(folder / path):
                     return folder / path

@@ -131,7 +131,7 @@ def _aslant(pose: Pose6) -> str:
     """Return a remark if none of the axes of a pose is upright."""
     if (np.abs(np.abs(matrix(pose)[2, :3]) - 1) < 1e-6).any():
         return ""
-    return "stands aslant; it is taken as its shadow, from its lowest to its highest point"
+    return "is tilted; it is replaced with its shadow, from its lowest to its highest point"
 
 
 def _box(geometry: SdfGeometry, pose: Pose6) -> Found:
@@ -150,7 +150,11 @@ def _cylinder(geometry: SdfGeometry, pose: Pose6) -> Found:
     ring = np.stack([r * np.cos(angles), r * np.sin(angles)], axis=1)
     ends = np.vstack([np.column_stack([ring, np.full(ROUND, z)]) for z in (-half, half)])
     lying = abs(matrix(pose)[2, 2]) < 1e-6
-    note = "lies on its side; it is taken as its shadow, as wide at every height" if lying else _aslant(pose)
+    note = (
+        "lies on its side; it is replaced with its shadow, as wide at every height"
+        if lying
+        else _aslant(pose)
+    )
     return _shadow(_moved(ends, pose)), note
 
 

@@ -138,7 +138,7 @@ class Battery:
         """
         if not (0.0 <= power < math.inf and 0.0 <= duration < math.inf):
             raise BatteryError(
-                f"a battery cannot give {power} W for {duration} s: both have to be finite, and 0 or more"
+                f"a battery cannot give {power} W for {duration} s: both must be finite, and 0 or more"
             )
         self._power = power
         steps = math.ceil(duration / STEP)

@@ -92,7 +92,7 @@ def eye_of(camera: CameraModel, pose: Pose, height: float = 0.0, roll: float = 0
     x, y, theta = (float(v) for v in pose)
     if not all(map(math.isfinite, (x, y, theta, height, roll))):
         raise CameraError(
-            f"a camera cannot look from ({x}, {y}, {theta}), {height} m up: that has to be finite"
+            f"a camera cannot look from ({x}, {y}, {theta}), {height} m up: that must be finite"
         )
     mx, my, mz = camera.mount
     c, s = math.cos(theta), math.sin(theta)

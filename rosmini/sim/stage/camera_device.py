@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.poses import compose
-from rosmini.sim.devices.camera import CameraDevice, heard, image_message, info_message
+from rosmini.sim.devices.camera import CameraDevice, has_subscriber, image_message, info_message
 from rosmini.sim.devices.sensor import Outlet
 from rosmini.sim.host import Host, Stamp
 from rosmini.sim.models import CameraModel
@@ -81,7 +81,7 @@ class StageCameraDevice(CameraDevice):
 
     def wanted(self) -> bool:
         """Return True if the images or depths have a subscriber; camera_info alone is not published."""
-        return heard(self._image) or heard(self._depth)
+        return has_subscriber(self._image) or has_subscriber(self._depth)
 
     def eye(self) -> Eye:
         """Return its current position and orientation."""
@@ -95,7 +95,7 @@ class StageCameraDevice(CameraDevice):
         image, depths = capture(self.eye(), self.robot.pose, self._scene())
         opaque = np.full((*image.shape[:2], 1), 255, dtype=np.uint8)
         self.publish_pixels(stamp, np.concatenate([image, opaque], axis=2), self._measured(depths))
-        if self._info is not None and self._info.heard():
+        if self._info is not None and self._info.num_connections():
             self._info.publish(stamp)
 
     def _measured(self, depths: NDArray[np.float32]) -> NDArray[Any]:

@@ -14,7 +14,7 @@ from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import Pose
 from rosmini.msgs import message_class
 from rosmini.sim.devices import DifferentialDrive, GroundTruth, OdometryTransforms, RangeDevice
-from rosmini.sim.devices.drive import Reckoned
+from rosmini.sim.devices.drive import OdometryReading
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.messages import MakeTransform, fixed_transform, moving_transform, odometry_values
 from rosmini.sim.models import LidarModel
@@ -88,7 +88,7 @@ class StageBase(DifferentialDrive):
     def _update(self) -> None:
         self.reckoning.advance(self.host.engine.now)
         v, aside, w = self.reckoning.velocity
-        self.reckoned = Reckoned(self.reckoning.pose(self.robot.pose), v, aside, w)
+        self.reckoned = OdometryReading(self.reckoning.pose(self.robot.pose), v, aside, w)
 
     def reset(self) -> None:
         """Stop. The estimated pose stays the same, as in Stage."""
@@ -112,7 +112,7 @@ class StageTruth(GroundTruth):
     """
 
     always = True
-    kept = ("_before",)
+    saved = ("_before",)
 
     def __init__(self, host: Host, name: str, names: Names) -> None:
         what = "base_pose_ground_truth"

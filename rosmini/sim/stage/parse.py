@@ -155,7 +155,7 @@ class _Parser:
         macro = _Macro(name.text, base.text, _between(words, name), define.place)
         if macro.name in self._macros:
             first = self._macros[macro.name].place
-            what = f"{macro.name} is defined already, in {first}, and stays what it is"
+            what = f"{macro.name} is defined already, in {first}, and keeps its first definition"
             self._parsed.notes.append((define.place, what))
             return
         self._macros[macro.name] = macro

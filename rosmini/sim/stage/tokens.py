@@ -79,7 +79,7 @@ def _complaint(text: str, at: int) -> str:
         return f"{piece} is no number for Stage, which knows no exponents: write it out with its zeros"
     if re.match(r"[-+.\d]", piece):
         return f"{piece} is no number"
-    return f"nothing in a world file begins with {piece}; a string has to be in double quotes"
+    return f"nothing in a world file begins with {piece}; a string must be in double quotes"
 
 
 def read(path: Path) -> Iterator[Token]:

@@ -80,7 +80,7 @@ class Reader:
         if choices and value not in choices:
             hint = nearest(value, choices)
             options = " or ".join(f'"{choice}"' for choice in choices)
-            what = f'{name} is "{value}", and it has to be {options}; "{default}" is used, as in Stage'
+            what = f'{name} is "{value}", and it must be {options}; "{default}" is used, as in Stage'
             self.units.note(found.place, f"{what}{'; ' + hint if hint else ''}")
             return default
         return value
@@ -99,7 +99,7 @@ class Reader:
             )
             return minimum
         if above is not None and value <= above:
-            raise StageError(found.place, f"{name} is {value:g}; it has to be more than {above:g}")
+            raise StageError(found.place, f"{name} is {value:g}; it must be more than {above:g}")
         return value
 
     def whole(self, name: str, default: int, *, minimum: int | None = None) -> int:

@@ -112,7 +112,7 @@ class _World:
         speedup = self._speedup(reader)
         things = Maker(parsed, units).things()
         for thing in things:
-            self._take(thing)
+            self._add_model(thing)
         for thing in things:
             for each in thing.family():
                 each.reader.done((*UNUSED, *KNOWN[each.kind]))
@@ -161,7 +161,7 @@ class _World:
             self.units.note(reader.place("paused"), what)
         return paused
 
-    def _take(self, thing: Thing) -> None:
+    def _add_model(self, thing: Thing) -> None:
         """Add a top-level model to the world."""
         if thing.kind == "position":
             if len(self.robots) == MOST_ROBOTS:
@@ -176,15 +176,15 @@ class _World:
                 self.units.note(each.place, "{} is on no position: stageros does not find it", each.name)
         bodies = [each for each in thing.family() if each.body is not None]
         if thing.pushable and thing.solid:
-            self._push(thing, bodies)
+            self._add_movable(thing, bodies)
             return
         for each in bodies:
-            self._stand(each)
+            self._add_fixed(each)
 
-    def _stand(self, thing: Thing) -> None:
+    def _add_fixed(self, thing: Thing) -> None:
         """Add a fixed model."""
         body = thing.body
-        if body is None or not self._there(thing):
+        if body is None or not self._has_effect(thing):
             return
         blocks = body.blocks
         if body.traced and solid(thing, blocks[0]).bottom <= 0 and not self.walls:
@@ -199,11 +199,11 @@ class _World:
         for each in (*blocks, *body.boundary):
             self._obstacle(thing, each)
 
-    def _push(self, thing: Thing, bodies: list[Thing]) -> None:
+    def _add_movable(self, thing: Thing, bodies: list[Thing]) -> None:
         """Add a model that can be pushed, with all models on it."""
         blocks: list[tuple[Thing, Block]] = []
         for each in bodies:
-            if each.body is not None and self._there(each):
+            if each.body is not None and self._has_effect(each):
                 if not each.solid:
                     what = "{} is on a thing that can be pushed, so that robots bump into it, too"
                     self.units.note(each.place, what, each.name)
@@ -212,7 +212,7 @@ class _World:
             return
         mass = thing.mass
         if mass <= 0:
-            what = f"{{}} can be pushed, so its mass has to be more than 0; {MASS:g} kg are used"
+            what = f"{{}} can be pushed, so its mass must be more than 0; {MASS:g} kg are used"
             self.units.note(thing.reader.place("mass"), what, thing.name)
             mass = MASS
         solids = [solid(owner, each) for owner, each in blocks]
@@ -226,7 +226,7 @@ class _World:
             parts = Compound(tuple(each.seen_from(pose) for each in solids))
             self._add(thing, Solid(parts, pose, low, high), mass)
 
-    def _there(self, thing: Thing) -> bool:
+    def _has_effect(self, thing: Thing) -> bool:
         """Return True if robots collide with the model or lasers see it; add a note otherwise."""
         if thing.solid or thing.seen >= 0:
             return True

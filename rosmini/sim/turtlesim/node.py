@@ -68,7 +68,7 @@ class TurtleSim:
         self.parameters = TurtleSimParameters.read(node)
         rng = node.graph.rng(f"{node.name}/turtles")
         self.frame = Frame(self.parameters.background, lambda: int(rng.integers(len(DRAWINGS))))
-        self._plugs: dict[str, Plugs] = {}
+        self._interfaces: dict[str, TurtleInterface] = {}
         self._tapes: list[Tape] = []
         self._requests: list[tuple[Callable[[], object], Waiter]] = []
         self._clock = GraphClock(node.scheduler)
@@ -140,14 +140,14 @@ class TurtleSim:
         holonomic = self.parameters.holonomic
         turtle = self.frame.spawn(x, y, theta, name, holonomic=holonomic)
         try:
-            plugs = Plugs(self, turtle)
+            interface = TurtleInterface(self, turtle)
         except BaseException:
             self.frame.turtles.pop(turtle.name, None)
             raise
         if self.frame.turtles.get(turtle.name) is not turtle:  # killed while its topics were created
-            plugs.pull()
+            interface.close()
             raise TurtleError(f"turtle {turtle.name} was killed before it had its topics")
-        self._plugs[turtle.name] = plugs
+        self._interfaces[turtle.name] = interface
         self.node.loginfo(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
         return turtle.name
 
@@ -175,13 +175,13 @@ class TurtleSim:
         except TurtleError as error:
             self.node.logerr(f"Tried to kill turtle [{request.name}], which does not exist")
             raise ServiceRefused from error
-        self._pull(turtle)
+        self._close_interface(turtle)
         return []
 
     def _reset(self, _: Any) -> list[Any]:
         self.node.loginfo("Resetting turtlesim.")
         for turtle in self.frame.reset():
-            self._pull(turtle)
+            self._close_interface(turtle)
         self.spawn(*START)
         self.frame.paper.clear(self._background())
         return []
@@ -200,10 +200,10 @@ class TurtleSim:
             self.node.logerr(f"the background stays as it is: {error}")
             return self.frame.paper.background
 
-    def _pull(self, turtle: Turtle) -> None:
-        plugs = self._plugs.pop(turtle.name, None)
-        if plugs is not None:
-            plugs.pull()
+    def _close_interface(self, turtle: Turtle) -> None:
+        interface = self._interfaces.pop(turtle.name, None)
+        if interface is not None:
+            interface.close()
 
     def _refused(self, error: RosminiError) -> ServiceRefused:
         self.node.logerr(error)
@@ -242,14 +242,14 @@ class TurtleSim:
         frame, now = self.frame, self._clock.now_ns() * 1e-9
         if frame.updates:  # the first one only reads the clock, as in ROS
             for turtle in frame.turtles.values():
-                plugs = self._plugs.get(turtle.name)
-                if plugs is None:  # its topics are being created
+                interface = self._interfaces.get(turtle.name)
+                if interface is None:  # its topics are being created
                     continue
                 bump = turtle.move(now, frame.paper)
                 if bump is not None:
                     x, y = bump
                     self.node.logwarn(f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])")
-                plugs.publish(turtle)
+                interface.publish(turtle)
                 turtle.draw(frame.paper)
         frame.updates += 1
         if self._tapes:
@@ -258,7 +258,7 @@ class TurtleSim:
             self._tapes = [tape for tape in self._tapes if tape.is_running]
 
 
-class Plugs:
+class TurtleInterface:
     """The topics and services of one turtle."""
 
     def __init__(self, sim: TurtleSim, turtle: Turtle) -> None:
@@ -281,7 +281,7 @@ class Plugs:
             )
         ]
 
-    def pull(self) -> None:
+    def close(self) -> None:
         """Close all topics and services."""
         for service in self._services:
             service.shutdown("the turtle is gone")

@@ -52,7 +52,7 @@ def finite(name: str, **numbers: float) -> None:
     wrong = {field: value for field, value in numbers.items() if not math.isfinite(value)}
     if wrong:
         given = ", ".join(f"{field} = {value}" for field, value in wrong.items())
-        raise TurtleError(f"{name}: {given} is no number that a turtle can be at; give finite ones")
+        raise TurtleError(f"{name}: {given} is not a valid number for a turtle; give finite numbers")
 
 
 class Turtle:
@@ -124,7 +124,7 @@ class Turtle:
         """
         if not (abs(forward) <= FASTEST and abs(sideways) <= FASTEST and abs(angular) <= FASTEST):
             raise TurtleError(
-                f"{self.name}: velocities have to be finite numbers, and the command was linear "
+                f"{self.name}: velocities must be finite numbers, and the command was linear "
                 f"({forward}, {sideways}) m/s, angular {angular} rad/s"
             )
         self._command = forward, sideways if self.holonomic else 0.0, angular

@@ -269,7 +269,7 @@ class _Reader:
             try:
                 plain = files.path_of(filename)
             except OSError as error:
-                raise element.error(f"the mesh {filename!r} is no address of a file") from error
+                raise element.error(f"the mesh {filename!r} is not the address of a file") from error
         path = Path(self.root.path).parent / plain
         if not files.is_file(path):
             raise element.error(f"the mesh is missing: there is no file {path}")

@@ -90,7 +90,7 @@ def _process(
     from xacro import substitution_args
 
     known: list[str] = []
-    with _lent(xacro, substitution_args, file if confined else None, index, known):
+    with _patched_xacro(xacro, substitution_args, file if confined else None, index, known):
         try:
             document: xml.dom.minidom.Document = xacro.process_file(str(file), mappings=dict(mappings))
         # Expressions are Python: whatever they raise, the description is invalid.
@@ -114,7 +114,7 @@ def _process(
 
 
 @contextmanager
-def _lent(
+def _patched_xacro(
     xacro: Any, substitution: Any, confined: Path | None, index: PackageIndex, known: list[str]
 ) -> Iterator[None]:
     """Make xacro use our package index, our file reading and our limits; restore its globals afterwards.
@@ -151,8 +151,8 @@ def _lent(
     for_xacro = {} if limits is None else limits.for_xacro()
     for_substitution = {} if limits is None else limits.for_substitution()
     with (
-        _set(substitution, _eval_find=find, **for_substitution),
-        _set(
+        _patched(substitution, _eval_find=find, **for_substitution),
+        _patched(
             xacro,
             parse=read,
             filestack=None,
@@ -173,7 +173,7 @@ def _lent(
 
 
 @contextmanager
-def _set(module: Any, **values: Any) -> Iterator[None]:
+def _patched(module: Any, **values: Any) -> Iterator[None]:
     """Set names in a module for the duration of a block."""
     before = {name: getattr(module, name) for name in values}
     for name, value in values.items():

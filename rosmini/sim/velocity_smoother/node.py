@@ -102,7 +102,7 @@ class VelocitySmootherNode:
             if not self._quiet:
                 self._quiet = True
                 self.node.logwarn(
-                    f"a command of {v} m/s and {w} rad/s came in: a velocity has to be a finite number. It counts as "
+                    f"a command of {v} m/s and {w} rad/s came in: a velocity must be a finite number. It counts as "
                     "a stop, and so will others, without another warning."
                 )
             v = w = 0.0

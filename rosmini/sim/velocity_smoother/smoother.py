@@ -98,7 +98,7 @@ class VelocitySmoother:
     def __init__(self, limits: Limits | None = None, *, period: float = 0.05, feedback: str = "none") -> None:
         if not 0 < period < math.inf:
             raise RosminiError(
-                f"the time between two outputs has to be a positive number of seconds, not {period}"
+                f"the time between two outputs must be a positive number of seconds, not {period}"
             )
         if feedback not in FEEDBACK:
             raise RosminiError(f"there is no feedback {feedback!r}; it is one of {', '.join(FEEDBACK)}")
@@ -118,9 +118,7 @@ class VelocitySmoother:
     def command(self, v: float, w: float, now: float) -> None:
         """Set the target. Raises `RosminiError` for a number that is not finite."""
         if not (math.isfinite(v) and math.isfinite(w)):
-            raise RosminiError(
-                f"a velocity of {v} m/s and {w} rad/s cannot be smoothed: both have to be finite"
-            )
+            raise RosminiError(f"a velocity of {v} m/s and {w} rad/s cannot be smoothed: both must be finite")
         self._record.append(now - self._heard)
         self._heard = now
         self.active = True

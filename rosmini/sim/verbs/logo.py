@@ -69,7 +69,7 @@ def _draw(logo: Logo, program: str | None, given: Values, call: Call) -> Result:
 def _converse(logo: Logo, call: Call) -> None:
     """Read lines and run them, until `bye` or the end of input; an error or Ctrl-C ends only the program."""
     if call.read_line is None:
-        raise RosminiError("nobody can type here: name a file, or use %%logo in a notebook")
+        raise RosminiError("no input is available here: name a file, or use %%logo in a notebook")
     text = ""
     while True:
         print(MORE if text else PROMPT, end="", flush=True)

@@ -75,7 +75,7 @@ def world_from_sdf(path: str | os.PathLike[str], *, name: str = "", title: str =
     made, notes = sdf_world(path, name=name, title=title)
     wrong = [str(note) for note in notes if note.warning]
     if wrong:
-        warnings.warn("\n".join([f"the world {made.name!r} is not whole:", *wrong]), stacklevel=2)
+        warnings.warn("\n".join([f"the world {made.name!r} is incomplete:", *wrong]), stacklevel=2)
     return made
 
 

@@ -61,7 +61,7 @@ def random_world(
     found = plan.free_places(starts)
     if len(found) < starts:
         raise WorldError(
-            f"in a world of {size[0]:g} m by {size[1]:g} m with so many things there is no room for {starts} starts"
+            f"in a world of {size[0]:g} m by {size[1]:g} m with these obstacles there is no room for {starts} starts"
         )
     return World(
         f"random_{seed}",
@@ -75,14 +75,14 @@ def random_world(
 def _check(size: tuple[float, float], **counts: int) -> None:
     if len(size) != 2 or not all(is_finite(side) and NARROWEST <= side <= MOST for side in size):
         raise WorldError(
-            f"size is {shown(size)}; it has to be a length and a width of {NARROWEST:g} m to {MOST} m"
+            f"size is {shown(size)}; it must be a length and a width of {NARROWEST:g} m to {MOST} m"
         )
     for name, value in counts.items():
         least = 1 if name in ("rooms", "starts") else 0
         if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
-            raise WorldError(f"{name} is {shown(value)}; it has to be a whole number, {least} or more")
+            raise WorldError(f"{name} is {shown(value)}; it must be a whole number, {least} or more")
         if name != "seed" and value > MOST:
-            raise WorldError(f"{name} is {value}; it has to be {MOST} or less")
+            raise WorldError(f"{name} is {value}; it must be {MOST} or less")
 
 
 Floats = NDArray[np.float64]

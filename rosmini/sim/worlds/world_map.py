@@ -31,7 +31,7 @@ def to_map(world: World, resolution: float = 0.05, *, height: float = 0.15) -> G
     resolution that is not positive, or so fine that there would be more than 100 million cells.
     """
     if not (np.isfinite(resolution) and resolution > 0):
-        raise WorldError(f"the resolution of a map is {resolution!r}; it has to be a finite number above 0")
+        raise WorldError(f"the resolution of a map is {resolution!r}; it must be a finite number above 0")
     x0, y0, x1, y1 = world.bounds
     left, low = (np.floor(edge / resolution) - MARGIN for edge in (x0, y0))
     columns, rows = (int(np.ceil(far / resolution) - near) + MARGIN for far, near in ((x1, left), (y1, low)))

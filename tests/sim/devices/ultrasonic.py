@@ -21,7 +21,7 @@ class Ultrasonic(Sensor):
     default_rate = 10.0
     order = Laser.order + 1  # after the laser
     varying = ("range",)
-    kept = ("rng",)
+    saved = ("rng",)
 
     def __init__(self, *args: Any, noise: float = 0.01, **options: Any) -> None:
         super().__init__(*args, **options)

@@ -195,7 +195,7 @@ def test_all_that_is_visible_is_told_with_its_place_and_colour():
 @pytest.mark.parametrize(
     ("change", "what"),
     [
-        ({"bottom": 0.5}, "top has to be above the bottom"),
+        ({"bottom": 0.5}, "top must be above the bottom"),
         ({"bottom": math.nan}, "bottom is nan"),
         ({"shape": Sphere(0.0)}, "shape.radius is 0.0"),
         ({"shape": Compound(())}, "a compound has one part at least"),
@@ -203,9 +203,9 @@ def test_all_that_is_visible_is_told_with_its_place_and_colour():
         ({"colour": "#12345"}, "six digits"),
         ({"colour": "#gg0000"}, "six digits"),
         ({"colour": "bleu"}, "did you mean blue"),
-        ({"restitution": 1.5}, "restitution is 1.5; it has to be a finite number from 0 to 1"),
+        ({"restitution": 1.5}, "restitution is 1.5; it must be a finite number from 0 to 1"),
         ({"drag": -0.1}, "drag is -0.1"),
-        ({"motion": "walk"}, "it has to be a Walk or a Door"),
+        ({"motion": "walk"}, "it must be a Walk or a Door"),
     ],
 )
 def test_an_impossible_thing_names_what_is_at_fault(change, what):

@@ -70,7 +70,7 @@ def test_an_sdf_text_of_it_reads_back_the_same() -> None:
 
 def test_the_engine_learns_wheels_mass_and_outline() -> None:
     body = Body(converted(urdf(axle=0.1)).model)
-    body.put_on_wheels("left_wheel", "right_wheel", 0.3, 0.05)
+    body.set_wheels("left_wheel", "right_wheel", 0.3, 0.05)
     robot = body.robot_model()
     assert body.axle == pytest.approx((0.1, 0, 0))
     assert robot.mass == pytest.approx(2.2)
@@ -85,7 +85,7 @@ def test_the_engine_learns_wheels_mass_and_outline() -> None:
 
 def test_wheels_that_are_elsewhere_than_the_plugin_says_are_noted() -> None:
     body = Body(converted(urdf()).model)
-    body.put_on_wheels("left_wheel", "right_wheel", 0.4, 0.05)
+    body.set_wheels("left_wheel", "right_wheel", 0.4, 0.05)
     assert "0.300 m apart, but its plugin says 0.4 m" in body.notes[0]
 
 

@@ -308,7 +308,7 @@ def test_physics_can_be_changed(bench: Start) -> None:
     [
         ("time_step", math.nan, "time_step is nan"),
         ("time_step", math.inf, "time_step is inf"),
-        ("time_step", -0.001, r"time_step is -0\.001 s; it has to be from 1e-06 to 1 s"),
+        ("time_step", -0.001, r"time_step is -0\.001 s; it must be from 1e-06 to 1 s"),
         ("time_step", 1e-7, "from 1e-06 to 1 s"),
         ("time_step", 2.0, "from 1e-06 to 1 s"),
         ("max_update_rate", -1.0, "max_update_rate is -1.0 Hz"),

@@ -71,7 +71,7 @@ def test_a_robot_whose_meshes_are_missing_comes_without_them(
     there.graph.run(2.0)
     assert there.pose("r")[0] > 0.2
     said = "".join(capsys.readouterr())
-    assert said.count("the model 'r' is not whole") == 1
+    assert said.count("the model 'r' is incomplete") == 1
     assert said.count("there is no package 'nowhere'") == 2
 
 

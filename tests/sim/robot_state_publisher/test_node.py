@@ -125,7 +125,7 @@ def test_messages_that_say_too_little_or_too_much(graph, capsys):
     said = told.out + told.err
     assert "ignored a JointState of 'wheel_left_joint' and others without positions" in said
     assert "ignored a JointState with 1 names and 2 positions" in said
-    assert "joint_states tells of elbow, which 'turtlebot3_burger' has not" in said
+    assert "joint_states contains elbow, which 'turtlebot3_burger' does not have" in said
     assert heard == []
 
 

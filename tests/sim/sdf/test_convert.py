@@ -95,8 +95,8 @@ def test_what_is_tilted_is_noted_and_what_lies_on_a_side_of_it_is_exact():
         ),
     )
     assert [note.text for note in notes] == [
-        "'c' of the model 'a' stands aslant; it is taken as its shadow, from its lowest to its highest point",
-        "'c' of the model 'c' lies on its side; it is taken as its shadow, as wide at every height",
+        "'c' of the model 'a' is tilted; it is replaced with its shadow, from its lowest to its highest point",
+        "'c' of the model 'c' lies on its side; it is replaced with its shadow, as wide at every height",
     ]
     _, lying, roll = world.obstacles
     assert np.ptp(lying.outline(), axis=0) == pytest.approx((2, 0.5))

@@ -483,7 +483,7 @@ def test_bounds_and_odometry(world):
         ),
         ('model( bitmap "nothing.png" )', 'there is no bitmap "nothing.png" in'),
         ('model( bitmap "text.png" )', "cannot be read: this is no image"),
-        ("interval_sim 0", "interval_sim is 0; it has to be more than 0"),
+        ("interval_sim 0", "interval_sim is 0; it must be more than 0"),
         ("interval_sim []", "there is none in its brackets"),
     ],
 )  # fmt: skip

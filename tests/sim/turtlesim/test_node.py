@@ -266,7 +266,7 @@ def test_whatever_number_comes_the_simulation_goes_on(x: float, y: float, theta:
         elif finite:
             call(sim, service, f"turtlesim/{spec}", *fields)
         else:
-            with pytest.raises(ServiceException, match="is no number that a turtle can be at"):
+            with pytest.raises(ServiceException, match="is not a valid number for a turtle"):
                 call(sim, service, f"turtlesim/{spec}", *fields)
         ear = graph.node("ear")
         for name in sim.turtles:

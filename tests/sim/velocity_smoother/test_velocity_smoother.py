@@ -87,7 +87,7 @@ def test_with_feedback_it_starts_from_the_robots_own_speed():
 
 @pytest.mark.parametrize(("v", "w"), [(math.nan, 0.0), (0.0, math.inf)])
 def test_what_is_no_number_cannot_be_smoothed(v, w):
-    with pytest.raises(RosminiError, match="have to be finite"):
+    with pytest.raises(RosminiError, match="must be finite"):
         VelocitySmoother().command(v, w, 0.0)
 
 
@@ -163,7 +163,7 @@ def test_what_is_no_number_stops_with_one_warning(graph, capsys):
     ears.go(1.0, 0.2)
     ears.go(1.0, math.nan)
     assert ears.heard[-1] == 0.0
-    assert capsys.readouterr().err.count("has to be a finite number") == 1
+    assert capsys.readouterr().err.count("must be a finite number") == 1
 
 
 def test_it_hears_the_robots_odometry(graph):

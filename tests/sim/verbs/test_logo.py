@@ -50,7 +50,7 @@ def test_wrong_words(tmp_path: Path) -> None:
         TOOL.run("--paper", "sqare")
     with pytest.raises(UsageError, match="--paper has one turtle"):
         TOOL.run("--paper", "square", "turtle2")
-    with pytest.raises(RosminiError, match="nobody can type here"):
+    with pytest.raises(RosminiError, match="no input is available here"):
         TOOL.run("--paper")
     bad = tmp_path / "bad.logo"
     bad.write_text("fd 10\nfrwd 10", encoding="utf-8")

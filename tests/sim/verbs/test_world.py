@@ -36,7 +36,7 @@ def test_check_says_what_a_sound_file_is(capsys):
     assert lines[1] == "arena: sound: made in Python: 4 obstacles, 4 starts, 4.2 m by 4.2 m"
     assert "250 x 170 cells of 0.05 m" in lines[2]
     assert lines[-1].startswith("  ")
-    assert lines[-1].endswith("model.sdf:3: a light: left out, all is lit alike")
+    assert lines[-1].endswith("model.sdf:3: a light: left out, the light is the same everywhere")
 
 
 def test_check_knows_stage_worlds_and_robots(capsys, tmp_path):

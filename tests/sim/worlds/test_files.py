@@ -283,7 +283,7 @@ def test_one_warning_lists_all_that_is_wrong_with_a_world(tmp_path):
     )
     with pytest.warns(
         UserWarning,
-        match=r"(?s)the world 'w' is not whole:\n.*w.world:2: this model is left out.*\n.*w.world:3: a mass is more",
+        match=r"(?s)the world 'w' is incomplete:\n.*w.world:2: this model is left out.*\n.*w.world:3: a mass is more",
     ):
         made = world(path)
     assert [each.name for each in made.obstacles] == ["m"]

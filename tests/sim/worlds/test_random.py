@@ -103,7 +103,7 @@ def test_it_can_be_written_for_gazebo():
         ({"size": (1, 5)}, "size"),
         ({"size": (math.nan, 5)}, "size"),
         ({"seed": -1}, "seed is -1"),
-        ({"seed": "one"}, "seed is 'one'; it has to be a whole number, 0 or more"),
+        ({"seed": "one"}, "seed is 'one'; it must be a whole number, 0 or more"),
         ({"rooms": 0}, "rooms is 0"),
         ({"obstacles": -1}, "obstacles is -1"),
         ({"starts": 1.5}, "starts is 1.5"),
@@ -124,7 +124,7 @@ def test_a_seed_may_come_from_numpy():
 
 @pytest.mark.parametrize("what", ["rooms", "obstacles", "movable", "walkers", "starts"])
 def test_nobody_asks_for_a_billion_things(what):
-    with pytest.raises(WorldError, match=f"{what} is 1000000000; it has to be 10000 or less"):
+    with pytest.raises(WorldError, match=f"{what} is 1000000000; it must be 10000 or less"):
         random_world(0, **{what: 10**9})
 
 

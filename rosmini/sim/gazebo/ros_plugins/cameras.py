@@ -121,7 +121,7 @@ def camera_of(sensor: Sensor, rate: float, far: float | None = None) -> CameraMo
     camera = sensor.element.find("camera")
     if camera is None:
         raise sensor.element.error(
-            f"the sensor {sensor.name!r} is of type {sensor.type!r} and has no <camera>: it is no camera"
+            f"the sensor {sensor.name!r} is of type {sensor.type!r} and has no <camera>: it is not a camera"
         )
     x, y, z, roll, pitch, yaw = sensor.mount
     if abs(roll) > 1e-3:

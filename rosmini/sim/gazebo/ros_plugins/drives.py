@@ -88,7 +88,7 @@ class DiffDrive(Drive, filename="libgazebo_ros_diff_drive.so"):
         tags = DiffDriveTags.read(sdf, complain)
         _check_wheels(sdf, tags.separation, tags.diameter)
         one_of("odometrySource", tags.odometry_source, ("encoder", "world"))
-        body.put_on_wheels(tags.left, tags.right, tags.separation, tags.diameter / 2)
+        body.set_wheels(tags.left, tags.right, tags.separation, tags.diameter / 2)
         exchanged = body.wheels == (tags.right, tags.left)
         if tags.legacy != exchanged:
             where = f"{sdf.path}:{sdf.line}"
@@ -158,7 +158,7 @@ class SkidSteerDrive(Drive, filename="libgazebo_ros_skid_steer_drive.so"):
         tags = SkidSteerTags.read(sdf, complain)
         _check_wheels(sdf, tags.separation, tags.diameter)
         rear = (tags.left_rear, tags.right_rear)
-        body.put_on_wheels(tags.left_front, tags.right_front, tags.separation, tags.diameter / 2, rear)
+        body.set_wheels(tags.left_front, tags.right_front, tags.separation, tags.diameter / 2, rear)
         body.rate = rate_of(tags.rate)
 
     def load(self, model: Model, sdf: Element) -> None:

@@ -78,7 +78,7 @@ def lidar_of(sensor: Sensor) -> LidarModel:
     ray = sensor.element.find("ray") or sensor.element.find("lidar")
     if ray is None:
         raise sensor.element.error(
-            f"the sensor {sensor.name!r} is of type {sensor.type!r} and has no <ray>: it is no laser"
+            f"the sensor {sensor.name!r} is of type {sensor.type!r} and has no <ray>: it is not a laser"
         )
     mount, tilt = sensor.mount, tilt_of(sensor)
     if tilt > STEEP:

@@ -445,7 +445,7 @@ def test_a_plugin_in_the_wrong_place_is_left_out(bench: Start, capsys: pytest.Ca
     there = bench()
     text = '<gazebo><plugin name="x" filename="libgazebo_ros_laser.so"/></gazebo>'
     assert there.spawn(urdf(text), "r").success
-    assert "is a sensor plugin, but stands in the model 'r', which takes model plugins" in "".join(
+    assert "is a sensor plugin, but is in the model 'r', which takes model plugins" in "".join(
         capsys.readouterr()
     )
 
