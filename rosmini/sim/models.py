@@ -305,13 +305,6 @@ class RobotModel:
         return max(math.hypot(*part.pose[:2]) + reach_of(part.shape) for part in self.solid)
 
     @cached_property
-    def girth(self) -> tuple[float, float, float]:
-        """A small circle around the footprint: x and y of its centre relative to base_footprint, and radius [m]."""
-        xs, ys = zip(*self.footprint, strict=True)
-        x, y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
-        return (x, y, max(math.hypot(px - x, py - y) for px, py in self.footprint))
-
-    @cached_property
     def own_limits(self) -> bool:
         """True if the robot's speeds have limits besides those of its rims."""
         return not (math.isinf(self.linear_acceleration) and math.isinf(self.angular_acceleration))

@@ -163,13 +163,6 @@ class Robot:
         return self._point.pose if self._point_ns == self._instant.ns else self._current().pose
 
     @property
-    def standing(self) -> bool:
-        """True if no wheel turns or is commanded to turn."""
-        state = self._current().state
-        targets = self._trajectory.targets
-        return not any(targets) and state[: len(targets)] == targets
-
-    @property
     def left(self) -> float:
         """Speed of the left wheel's rim [m/s], with the nominal radius."""
         return self._current().state[0]

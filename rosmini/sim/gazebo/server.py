@@ -13,15 +13,20 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 from dataclasses import asdict, replace
+from pathlib import Path
 from typing import Any, NoReturn
 
 from rosmini.core.dynamic_reconfigure import Server as ReconfigureServer
-from rosmini.core.errors import ParameterError, ScriptError
+from rosmini.core.errors import ParameterError, ScriptError, nearest
 from rosmini.core.geometry.poses import Pose
 from rosmini.core.graph import Node
+from rosmini.core.packages import SCHEME, PackageIndex, assets_dir
+from rosmini.sim import sdf, worlds
 from rosmini.sim.devices import ClockDevice
 from rosmini.sim.sdf import SdfModel, SdfWorld
+from rosmini.sim.sdf.resources import RESOURCE_PATH
 from rosmini.sim.simulation import Simulation
 from rosmini.sim.world import World
 
@@ -30,12 +35,15 @@ from .errors import GazeboError, UnknownEntity
 from .model import Model
 from .physics_properties import PhysicsProperties
 from .running_world import RunningWorld, WorldState
-from .services import Services
+from .services import Services, StateTopics
 from .snapshot import Pictured, Snapshot
 from .spawning import spawn_text
-from .state_topics import StateTopics
 from .topics import GazeboMaster
-from .world_sources import EMPTY, load_world
+
+__all__ = ["Gazebo", "GazeboError", "GazeboServer", "server_parser"]
+
+EMPTY = "worlds/empty.world"
+"""The default world of gzserver."""
 
 CLOCK_RATE = 100.0
 """Default rate of /clock and the states [Hz]; see ~pub_clock_frequency."""
@@ -239,4 +247,35 @@ def _rate(node: Node) -> float:
     return float(rate)
 
 
-__all__ = ["Gazebo", "GazeboError", "GazeboServer", "server_parser"]
+def load_world(name: str | os.PathLike[str]) -> World | SdfWorld:
+    """Load a world from a file that gzserver would find, or by one of rosmini's names ("house", or a map's YAML file).
+
+    A relative path is searched for in the working directory, in the folders of GAZEBO_RESOURCE_PATH, and in rosmini's
+    package gazebo_ros. Raises `GazeboError` if there is no such world, and the readers' errors for an invalid file.
+    """
+    text = os.fspath(name)
+    if text in worlds.names():
+        return worlds.world(text)
+    path = PackageIndex().resolve(text) if text.startswith(SCHEME) else _found(text)
+    if worlds.kind_of(path) in ("map", "stage"):
+        return worlds.world(path)
+    document = sdf.load(path)
+    if not document.worlds:
+        command = f"rosrun gazebo_ros spawn_model -sdf -file {path} -model NAME"
+        raise GazeboError(f"{path} has no <world>; add its model to a world with `{command}`")
+    return document.worlds[0]
+
+
+def _found(text: str) -> Path:
+    listed = [Path(part) for part in os.environ.get(RESOURCE_PATH, "").split(os.pathsep) if part]
+    folders = [Path(), *listed, assets_dir() / "ros" / "gazebo_ros"]
+    for folder in folders:
+        path = folder / text
+        if path.is_file():
+            return path
+    if "/" not in text and not Path(text).suffix:
+        hint = nearest(text, worlds.names()) or f"there are {', '.join(worlds.names())}, and any file"
+    else:
+        hint = "searched in " + ", ".join(str(folder.resolve()) for folder in folders)
+    msg = f"there is no world {text!r}; {hint}"
+    raise GazeboError(msg)

@@ -164,16 +164,6 @@ class Battery:
             empty=self._empty,
         )
 
-    def remaining(self, power: float) -> float:
-        """Return how long the battery will last [s] at a load of `power` [W]; inf for 0 W."""
-        if power == 0.0:
-            return math.inf
-        twin = Battery(self.model, self._level)
-        spent = 0.0
-        while not twin.drain(power, 10.0 * STEP).empty:
-            spent += 10.0 * STEP
-        return spent
-
     def _spent(self) -> bool:
         """Cut the battery off if it is exhausted; return True if it is off.
 

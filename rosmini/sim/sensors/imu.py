@@ -147,18 +147,6 @@ class Imu:
         heading = round((turned * self.scale + drift) / FINEST) * FINEST
         return (heading, ex, ey, w * self.scale + ez, ax + fx, ay + fy, gravity + fz)
 
-    def read(
-        self,
-        number: int,
-        v: float,
-        w: float,
-        dv: float,
-        dw: float,
-        aside: tuple[float, float] = (0.0, 0.0),
-    ) -> tuple[float, float, float, float, float, float]:
-        """Return the angular velocities and the accelerations of `sample`."""
-        return self.sample(number, 0.0, v, w, dv, dw, aside)[1:]
-
     def heading(self, number: int, turned: float) -> float:
         """Return the integral [rad] of the gyroscope's output up to sample `number`, for a robot turned by `turned`.
 

@@ -25,13 +25,12 @@ from rosmini.core.packages import SCHEME, PackageIndex
 
 from .confined import Confined
 from .errors import UrdfError
-from .old_xacro import OldStyle
 
 USAGE = "usage: xacro [-o FILE] [--unconfined] INPUT [name:=value ...]"
 
 UNCONFINED = (
-    "in xacro's expressions rosmini allows what computes, and no more of it than a robot needs; if you trust this file "
-    "with all that Python can do on this computer, add --unconfined to the command, or confined=False to the call"
+    "rosmini restricts xacro's expressions to the calculations that a robot description needs; if you trust this file "
+    "to run any Python code on this computer, add --unconfined to the command, or confined=False to the call"
 )
 
 MOST_MACROS = 5
@@ -39,6 +38,17 @@ MOST_MACROS = 5
 
 SHOWN = 1000
 """Number of characters at the beginning and at the end of xacro's message in an error."""
+
+PREFIXLESS = {
+    "arg": ("name", "default"),
+    "if": ("value",),
+    "include": ("filename",),
+    "insert_block": ("name",),
+    "macro": ("name",),
+    "property": ("name", "value"),
+    "unless": ("value",),
+}
+"""Tags that may lack the prefix `xacro:`, and the attributes by which they are recognised."""
 
 _one_at_a_time = threading.Lock()
 """Needed because xacro keeps its state in its module."""
@@ -323,3 +333,47 @@ def main(arguments: Sequence[str]) -> int:
     if output is None:
         print(text.rstrip("\n"))
     return 0
+
+
+class OldStyle:
+    """Reads files in the old style, `<macro>` and `<property>` without the prefix `xacro:`, and warns once.
+
+    ROS accepted them until Melodic, with a warning. Since Noetic such tags are ordinary XML.
+    """
+
+    def __init__(self, xacro: Any) -> None:
+        self._xacro, self._handle_macro_call = xacro, xacro.handle_macro_call
+        self._names: set[str] = set()
+        self._has_warned = False
+
+    def add_prefixes(self, document: xml.dom.minidom.Document, file: str) -> None:
+        """Add the prefix to the tags of a document. Inside `<plugin>` every tag belongs to the plugin."""
+        found = []
+        waiting: list[Any] = [document.documentElement]
+        while waiting:
+            element = waiting.pop()
+            if element.tagName in ("macro", "xacro:macro"):
+                self._names.add(element.getAttribute("name").removeprefix("xacro:"))
+            attributes = PREFIXLESS.get(element.tagName)
+            if attributes and all(element.hasAttribute(name) for name in attributes):
+                found.append(element.tagName)
+                _add_prefix(element)
+            if element.tagName != "plugin":
+                waiting += [child for child in element.childNodes if child.nodeType == child.ELEMENT_NODE]
+        if found and not self._has_warned:
+            self._has_warned = True
+            tags = ", ".join(f"<{tag}>" for tag in sorted(set(found)))
+            self._xacro.warning(
+                f"{file}: {tags} without the prefix xacro: are read as xacro tags, as ROS did until Melodic; "
+                "Noetic ignores them, so write <xacro:...>"
+            )
+
+    def handle_macro_call(self, node: Any, macros: Any, symbols: Any) -> Any:
+        """Expand a macro call, which may lack the prefix if a macro of this name was read."""
+        if self._has_warned and node.tagName in self._names:
+            _add_prefix(node)
+        return self._handle_macro_call(node, macros, symbols)
+
+
+def _add_prefix(element: Any) -> None:
+    element.tagName = element.nodeName = f"xacro:{element.tagName}"

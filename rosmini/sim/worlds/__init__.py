@@ -9,13 +9,12 @@ from pathlib import Path
 from types import MappingProxyType
 
 from rosmini.core.errors import nearest
-from rosmini.core.packages import assets_dir
+from rosmini.core.packages import SCHEME, assets_dir
 from rosmini.sim.world import Pose, World, WorldError
 
 from . import rooms
-from .files import kind_of, world_from_file, world_from_sdf
+from .files import kind_of, world_from_file, world_from_map, world_from_sdf
 from .random import random_world
-from .traced import world_from_map
 from .world_map import to_map
 
 __all__ = [
@@ -30,9 +29,6 @@ __all__ = [
     "world_from_map",
     "world_from_sdf",
 ]
-
-SCHEME = "package://"
-
 
 _MAKERS: Mapping[str, Callable[[], World]] = MappingProxyType(
     {"arena": rooms.arena, "empty": rooms.empty, "room": rooms.room}

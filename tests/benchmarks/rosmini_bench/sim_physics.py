@@ -187,7 +187,7 @@ def imu_noise(samples: int = 10_000) -> float:
     """The same of the gyroscope and the accelerometer at rest, less their biases."""
     model = BURGER.unit
     imu = Imu(model, rng("imu"))
-    read = np.array([imu.read(number, 0.0, 0.0, 0.0, 0.0) for number in range(samples)])
+    read = np.array([imu.sample(number, 0.0, 0.0, 0.0, 0.0, 0.0)[1:] for number in range(samples)])
     read[:, 5] -= GRAVITY
     deviations = np.array([model.gyro_noise] * 3 + [model.accel_noise] * 3)
     return _likely(((read - imu.bias) / deviations).ravel(), "the noise of the imu")

@@ -83,7 +83,7 @@ def test_braking_takes_the_way_v_squared_by_two_a():
     engine.command("burger", 0.0, 0.0)
     engine.advance(5.0)
     assert robot.pose[0] - before == pytest.approx(0.22**2 / 2, abs=1e-9)
-    assert robot.standing
+    assert robot.left == robot.right == 0.0
 
 
 def test_a_turn_in_place_stays_in_place():

@@ -114,7 +114,7 @@ def test_the_empty_world_is_the_default(graph: Graph) -> None:
 
 
 def test_worlds_that_are_none(graph: Graph, tmp_path: Path) -> None:
-    for name, said in (("romm", "did you mean room?"), ("worlds/none.world", "it was looked for in")):
+    for name, said in (("romm", "did you mean room?"), ("worlds/none.world", "searched in")):
         with pytest.raises(GazeboError, match=said.replace("?", r"\?")):
             GazeboServer(graph.node("gazebo"), name)
     path = tmp_path / "broken.world"
