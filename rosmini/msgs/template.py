@@ -1,7 +1,7 @@
 """Templates for messages that change little, such as those of a sensor: the constant part is checked once.
 
 Publishing takes a snapshot of a message: each field is read, checked and copied. A template makes snapshots from the
-changing fields alone, and `Publisher.publish_frozen` sends them without another copy.
+changing fields alone, and a `MessageFactory` publishes them without another copy.
 
 >>> from rosmini.msgs import message_class
 >>> point = message_class("geometry_msgs/PointStamped")()

@@ -6,17 +6,18 @@ from .clock import Rate, Timer, TimerEvent
 from .graph import Graph, default_graph, running_graph, set_default_graph
 from .lanes import Lane, LaneContext, LaneExit, Waiter
 from .node import Node
-from .publisher import Publisher
+from .publisher import MessageFactory, Publisher
 from .report import RunReport, Waiting
 from .scheduler import Scheduler
 from .service import ServiceClient, ServiceServer
-from .subscriber import Subscriber
+from .subscription import Subscriber
 
 __all__ = [
     "Graph",
     "Lane",
     "LaneContext",
     "LaneExit",
+    "MessageFactory",
     "Node",
     "Publisher",
     "Rate",

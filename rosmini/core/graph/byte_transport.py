@@ -17,12 +17,14 @@ from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.core.errors import TransportException, TransportInitError, TransportTerminated
 
+from .connection import QueuedSender
 from .headers import decode_header, encode_header
-from .transport import QueuedSender, slave_uri
+from .transport import slave_uri
 
 if TYPE_CHECKING:
+    from .connection import Connection
     from .scheduler import Scheduler
-    from .transport import Endpoint, Header, Receiver, ServiceSession, Triple
+    from .transport import Endpoint, Header, ServiceSession, Triple
 
 
 OnFailure = Callable[[Exception], None]
@@ -71,7 +73,7 @@ class _ByteSender(QueuedSender):
 
     __slots__ = ("_scheduler", "_wire")
 
-    def __init__(self, scheduler: Scheduler, wire: _Wire, receiver: Receiver, destination: str) -> None:
+    def __init__(self, scheduler: Scheduler, wire: _Wire, receiver: Connection, destination: str) -> None:
         super().__init__(scheduler, receiver, destination)
         self._scheduler = scheduler
         self._wire = wire
@@ -214,7 +216,7 @@ class ByteTransport:
         """Do nothing: each node's thread ends with the node."""
 
     def connect_topic(
-        self, caller: str, parameters: list[Any], header: Header, receiver: Receiver
+        self, caller: str, parameters: list[Any], header: Header, receiver: Connection
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection by exchanging headers; blocks."""
         request = encode_header(header)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import linecache
 import os
+from abc import ABC, abstractmethod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,6 +15,8 @@ from .rosout import OWN, source_of
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import FrameType
+
+    from .node import Node
 
 STANDARD_LIBRARY = str(Path(os.__file__).parent) + os.sep
 
@@ -71,3 +74,39 @@ def _users_line(error: BaseException) -> str | None:
     text = linecache.getline(code.co_filename, number, frame.f_globals).strip()
     source = source_of(code.co_filename)
     return f"  {Path(source).name}, line {number}, in {code.co_name}" + (f": {text}" if text else "")
+
+
+class TopicHandle(ABC):
+    """A handle of a topic; ``on_connect`` and ``on_disconnect`` get the name of the node at the other end."""
+
+    node: Node
+    topic: str
+    _on_connect: Callable[[str], object] | None
+    _on_disconnect: Callable[[str], object] | None
+
+    @abstractmethod
+    def _unregister(self) -> None:
+        """Leave the topic, in the hub's thread."""
+
+    @abstractmethod
+    def detach(self) -> None:
+        """Learn that the node has shut down."""
+
+    def unregister(self) -> None:
+        """End this handle. The topic is left when the node's last one has gone. Harmless when repeated."""
+        self.node.scheduler.on_hub(self._unregister)
+
+    def connected(self, peer: str) -> None:
+        """Learn that the node ``peer`` was connected."""
+        self._tell(self._on_connect, peer)
+
+    def disconnected(self, peer: str) -> None:
+        """Learn that the node ``peer`` was disconnected."""
+        self._tell(self._on_disconnect, peer)
+
+    def _tell(self, callback: Callable[[str], object] | None, peer: str) -> None:
+        if callback is not None:
+            self.node.spawn(
+                f"{self.node.name} connections of {self.topic}",
+                lambda: self.node.guarded(callback, peer, what=f"connection callback of {self.topic}"),
+            )

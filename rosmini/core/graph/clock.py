@@ -16,7 +16,7 @@ from rosmini.core.time import Duration, Time
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .node_port import NodePort
+    from .node import Node
     from .scheduler import Scheduler
 
 CLOCK_PATIENCE_NS = 2 * 10**9
@@ -103,7 +103,7 @@ class Rate:
     With ``reset`` a jump of the clock back to an earlier time restarts the cycle instead of raising.
     """
 
-    def __init__(self, node: NodePort, hz: float, *, reset: bool = False) -> None:
+    def __init__(self, node: Node, hz: float, *, reset: bool = False) -> None:
         if not hz > 0:
             msg = f"a rate must be a positive number of turns a second, not {hz!r}"
             raise InvalidRate(msg)
@@ -178,7 +178,7 @@ class Timer:
 
     def __init__(
         self,
-        node: NodePort,
+        node: Node,
         period: Duration,
         callback: Callable[[TimerEvent], object],
         *,

@@ -1,7 +1,8 @@
-"""A subscription's link to one publisher, with a lane in which the callbacks run."""
+"""The connection between a publisher and a subscriber: the end that sends, the queue, and the lane of the callbacks."""
 
 from __future__ import annotations
 
+from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -22,13 +23,13 @@ from rosmini.msgs.full_text import class_from
 from .callbacks import Callback
 from .mismatch import describe_mismatch, recast
 from .rosout import LEVELS
-from .transport import DirectReceiver, LocalTransport, refuse, set_header
+from .transport import LocalTransport, set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from .gates import Chain, Gate
-    from .subscription_port import SubscriptionPort
+    from .scheduler import Scheduler
+    from .subscription import Subscription
     from .transport import Header, Triple
 
 _NO_CLASS = (UnknownType, UnknownPackage, DefinitionError, IllegalName)
@@ -55,48 +56,227 @@ def _class_of(header: Header, protocol: str, default: Any) -> Any:
     return default
 
 
-class Way(NamedTuple):
-    """How a frozen message reaches the callbacks: its class, what thaws it, what adds the header, what calls each."""
+class Route(NamedTuple):
+    """How frozen messages of a connection reach the callbacks."""
 
     own: Any
+    """The class that the callbacks get; None: any."""
     thaw: Callable[[Any], Any] | None
-    label: Callable[[Any, Header], None]
+    """Makes a frozen message the callbacks' own; None: it is passed on as it is."""
+    set_header: Callable[[Any, Header], None]
     callbacks: tuple[tuple[Callable[[Any], object], Callback], ...]
 
 
-class Connection(DirectReceiver):
+class Observer:
+    """Sees the messages of one connection: a recording, statistics, or a fault, which may also hold them back.
+
+    Its methods are called in the scheduler's thread; unless they are overridden they change nothing.
+    """
+
+    holds_back = False
+    """True if :meth:`pass_on` is to be called."""
+
+    def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[Iterable[Any]], None]) -> None:  # noqa: ARG002
+        """Call ``accept`` with the messages from ``peer`` that are to arrive, now or later."""
+        accept(messages)
+
+    def before(self, frozen: Any) -> None:
+        """See a message before the callbacks get it. In the connection's lane, as is :meth:`after`."""
+
+    def after(self) -> None:
+        """Learn that all callbacks have returned."""
+
+
+def _tell(observers: Iterable[Observer], frozen: Any) -> None:
+    """Let observers see a message before the callbacks get it; without a message, learn that these have returned."""
+    for observer in observers:
+        if frozen is None:
+            observer.after()
+        else:
+            observer.before(frozen)
+
+
+def _nothing() -> None:
+    """Do nothing; the default callback."""
+
+
+IN_FLIGHT = 6 * 2**20
+"""Bytes that the buffers of a connection take, as those of two sockets do [bytes]; what follows waits in the queue."""
+
+OVERHEAD = 64
+"""What a message takes of that besides its own bytes [bytes]."""
+
+
+class QueuedSender:
+    """Collects messages until the next event of the queue, and then flushes them.
+
+    As in rospy, whose threads send while the publisher goes on, a burst fills no queue. A publisher's queue only counts
+    while the subscriber takes so few that the buffers between the two are full.
+    """
+
+    protocol = "INPROC"
+    info = ""
+    __slots__ = (
+        "_closed",
+        "_queue",
+        "_queued",
+        "_ready",
+        "_receiver",
+        "destination",
+        "dropped",
+        "header",
+        "on_closed",
+        "on_dropped",
+    )
+
+    def __init__(self, scheduler: Scheduler, receiver: Connection, destination: str) -> None:
+        self._ready = scheduler.ready
+        self._receiver = receiver
+        self._queue: deque[Any] = deque()
+        self._closed = False
+        self.destination = destination
+        self.header = receiver.header
+        """The connection header that the publication sets on the messages."""
+        self.on_closed: Callable[[], None] = _nothing
+        self.on_dropped: Callable[[], None] = _nothing
+        self._queued = 0
+        self.dropped = 0
+
+    @property
+    def sent(self) -> int:
+        """How many messages were sent, dropped ones included."""
+        return self._queued
+
+    def send(self, frozen: Any, size: int | None) -> None:
+        """Queue a message. If the buffers are full and ``size`` messages wait, the oldest of these is dropped."""
+        if size is not None and len(self._queue) >= size and self._is_full(frozen, size, len(self._queue)):
+            del self._queue[-size]
+            self._drop()
+        self._add(frozen)
+
+    def _add(self, frozen: Any) -> None:
+        self._queued += 1
+        if not self._queue:
+            self._ready.append(self._flush)
+        self._queue.append(frozen)
+
+    @staticmethod
+    def _is_full(frozen: Any, size: int, waiting: int) -> bool:
+        """Return whether the buffers and a queue of ``size`` are full when ``waiting`` such messages wait."""
+        return waiting - size >= IN_FLIGHT // (len(frozen._encode(frozen)) + OVERHEAD)
+
+    def _drop(self) -> None:
+        self.dropped += 1
+        if self.dropped == 1:
+            self.on_dropped()
+
+    def _flush(self) -> None:
+        queue = self._queue
+        if not self._closed:
+            self._receiver.deliver(queue)
+        queue.clear()
+
+    def close(self) -> None:
+        """Close from the publisher's side: what is queued still arrives, then the receiver is told."""
+        if not self._closed:
+            self._ready.append(self._close)
+
+    def _close(self) -> None:
+        if not self._closed:
+            self._closed = True
+            self._receiver.closed()
+
+    def drop(self) -> None:
+        """Close from the subscriber's side: nothing more arrives, and the publisher is told."""
+        if not self._closed:
+            self._closed = True
+            self.on_closed()
+
+
+class LocalSender(QueuedSender):
+    """The publisher's end in the same process: appends to the connection's queue, unless its callbacks are busy."""
+
+    __slots__ = ("_incoming", "_join")
+
+    def __init__(self, scheduler: Scheduler, receiver: Connection, destination: str) -> None:
+        super().__init__(scheduler, receiver, destination)
+        self._incoming = receiver.incoming
+        self._join = receiver.incoming.append
+
+    @property
+    def sent(self) -> int:
+        """How many messages were sent, dropped ones included."""
+        to = self._receiver
+        return self.dropped + len(self._queue) + len(self._incoming) + to.dropped + to.received
+
+    def send(self, frozen: Any, size: int | None) -> None:
+        """Hand a message over. If the buffers are full and ``size`` messages wait, the oldest of these is dropped."""
+        receiver = self._receiver
+        if size is not None and (waiting := len(self._incoming) + len(self._queue)) >= size:
+            self._make_room(frozen, size, waiting)
+        if receiver.pending or (not self._queue and receiver.begin()):
+            self._join(frozen)
+        else:
+            self._add(frozen)
+
+    def _make_room(self, frozen: Any, size: int, waiting: int) -> None:
+        if self._is_full(frozen, size, waiting):
+            if len(self._queue) >= size:
+                del self._queue[-size]
+            else:
+                del self._incoming[len(self._queue) - size]
+            self._drop()
+
+
+class Connection:
     """A subscription's link to one publisher: its queue and the lane in which callbacks run."""
 
-    def __init__(self, subscription: SubscriptionPort, uri: str) -> None:
-        super().__init__()
+    def __init__(self, subscription: Subscription, uri: str) -> None:
         node = subscription.node
         self.subscription = subscription
         self.uri = uri
         self.id = node.next_connection_id()
         self.peer = ""
         self.protocol = ""
+        self.header: Header = {}
+        """The publisher's connection header, which every message carries; it stays the same dictionary."""
         self.message_class = subscription.message_class
-        self.way: Way | None = None
+        self.route: Route | None = None
+        """Set at the next message if it is None."""
+        self.incoming: deque[Any] = deque()
+        """The frozen messages that wait for the callbacks, oldest first."""
+        self.pending = False
+        """True while the callbacks are about to be called: the sender may append to ``incoming`` itself."""
+        self.received = 0
+        """Number of messages that the callbacks got."""
+        self.dropped = 0
+        """Number of messages dropped because too many waited."""
+        self.bytes_received = 0
+        """Number of bytes of messages that came over a wire."""
+        self.info = ""
+        """The connection's description in ``getBusInfo``; empty if the peer's name is enough."""
+        self.on_drained: Callable[[], None] | None = None
+        """Called when the callbacks have taken all messages; a wire that holds more back goes on then."""
         self.is_open = False
-        self.was_of_use = False
-        """True of one that has ended after messages, and not because what came was none."""
-        self.was_left = False
-        """Whether the publisher has left the topic while the connection was being made: it may come to nothing."""
-        self._gone = False
-        self._gate: Gate | Chain | None = node.graph.gates.gate(subscription.topic, node.name)
+        self.had_success = False
+        """True if it has ended after messages had arrived, and not because one could not be decoded."""
+        self.publisher_left = False
+        """True if the publisher left the topic while the connection was being made, so that it may fail."""
+        self._is_over = False
+        self._observers: tuple[Observer, ...] = ()
+        self._filters: tuple[Observer, ...] = ()
         self._draining = False
-        self._has_told = False
-        self._parks = 0
+        self._has_reported_drops = False
         self._last: Any = None
-        self._keep = False
+        self._is_latching = False
         self._drain_ref = self._drain
         self._close_link: Callable[[], None] | None = None
         self._lane = node.spawn(f"{node.name} <- {subscription.topic}", self._open)
-        self._be_direct(self._gate is None)
+        self.observe()
 
     def _open(self) -> None:
         """Ask the publisher for the topic and connect to it. In the connection's lane."""
-        if self._gone:
+        if self._is_over:
             return
         subscription = self.subscription
         node = subscription.node
@@ -104,7 +284,7 @@ class Connection(DirectReceiver):
         try:
             code, status, parameters = self._request_topic()
             if code == -1:  # the publisher has left the topic meanwhile
-                subscription.gave_up(self)
+                subscription.abandon(self)
                 return
             if code != 1:
                 raise TransportInitError(status)
@@ -122,12 +302,12 @@ class Connection(DirectReceiver):
             self.failed(error)
             return
         self.protocol = parameters[0]
-        if self._gone:  # left while the connection was being made
+        if self._is_over:  # left while the connection was being made
             self._close_link()
             return
         self.peer = self.header.get("callerid", "")
-        self._keep = self.header.get("latching") == "1"
-        self.is_open, self.was_left = True, False
+        self._is_latching = self.header.get("latching") == "1"
+        self.is_open, self.publisher_left = True, False
         if self.message_class is None or self.message_class._type == "*":
             self.message_class = _class_of(self.header, self.protocol, self.message_class)
         for handle in subscription.handles:
@@ -161,11 +341,11 @@ class Connection(DirectReceiver):
         }
 
     def _refused(self, error: TransportInitError) -> None:
-        if self._gone:
+        if self._is_over:
             return  # this end left while the connection was being made
         subscription = self.subscription
-        subscription.gave_up(self)
-        if self.was_left:
+        subscription.abandon(self)
+        if self.publisher_left:
             return
         node = subscription.node
         publisher = {"callerid": self.uri, **error.header}
@@ -184,38 +364,53 @@ class Connection(DirectReceiver):
         node.graph.report(problem, node)
 
     @property
+    def first_callback(self) -> Any:
+        """The first callback of the subscription; None if it has none."""
+        callbacks = self._find_route().callbacks
+        return callbacks[0][1].function if callbacks else None
+
+    @property
     def queue_size(self) -> int | None:
         """How many messages may wait for the callbacks."""
         return self.subscription.queue_size
 
-    def _be_direct(self, is_direct: bool) -> None:
-        """Let what is sent join the queue at once, or not: it has to pass a gate then, or comes too late."""
-        self._is_direct = is_direct
-        self.begin = partial(self._lane.post_if_idle, self._drain_ref) if is_direct else refuse
+    def observe(self) -> None:
+        """Ask the graph who observes this connection; called again when that changes."""
+        self._observers = tuple(self.subscription.observers(self))
+        self._filters = tuple(observer for observer in self._observers if observer.holds_back)
+        self.route = None
+
+    def begin(self) -> bool:
+        """Let the callbacks have their turn, for a message that the sender is about to append to ``incoming``.
+
+        Return False if they are busy, or if messages are held back: then they have to be delivered later.
+        """
+        if self._filters or self._is_over or not self._lane.post_if_idle(self._drain_ref):
+            return False
+        self.pending = True
+        return True
 
     def deliver(self, messages: Iterable[Any]) -> None:
         """Queue frozen messages for the callbacks; while one is busy, the oldest beyond the queue size are dropped."""
-        if self._gate is None:
-            self._accept(messages)
-        else:
-            self._gate.pass_on(messages, self.peer, self._accept)
-
-    def set_gate(self, gate: Gate | Chain | None) -> None:
-        """Let everything that is sent from now on pass a fault, or nothing any more."""
-        self._gate = gate
-        self._be_direct(gate is None and not self._gone)
+        accept = self._accept
+        for observer in reversed(self._filters):
+            accept = partial(observer.pass_on, peer=self.peer, accept=accept)
+        accept(messages)
 
     def _accept(self, messages: Iterable[Any]) -> None:
-        if self._gone:
+        if self._is_over:
             return
         for message in messages:
             set_header(message, self.header)
             self.incoming.append(message)
         if self._lane.waiter is not None:
             self._trim()
-        if self._draining or self.pending:
-            return
-        self.pending = self._is_direct  # else what is sent would join the queue past the gate
+        if not self._draining and not self.pending:
+            self._post()
+
+    def _post(self) -> None:
+        """Ask for a turn of the callbacks; what is sent meanwhile joins the queue, unless it has to pass a filter."""
+        self.pending = not self._filters and not self._is_over
         self._lane.post(self._drain_ref)
 
     def _trim(self) -> None:
@@ -224,12 +419,12 @@ class Connection(DirectReceiver):
         while size and len(self.incoming) > size:
             self.incoming.popleft()
             self.dropped += 1
-        if self.dropped and not self._has_told:
-            self._tell_dropped()
+        if self.dropped and not self._has_reported_drops:
+            self._report_drops()
 
-    def _tell_dropped(self) -> None:
+    def _report_drops(self) -> None:
         """Log on ``/rosout``, once for each connection, that messages are dropped; that may well be meant to be so."""
-        self._has_told = True
+        self._has_reported_drops = True
         subscription = self.subscription
         node, topic = subscription.node, subscription.topic
         if topic not in ("/rosout", "/rosout_agg"):
@@ -247,76 +442,49 @@ class Connection(DirectReceiver):
         return len(self.incoming)
 
     def _drain(self) -> None:
-        """Call the callbacks for what is queued. In the connection's lane."""
-        incoming, take, header = self.incoming, self.incoming.popleft, self.header
+        """Call the callbacks for the queued messages. In the connection's lane."""
+        incoming, take, header, lane = self.incoming, self.incoming.popleft, self.header, self._lane
         self.pending, self._draining = False, True
+        parks, is_latching = lane.parks, self._is_latching
         try:
             while incoming:
-                way = self.way or self._find_way()
-                own, thaw, label, callbacks = way
-                while incoming and self.way is way:  # until a callback changes who subscribes
+                own, thaw, set_own_header, callbacks = route = self._find_route()
+                observers, size = self._observers, self.subscription.queue_size
+                while incoming and self.route is route:  # until a callback changes who subscribes
                     self.received += 1
                     message = take()
+                    if observers:
+                        _tell(observers, message)
                     if type(message) is not own and own is not None:
                         message = recast(message, own)
                         set_header(message, header)
                     if thaw is not None:
                         message = thaw(message)
-                        label(message, header)
-                    if self._keep:
+                        set_own_header(message, header)
+                    if is_latching:
                         self._last = message
                     for call, callback in callbacks:
                         try:
                             call(message)
                         except Exception as error:
                             self._failed(error, callback, message)
+                    if observers:
+                        _tell(observers, None)
+                    if size and parks != lane.parks:  # a callback has blocked: messages may have piled up
+                        parks = lane.parks
+                        self._trim()
         finally:
             self._draining = False
-            if incoming and not self._gone:
-                self.pending = self._is_direct
-                self._lane.post(self._drain_ref)
+            if incoming and not self._is_over:
+                self._post()
             elif self.on_drained is not None:
                 self.on_drained()
 
-    def _find_way(self) -> Way:
-        way = self.subscription.way(self.message_class)
-        if self.subscription.queue_size and way.callbacks:
-            self._parks = self._lane.parks
-            own_step = self._trim_after_block, Callback(self._trim_after_block, ())
-            way = Way(way.own, way.thaw, way.label, (*way.callbacks, own_step))
-        way = way if self.subscription.node.scheduler.history is None else self._recorded(way)
-        statistics = self.subscription.statistics
-        self.way = way = way if statistics is None else statistics.observed(way, self.peer)
-        return way
-
-    def _trim_after_block(self, _: Any) -> None:
-        """Drop what came while a callback was blocked, beyond the queue size. Called after the callbacks."""
-        parks = self._lane.parks
-        if parks != self._parks:
-            self._parks = parks
-            self._trim()
-
-    def _recorded(self, way: Way) -> Way:
-        """Return a way on which it is recorded what is delivered, and that callbacks act on it."""
-        node, topic, thaw = self.subscription.node, self.subscription.topic, way.thaw
-        history = node.scheduler.history
-        if not way.callbacks:
-            return way
-        first = way.callbacks[0][1].function
-
-        def note(message: Any) -> Any:
-            history.delivered(node.name, self.peer, topic, message, first)
-            return message if thaw is None else thaw(message)
-
-        def forget(_: Any) -> None:
-            history.act_on(None)
-
-        callbacks = (*way.callbacks, (forget, Callback(forget, ())))
-        return Way(way.own, note, way.label, callbacks)
-
-    def record(self) -> None:
-        """Learn that from now on, or no more, it is recorded what happens."""
-        self.way = None
+    def _find_route(self) -> Route:
+        route = self.route
+        if route is None:
+            route = self.route = self.subscription.route(self.message_class)
+        return route
 
     def _failed(self, error: Exception, callback: Callback, message: Any) -> None:
         subscription = self.subscription
@@ -337,15 +505,15 @@ class Connection(DirectReceiver):
     def closed(self) -> None:
         """Learn that the publisher closed the connection."""
         self._shut()
-        self.was_of_use = self.received > 0
+        self.had_success = self.received > 0
         self.subscription.closed(self)
 
     def failed(self, error: Exception) -> None:
         """Learn that the transport failed and closed the connection."""
-        if self._gone:
+        if self._is_over:
             return
         self._shut()
-        self.was_of_use = self.received > 0 and not isinstance(error, DeserializationError)
+        self.had_success = self.received > 0 and not isinstance(error, DeserializationError)
         self.subscription.lost(self, error)
 
     def close(self) -> None:
@@ -357,8 +525,7 @@ class Connection(DirectReceiver):
 
     def _shut(self) -> None:
         was_open, self.is_open = self.is_open, False
-        self._gone = True
-        self._be_direct(False)
+        self._is_over = True
         self._close_link = None
         if was_open:
             for handle in self.subscription.handles:

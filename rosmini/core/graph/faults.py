@@ -7,7 +7,7 @@ messages are lost on each run, whoever else listens.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import nearest
 
@@ -17,31 +17,15 @@ from .gates import FaultError, TopicFault
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from .gates import Gates
-    from .master_port import MasterProxy
-    from .scheduler import Scheduler
-    from .transports import Transports
+    from .graph_core import GraphCore
 
 CALLER_ID = "/fault"
-
-
-class FaultHost(Protocol):
-    """What faults need of their graph."""
-
-    scheduler: Scheduler
-    transport: Transports
-    nodes: dict[str, Any]
-    seed: int
-    gates: Gates
-
-    def ask_as(self, caller_id: str) -> MasterProxy:
-        """Return the Master as a caller of this name sees it."""
 
 
 class Faults:
     """The faults of a graph. Names are global; a name that nobody knows raises ``FaultError`` with the nearest."""
 
-    def __init__(self, host: FaultHost) -> None:
+    def __init__(self, host: GraphCore) -> None:
         self._host = host
         self._topics = host.gates.faults
         self._jumps: dict[str, float] = {}
@@ -69,7 +53,7 @@ class Faults:
             self._check(f"subscriber of {topic}", to, dict.fromkeys(heard.get(topic, ())))
         fault = TopicFault(topic, to, lose, double, delay, jitter, self._host.seed if seed is None else seed)
         self._topics[topic, to] = fault
-        self._renew()
+        self._host.observers_changed()
         return fault
 
     def cut(self, service: str) -> None:
@@ -121,7 +105,7 @@ class Faults:
             del self._jumps[node]
             if node in self._host.nodes:
                 self._host.nodes[node].clock = GraphClock(self._host.scheduler)
-        self._renew()
+        self._host.observers_changed()
         return len(topics) + len(services) + len(jumps)
 
     def lines(self) -> list[str]:
@@ -130,12 +114,6 @@ class Faults:
         found += [f"{service}: cut off" for service in sorted(self._host.transport.cut)]
         found += [f"{node}: its clock is {jump:+g} s off" for node, jump in sorted(self._jumps.items())]
         return found
-
-    def _renew(self) -> None:
-        for node in self._host.nodes.values():
-            for subscription in node.subscriptions.values():
-                for connection in subscription.connections.values():
-                    connection.set_gate(self._host.gates.gate(subscription.topic, node.name))
 
     def _node(self, name: str) -> Any:
         self._check("node of this process", name, self._host.nodes)

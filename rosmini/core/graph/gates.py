@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError
 
+from .connection import Observer
 from .event_queue import span_ns
 
 if TYPE_CHECKING:
@@ -72,8 +73,10 @@ class TopicFault:
         return f"{self.messages} messages, {self.lost} lost, {self.doubled} doubled"
 
 
-class Gate:
-    """What a topic's fault does to one connection; between the transport and the subscriber's queue."""
+class Gate(Observer):
+    """A fault of a topic as it acts on one connection, before the subscriber's queue."""
+
+    holds_back = True
 
     def __init__(self, fault: TopicFault, scheduler: Scheduler, node: str) -> None:
         self._fault = fault
@@ -81,7 +84,7 @@ class Gate:
         self._node = node
         self._rng: np.random.Generator | None = None
 
-    def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[list[Any]], None]) -> None:
+    def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[Iterable[Any]], None]) -> None:
         """Let ``accept`` have what is not lost of the messages from ``peer``, when it is its time."""
         fault = self._fault
         if self._rng is None:
@@ -99,7 +102,7 @@ class Gate:
                 fault.doubled += 1
                 self._send(self._copy(message), float(late[1]), accept)
 
-    def _send(self, message: Any, late: float, accept: Callable[[list[Any]], None]) -> None:
+    def _send(self, message: Any, late: float, accept: Callable[[Iterable[Any]], None]) -> None:
         span = span_ns(self._fault.delay + self._fault.jitter * late, "a delay")
         if span:
             self._scheduler.call_at(self._scheduler.now_ns() + span, partial(accept, [message]))
@@ -123,18 +126,6 @@ def _rng(fault: TopicFault, node: str, peer: str) -> np.random.Generator:
     return np.random.default_rng([fault.seed, zlib.crc32(f"{fault.topic} {peer} {node}".encode()), *own])
 
 
-class Chain:
-    """Two gates in a row: what the fault of a topic lets through meets the fault for one of its subscribers."""
-
-    def __init__(self, first: Gate, second: Gate) -> None:
-        self._first = first
-        self._second = second
-
-    def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[list[Any]], None]) -> None:
-        """Let ``accept`` have what both let through, as late as both make it."""
-        self._first.pass_on(messages, peer, lambda passed: self._second.pass_on(passed, peer, accept))
-
-
 class Gates:
     """The faults of topics: for one subscriber, and for every one of them; they add up."""
 
@@ -143,8 +134,7 @@ class Gates:
         self.faults: dict[tuple[str, str], TopicFault] = {}
         """By topic and subscriber; the subscriber is empty where it is every one."""
 
-    def gate(self, topic: str, node: str) -> Gate | Chain | None:
-        """Return what the messages of a topic have to pass on their way to a node, if anything."""
+    def of(self, topic: str, node: str) -> list[Gate]:
+        """Return the gates on a connection of a node: that for every subscriber of the topic, then its own."""
         faults = [self.faults[key] for key in ((topic, ""), (topic, node)) if key in self.faults]
-        gates = [Gate(fault, self._scheduler, node) for fault in faults]
-        return Chain(*gates) if len(gates) == 2 else next(iter(gates), None)
+        return [Gate(fault, self._scheduler, node) for fault in faults]

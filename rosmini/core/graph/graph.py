@@ -277,12 +277,7 @@ class Graph(GraphCore):
 
     def _set_history(self, history: History | None) -> None:
         self.scheduler.history = history
-        for node in self.nodes.values():
-            for publication in node.publications.values():
-                publication.record()
-            for subscription in node.subscriptions.values():
-                for connection in subscription.connections.values():
-                    connection.record()
+        self.observers_changed()
 
     def console(self, **options: Any) -> Console:
         """Keep the log messages of all nodes from now on; the options are those of :class:`Console`."""

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     import numpy as np
 
+    from .connection import Connection, Observer
     from .lanes import Lane
     from .report import RunReport
     from .transport import Transport
@@ -184,6 +185,25 @@ class GraphCore(ABC):
             return bool(self.transport.call(uri, "getPid", "/graph"))
         except TransportException:
             return False
+
+    # -- connections ---------------------------------------------------------------------------------------------
+
+    def observers(self, connection: Connection) -> list[Observer]:
+        """Return the faults that act on a connection, and the recording if there is one."""
+        subscription, history = connection.subscription, self.scheduler.history
+        found: list[Observer] = [*self.gates.of(subscription.topic, subscription.node.name)]
+        if history is not None:
+            found.append(history.observer(connection))
+        return found
+
+    def observers_changed(self) -> None:
+        """Let every publisher and connection of this process learn that faults or the recording have changed."""
+        for node in self.nodes.values():
+            for publication in node.publications.values():
+                publication.connections_changed()
+            for subscription in node.subscriptions.values():
+                for connection in subscription.connections.values():
+                    connection.observe()
 
     # -- errors --------------------------------------------------------------------------------------------------
 

@@ -21,12 +21,14 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from rosmini.msgs.message import Message
 
 from .brief import Values, brief, values
+from .connection import Observer
 from .rosout import OWN, source_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from types import CodeType, FrameType
 
+    from .connection import Connection
     from .lanes import Lane
     from .scheduler import Scheduler
 
@@ -285,6 +287,10 @@ class History:
         if cause is not None:
             _set_cause(copy, cause)
 
+    def observer(self, connection: Connection) -> Observer:
+        """Return what records the messages of a connection."""
+        return _Deliveries(self, connection)
+
     def delivered(self, node: str, peer: str, topic: str, frozen: Any, callback: Any) -> None:
         """Note that a message reaches the callback in whose lane this is called, which acts on it from now on."""
         event = self._arrived("delivery", node, peer, topic, frozen, place=self._place_of(callback))
@@ -361,6 +367,26 @@ class History:
         if place is None:
             place = self._callbacks[code] = Place(_file(code), code.co_firstlineno, code.co_name)
         return place
+
+
+class _Deliveries(Observer):
+    """Records the messages of one connection, and that its callbacks act on them."""
+
+    def __init__(self, history: History, connection: Connection) -> None:
+        self._history = history
+        self._connection = connection
+
+    def before(self, frozen: Any) -> None:
+        connection = self._connection
+        callback = connection.first_callback
+        if callback is not None:
+            subscription = connection.subscription
+            self._history.delivered(
+                subscription.node.name, connection.peer, subscription.topic, frozen, callback
+            )
+
+    def after(self) -> None:
+        self._history.act_on(None)
 
 
 def _file(code: CodeType) -> str:

@@ -36,8 +36,7 @@ from .rosout import LEVELS, Logger, logger_services
 from .service import timed_out
 from .service_api import ServiceApi
 from .slave import SlaveApi
-from .subscriber import Subscriber
-from .subscription import Subscription
+from .subscription import Subscriber, Subscription
 from .topic_statistics import TopicStatistics, are_wanted
 from .transport import extra_fields
 

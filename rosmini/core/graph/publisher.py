@@ -1,66 +1,87 @@
-"""Publishing: one :class:`Publication` per node and topic, a :class:`Publisher` handle for each who asked for it."""
+"""Publishers: one :class:`Publication` for each node and topic, and a :class:`Publisher` handle for each user of it.
+
+A message goes from here to a :mod:`~rosmini.core.graph.connection` for each subscriber, waits there for its lane
+(:mod:`~rosmini.core.graph.lanes`), and is then given to the user's callbacks (:mod:`~rosmini.core.graph.callbacks`).
+"""
 
 from __future__ import annotations
 
 from _thread import get_ident
+from functools import partial
 from itertools import count
-from sys import maxsize
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSException, TransportInitError, TypeMismatch
 
+from .callbacks import TopicHandle
+from .connection import QueuedSender
 from .mismatch import describe_mismatch, recast
-from .topic_handle import TopicHandle
+from .transport import set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .node_port import NodePort
-    from .transport import DirectReceiver, Header, Sender
-
+    from .node import Node
+    from .transport import Header, Sender
 
 _NOTHING: Any = object()
-"""What was not given."""
+"""Stands for an argument that was not given."""
 
 
 def _packet(frozen: Any) -> bytes:
-    """Return a message as it goes over a wire, its length in front."""
+    """Return a message as it is sent over a wire: its length, then its bytes."""
     body = frozen._encode(frozen)
     return b"".join((len(body).to_bytes(4, "little"), body))
+
+
+class MessageFactory:
+    """A message that is made only when somebody gets it: ``publish(MessageFactory(make))`` sends ``make()``.
+
+    For large or frequent messages that mostly nobody hears: a latching publisher makes its last one when a subscriber
+    comes. What ``make`` uses must not change afterwards. With ``is_frozen`` the result comes from a
+    :func:`rosmini.msgs.template`: nobody else holds it, and no snapshot of it is taken. With ``keeps_number`` its
+    header keeps the sequence number, as is right for what another node published first.
+    """
+
+    __slots__ = ("is_frozen", "keeps_number", "make")
+
+    def __init__(
+        self, make: Callable[[], Any], *, is_frozen: bool = False, keeps_number: bool = False
+    ) -> None:
+        self.make = make
+        self.is_frozen = is_frozen
+        self.keeps_number = keeps_number
 
 
 class Publication:
     """A node's side of a topic that it publishes: the connections, the latched message, the sequence number."""
 
-    def __init__(self, node: NodePort, topic: str, message_class: Any) -> None:
+    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
         self.node = node
         self.topic = topic
         self.message_class = message_class
         self._latch = False
-        self._queue_size: int | None = None
+        self.queue_size: int | None = None
+        """Maximum number of messages that wait for one connection; None: no limit."""
         self.headers: Header = {}
         """The user's own fields of the connection header; they replace ROS's of the same name, as in rospy."""
         self.handles: list[Publisher] = []
         self.senders: dict[int, Sender] = {}
         self._next_number = count(1).__next__
         self._scheduler = node.scheduler
-        self._list: tuple[Sender, ...] = ()
+        self._local: tuple[QueuedSender, ...] = ()
         self._wires: tuple[Sender, ...] = ()
-        self._near: tuple[Sender, ...] = ()
-        self.send: Callable[[Any], None] = self._send
-        """Sends a message to every connection: a snapshot, taken now. From any thread.
-
-        Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
-        """
-        self.send_frozen: Callable[[Any], None] = self._send_frozen
-        """Sends a frozen message that nobody else holds, with the next number in its header. In the hub's thread."""
+        self._header: Header | None = None
+        self._only: QueuedSender | None = None
+        """The only connection, if it is in this process and there is nothing to do but to send: the usual case."""
         self._latched: Any = None
-        self._later: Callable[[], Any] | None = None
+        """The last message, frozen, or a `MessageFactory` that has not been asked for it yet."""
         self.warns_unheard = True
+        """True until it has warned that it publishes while nobody is connected."""
         self.how_to_wait = "call wait_for_subscribers() first"
-        """Whether it warns when it publishes and nobody is connected; it does so once."""
-        self._stamp = bool(message_class._has_header)
-        header: Any = message_class._nested.get("std_msgs/Header") if self._stamp else None
+        """What that warning advises."""
+        self._has_header = bool(message_class._has_header)
+        header: Any = message_class._nested.get("std_msgs/Header") if self._has_header else None
         self._header_class = header
         self._set_number: Any = None if header is None else header._fields_class.seq.__set__
         self._freeze = message_class._freeze
@@ -68,146 +89,100 @@ class Publication:
 
     @property
     def latch(self) -> bool:
-        """Whether late subscribers get the last message."""
+        """True if late subscribers get the last message."""
         return self._latch
 
     @latch.setter
     def latch(self, latch: bool) -> None:
         self._latch = latch
-        self._connections_changed()
+        self.connections_changed()
 
-    @property
-    def queue_size(self) -> int | None:
-        """How many messages wait for one connection; None: no bound."""
-        return self._queue_size
+    def send(self, message: Any, to: str = "") -> None:
+        """Send a snapshot of a message, taken now, to every connection, or only to those of the node ``to``.
 
-    @queue_size.setter
-    def queue_size(self, queue_size: int | None) -> None:
-        self._queue_size = queue_size
-        self._connections_changed()
+        May be called from any thread; with a `MessageFactory` only from the scheduler's. Raises
+        ``SerializationError``, which names the field, if the message contains a value that its type cannot hold.
+        """
+        scheduler = self._scheduler
+        if type(message) is MessageFactory:
+            if self._latch and not self.senders and scheduler.history is None:
+                self._latched = message
+                return
+            frozen = self._made(message)
+        else:
+            if self._has_header:
+                self._number(message)
+            frozen = self._freeze(message, self._header)
+        if get_ident() != scheduler.thread:
+            scheduler.call_soon_threadsafe(partial(self._hand_out, frozen, to))
+        elif self._only is not None and not to:
+            self._only.send(frozen, self.queue_size)
+        else:
+            self._hand_out(frozen, to)
 
-    def _connections_changed(self) -> None:
-        self._list = tuple(self.senders.values())
-        self._wires = tuple(sender for sender in self._list if sender.wants_bytes)
-        self._near = tuple(sender for sender in self._list if not sender.wants_bytes)
-        self.send, self.send_frozen = self._send, self._send_frozen
-        if len(self._list) == 1 and not self._latch and self._scheduler.history is None:
-            sender = self._list[0]
-            if sender.receiver is not None:
-                self.send, self.send_frozen = self._ways_to(sender, sender.receiver)
-
-    def _ways_to(
-        self, sender: Sender, receiver: DirectReceiver
-    ) -> tuple[Callable[[Any], None], Callable[[Any], None]]:
-        """Return `send` and `send_frozen` to one receiver in this process: all that publishing most messages costs."""
-        freeze, dispatch, scheduler, header = self._freeze, self._dispatch, self._scheduler, receiver.header
-        incoming, join, hand_over = receiver.incoming, receiver.incoming.append, sender.send
-        size, room = self._queue_size, self._queue_size or maxsize
-        number = self._number if self._stamp else None
-        set_number, next_number = self._set_number, self._next_number
-
-        def send(message: Any) -> None:
-            if number is not None:
-                number(message)
-            frozen = freeze(message, header)
-            if get_ident() != scheduler.thread:
-                dispatch(frozen)
-            elif receiver.pending and len(incoming) < room:
-                join(frozen)
-            else:
-                hand_over(frozen, size)
-
-        def send_frozen(frozen: Any) -> None:
-            if set_number is not None:
-                set_number(frozen.header, next_number())
-            hand_over(frozen, size)
-
-        return send, send_frozen
-
-    def _send(self, message: Any) -> None:
-        if self._stamp:
+    def _made(self, factory: MessageFactory) -> Any:
+        """Return the message of a factory, numbered and frozen."""
+        message = factory.make()
+        if self._has_header and not factory.keeps_number:
             self._number(message)
-        self._dispatch(self._freeze(message))
+        return message if factory.is_frozen else self._freeze(message)
 
     def _number(self, message: Any) -> None:
-        """Fill in a header's number, and the frame that was never given, as rospy does."""
+        """Fill in the number of a header, and the frame if it was never set, as rospy does."""
         header = message.header
         if header.frame_id is None:
             header.frame_id = "0"
-        if self._list:  # rospy numbers only what somebody gets
+        if self.senders:  # rospy numbers only messages that somebody gets
             if type(header) is self._header_class:
                 self._set_number(header, self._next_number())
             else:
                 header.seq = self._next_number()
 
-    def _send_frozen(self, frozen: Any) -> None:
-        if self._stamp and self._list:
-            self._set_number(frozen.header, self._next_number())
-        self._hand_out(frozen)
+    def connections_changed(self) -> None:
+        """Learn of a new or closed connection, or that a recording has begun or ended."""
+        senders = self.senders.values()
+        self._local = tuple(sender for sender in senders if isinstance(sender, QueuedSender))
+        self._wires = tuple(sender for sender in senders if not isinstance(sender, QueuedSender))
+        is_simple = (
+            len(self._local) == len(senders) == 1 and not self._latch and self._scheduler.history is None
+        )
+        self._only = self._local[0] if is_simple else None
+        self._header = None if self._only is None else self._only.header
 
-    def send_late(self, make: Callable[[], Any]) -> None:
-        """Send the message that ``make`` returns; if only a late subscriber can get it, make it when one comes."""
-        if self._list or not self._latch or self._scheduler.history is not None:
-            self.send(make())
-        else:
-            self._latched, self._later = None, make
-
-    def _latch_now(self) -> None:
-        """Make the message that waits for a subscriber, as if it had been sent when it was to be."""
-        if self._later is not None:
-            message, self._later = self._later(), None
-            if self._stamp:
-                self._number(message)
-            self._latched = self._freeze(message)
-
-    def relay(self, message: Any) -> None:
-        """Send what another node published first: its header keeps its number, and nobody need listen."""
-        frozen = self._freeze(message)
-        self._scheduler.on_hub(lambda: self._hand_out(frozen, warn=False))
-
-    def _dispatch(self, frozen: Any) -> None:
-        if get_ident() == self._scheduler.thread:
-            self._hand_out(frozen)
-        else:
-            self._scheduler.call_soon_threadsafe(lambda: self._hand_out(frozen))
-
-    def record(self) -> None:
-        """Learn that from now on, or no more, it is recorded what happens."""
-        self._connections_changed()
-
-    def _hand_out(self, frozen: Any, *, warn: bool = True) -> None:
-        if self._scheduler.history is not None:
-            self._scheduler.history.published(self.node.name, self.topic, frozen)
-        if self._latch:
-            self._latched, self._later = self._copy(frozen), None
-        senders = self._near
-        if not self._list:
-            if warn and self.warns_unheard and not self.latch:
-                self._warn_unheard()
+    def _hand_out(self, frozen: Any, to: str) -> None:
+        """Give a frozen message to the connections. In the scheduler's thread."""
+        history = self._scheduler.history
+        if history is not None:
+            history.published(self.node.name, self.topic, frozen)
+        if to:
+            for sender in [sender for sender in self.senders.values() if sender.destination == to]:
+                self._give(sender, frozen, self.queue_size)
             return
-        size = self._queue_size
-        if self._wires:  # encoded once for all of them
-            packet = _packet(frozen)
+        if self._latch:
+            self._latched = self._copy(frozen)
+        size = self.queue_size
+        if self._wires:
+            packet = _packet(frozen)  # encoded once for all of them
             for wire in self._wires:
                 wire.send(packet, size)
-        if senders:
-            senders[0].send(frozen, size)
-            for sender in senders[1:]:
-                sender.send(self._copy(frozen), size)
-
-    def send_to(self, destination: str, message: Any) -> None:
-        """Send ``message`` to the node ``destination`` only, as rospy's ``peer_publish`` does."""
-        frozen = self._freeze(message)
-        if self._scheduler.history is not None:
-            self._scheduler.history.published(self.node.name, self.topic, frozen)
-        for sender in [sender for sender in self._list if sender.destination == destination]:
-            self._give(sender, frozen, self.queue_size)
+        local = self._local
+        for sender in local:
+            message = frozen if sender is local[0] else self._copy(frozen)
+            set_header(message, sender.header)
+            sender.send(message, size)
+        if not local and not self._wires and self.warns_unheard and not self._latch:
+            self._warn_unheard()
 
     def _give(self, sender: Sender, frozen: Any, size: int | None) -> None:
-        sender.send(_packet(frozen) if sender.wants_bytes else self._copy(frozen), size)
+        if isinstance(sender, QueuedSender):
+            message = self._copy(frozen)
+            set_header(message, sender.header)
+            sender.send(message, size)
+        else:
+            sender.send(_packet(frozen), size)
 
     def _copy(self, frozen: Any) -> Any:
-        """Return a frozen message of which one receiver may become the owner."""
+        """Return a copy of a frozen message for one receiver, who may write into its arrays."""
         if self._thaw_numpy is None:
             return frozen
         copy = self._thaw_numpy(frozen)
@@ -228,7 +203,7 @@ class Publication:
         """Say, once for each connection, that messages are dropped."""
         if self.topic in ("/rosout", "/rosout_agg"):
             return
-        size = self._queue_size
+        size = self.queue_size
         queue = "no queue_size, and too many bytes wait" if size is None else f"queue_size={size}"
         self.node.logwarn(
             f"{sender.destination} takes messages on {self.topic} more slowly than {self.node.name} publishes them: "
@@ -273,15 +248,16 @@ class Publication:
 
     def add(self, sender: Sender) -> None:
         """Add a connection and send it what is latched."""
-        self._latch_now()
+        if type(self._latched) is MessageFactory:
+            self._latched = self._made(self._latched)
         number = self.node.next_connection_id()
         self.senders[number] = sender
         sender.on_closed = lambda: self.remove(number)
         sender.on_dropped = lambda: self._warn_dropped(sender)
-        self._connections_changed()
+        self.connections_changed()
         if self._latched is not None:
             latched = self._latched
-            if self._stamp:
+            if self._has_header:
                 latched = self._freeze(latched)
                 latched.header.seq = self._next_number()
                 if self._scheduler.history is not None:
@@ -295,7 +271,7 @@ class Publication:
         """Forget a connection that its subscriber closed."""
         sender = self.senders.pop(number, None)
         if sender is not None:
-            self._connections_changed()
+            self.connections_changed()
             self.node.connections_changed()
             for handle in self.handles:
                 handle.disconnected(sender.destination)
@@ -308,10 +284,10 @@ class Publication:
 
     def close(self) -> None:
         """Close all connections."""
-        for sender in self._list:
+        for sender in self.senders.values():
             sender.close()
         self.senders.clear()
-        self._connections_changed()
+        self.connections_changed()
 
 
 class Publisher(TopicHandle):
@@ -343,9 +319,9 @@ class Publisher(TopicHandle):
     def publish(self, message: Any = _NOTHING, /, *args: Any, **fields: Any) -> None:
         """Publish a message, or the message made from the given field values.
 
-        Later changes to the message do not change what was sent. Raises ``ROSException`` after :meth:`unregister` or
-        the node's shutdown, ``TypeError`` for a message of another type, and ``SerializationError`` for a field of the
-        wrong type.
+        Later changes to the message do not change what was sent. A :class:`MessageFactory` makes its message only if
+        somebody gets it. Raises ``ROSException`` after :meth:`unregister` or the node's shutdown, ``TypeError`` for a
+        message of another type, and ``SerializationError`` for a field of the wrong type.
         """
         publication = self._publication
         if publication is None:
@@ -354,17 +330,6 @@ class Publisher(TopicHandle):
             publication.send(message)
         else:
             publication.send(self._build(() if message is _NOTHING else (message, *args), fields))
-
-    def publish_late(self, make: Callable[[], Any]) -> None:
-        """Publish the message that ``make()`` returns; if only a late subscriber can get it, make it when one comes.
-
-        For large or frequent messages of a latching publisher that mostly nobody hears. What ``make`` uses must not
-        change afterwards. In the hub's thread. Raises as :meth:`publish`.
-        """
-        publication = self._publication
-        if publication is None:
-            raise ROSException(self._closed_message())
-        publication.send_late(make)
 
     def expect_nobody(self) -> None:
         """Do not warn of messages that are published while nobody is connected."""
@@ -376,26 +341,6 @@ class Publisher(TopicHandle):
         if self._publication is not None:
             self._publication.how_to_wait = how_to_wait
 
-    def publish_frozen(self, frozen: Any) -> None:
-        """Publish what a `rosmini.msgs.template` made, and nobody holds: no snapshot of it is taken.
-
-        For devices, whose hosts call them in the hub's thread. Raises ``ROSException`` as :meth:`publish`.
-        """
-        publication = self._publication
-        if publication is None:
-            raise ROSException(self._closed_message())
-        publication.send_frozen(frozen)
-
-    def relay(self, message: Any) -> None:
-        """Publish a message as it is, with the number in its header: for what another node published first.
-
-        Raises as :meth:`publish`.
-        """
-        publication = self._publication
-        if publication is None:
-            raise ROSException(self._closed_message())
-        publication.relay(message)
-
     def publish_to(self, destination: str, message: Any) -> None:
         """Publish ``message`` to one connected node only; harmless when that has gone.
 
@@ -404,13 +349,13 @@ class Publisher(TopicHandle):
         publication = self._publication
         if publication is None:
             raise ROSException(self._closed_message())
-        self.node.scheduler.on_hub(lambda: publication.send_to(destination, message))
+        publication.send(message, destination)
 
     def _build(self, args: tuple[Any, ...], fields: dict[str, Any]) -> Any:
         cls = self.message_class
         if len(args) == 1 and not fields:
             given = args[0]
-            if isinstance(given, cls):
+            if isinstance(given, (cls, MessageFactory)):
                 return given
             if getattr(given, "_md5sum", None) == cls._md5sum:
                 return recast(given, cls)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from types import FrameType
 
-    from .node_port import NodePort
+    from .node import Node
 
 LEVELS = {"DEBUG": 1, "INFO": 2, "WARN": 4, "ERROR": 8, "FATAL": 16}
 """The levels of ``rosgraph_msgs/Log``."""
@@ -99,7 +99,7 @@ class Logger:
     is what the service ``~set_logger_level`` calls.
     """
 
-    def __init__(self, node: NodePort) -> None:
+    def __init__(self, node: Node) -> None:
         self._node = node
         self.tree = LoggerTree()
         self.gates = LogGates()

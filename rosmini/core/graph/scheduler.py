@@ -294,13 +294,13 @@ class Scheduler(EventQueue):
 
     def _start_drive(self, waiter: Waiter) -> bool:
         """Begin to drive for a waiter, unless that has been done; return False if another thread drives."""
+        if self._root_waiter is waiter:
+            return True
         with self._owner_lock:
             if not self.is_hub_thread():
                 if self.driven or self._parked:
                     return False
                 self._move_hub(get_ident())  # the other one only looked at something
-            if self._root_waiter is waiter:
-                return True
             self._root_waiter = waiter
         self._left = len(self.ready)
         self._interrupts.arm()

@@ -24,7 +24,7 @@ from .transport import extra_fields, set_header
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .node_port import NodePort
+    from .node import Node
     from .transport import Header, ServiceLink
 
 
@@ -43,7 +43,7 @@ class ServiceServer:
 
     def __init__(
         self,
-        node: NodePort,
+        node: Node,
         name: str,
         service_class: Any,
         handler: Callable[[Any], Any],
@@ -227,7 +227,7 @@ class ServiceClient:
 
     def __init__(
         self,
-        node: NodePort,
+        node: Node,
         name: str,
         service_class: Any,
         *,

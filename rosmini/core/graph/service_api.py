@@ -12,7 +12,7 @@ from .service import ServiceClient, ServiceServer, Session
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .node_port import NodePort
+    from .node import Node
     from .transport import Header
 
 
@@ -41,7 +41,7 @@ class ServiceApi(ParameterApi):
                 )
                 raise ROSException(msg)
             server = self.services[resolved] = ServiceServer(
-                cast("NodePort", self), resolved, service_class, handler, numpy=numpy
+                cast("Node", self), resolved, service_class, handler, numpy=numpy
             )
             uri = self.graph.transport.service_uri(self.uri)
             try:
@@ -67,7 +67,7 @@ class ServiceApi(ParameterApi):
         ``headers`` are further fields of the connection header.
         """
         return ServiceClient(
-            cast("NodePort", self),
+            cast("Node", self),
             self.resolve(name),
             service_class,
             persistent=persistent,

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .connection import Connection
-    from .node_port import NodePort
+    from .node import Node
     from .publisher import Publication
     from .subscription import Subscription
     from .transport import Sender, Triple
@@ -47,7 +47,7 @@ class _Connections(NamedTuple):
 class SlaveApi:
     """The slave API of one node; methods, codes and texts are ROS's."""
 
-    def __init__(self, node: NodePort) -> None:
+    def __init__(self, node: Node) -> None:
         self._node = node
         self._published: dict[str, str] = {}
         self._subscribed: dict[str, str] = {}

@@ -1,18 +1,19 @@
-"""A node's side of a topic that it subscribes to: which publishers it is connected to, and who gets what arrives."""
+"""Subscribers: one :class:`Subscription` per node and topic, and a :class:`Subscriber` handle per callback."""
 
 from __future__ import annotations
 
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .connection import Connection, Way
+from .callbacks import Callback, TopicHandle
+from .connection import Connection, Route
 from .transport import set_header
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
-    from .node_port import NodePort
-    from .subscriber import Subscriber
+    from .connection import Observer
+    from .node import Node
     from .topic_statistics import TopicStatistics
     from .transport import Header
 
@@ -29,7 +30,7 @@ def _assign_header(message: Any, header: Header) -> None:
 class Subscription:
     """A node's side of a topic that it subscribes to."""
 
-    def __init__(self, node: NodePort, topic: str, message_class: Any) -> None:
+    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
         self.node = node
         self.topic = topic
         self.message_class = message_class
@@ -67,7 +68,7 @@ class Subscription:
         self._wanted = wanted = dict.fromkeys(uri for uri in uris if not self._is_skipped(uri))
         self._attempts = {uri: count for uri, count in self._attempts.items() if uri in wanted}
         for uri, link in self.connections.items():
-            link.was_left = link.was_left or (uri not in wanted and not link.is_open)
+            link.publisher_left = link.publisher_left or (uri not in wanted and not link.is_open)
         for uri in wanted:
             if uri not in self.connections:
                 self.connections[uri] = Connection(self, uri)
@@ -91,10 +92,10 @@ class Subscription:
         if self.connections.get(connection.uri) is connection:
             del self.connections[connection.uri]
 
-    def gave_up(self, connection: Connection) -> None:
+    def abandon(self, connection: Connection) -> None:
         """Drop a connection that came to nothing; if its publisher left meanwhile and is back, reconnect."""
         self.forget(connection)
-        if connection.was_left:
+        if connection.publisher_left:
             self._connect(connection.uri)
 
     def closed(self, connection: Connection) -> None:
@@ -105,8 +106,8 @@ class Subscription:
 
     def lost(self, connection: Connection, error: Exception | None) -> None:
         """Learn that a connection failed, or could not be made; say so once, and try again if the way allows it."""
-        self.gave_up(connection)
-        if connection.was_left:
+        self.abandon(connection)
+        if connection.publisher_left:
             return
         is_first, was_open = self.is_first_failure(connection), connection.protocol
         again = self._try_again(connection)
@@ -123,7 +124,7 @@ class Subscription:
 
     def is_first_failure(self, connection: Connection) -> bool:
         """Tell whether the attempts before this connection to its publisher, if there were any, had no success."""
-        return connection.was_of_use or connection.uri not in self._attempts
+        return connection.had_success or connection.uri not in self._attempts
 
     def _try_again(self, connection: Connection) -> bool:
         """Connect again later; each time without a message in between later still, as in rospy.
@@ -134,7 +135,7 @@ class Subscription:
         if self._is_closed or not self.handles or uri not in self._wanted:
             return False
         attempt = self._attempts.get(uri, 0)
-        attempt = min(attempt, 1) if connection.was_of_use else attempt
+        attempt = min(attempt, 1) if connection.had_success else attempt
         self._attempts[uri] = attempt + 1
         delay = min(RETRY_S * 2 ** (attempt - 1), LONGEST_RETRY_S) if attempt else 0.0
         return self.node.graph.transport.retry(uri, delay, partial(self._connect, uri))
@@ -178,13 +179,18 @@ class Subscription:
         sizes = [handle.queue_size for handle in self.handles]
         self.queue_size = None if not all(sizes) else max((size for size in sizes if size), default=None)
         for connection in self.connections.values():
-            connection.way = None
+            connection.route = None
 
-    def way(self, message_class: Any) -> Way:
+    def observers(self, connection: Connection) -> list[Observer]:
+        """Return who observes a connection: faults, the recording, and the statistics of the topic."""
+        found = self.node.graph.observers(connection)
+        return found if self.statistics is None else [*found, self.statistics.observer(connection)]
+
+    def route(self, message_class: Any) -> Route:
         """Return how messages of a class reach the callbacks."""
         first = self._first
         callbacks = [handle.callback for handle in self.handles if handle.callback is not None]
-        return Way(
+        return Route(
             None if self.message_class._type == "*" else self.message_class,
             None if first is None else first.thaw_for(message_class),
             set_header if first is None or first.receipt is None else _assign_header,
@@ -203,3 +209,72 @@ class Subscription:
         for connection in list(self.connections.values()):
             connection.close()
         self.connections.clear()
+
+
+class Subscriber(TopicHandle):
+    """Receives messages of one type on one topic. Made by ``Node.subscriber``.
+
+    ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes. What the
+    first subscriber of a node to a topic chose holds for all of that node's.
+    """
+
+    def __init__(
+        self,
+        subscription: Subscription,
+        message_class: Any,
+        callback: Callable[..., object] | None,
+        arguments: tuple[Any, ...] = (),
+        *,
+        queue_size: int | None = None,
+        numpy: bool = True,
+        on_connect: Callable[[str], object] | None = None,
+        on_disconnect: Callable[[str], object] | None = None,
+        receipt: Callable[[Any], Callable[[Any], Any] | None] | None = None,
+    ) -> None:
+        self._subscription: Subscription | None = subscription
+        self.node = subscription.node
+        self.topic = subscription.topic
+        self.message_class = message_class
+        self.queue_size = queue_size
+        self.callback = None if callback is None else Callback(callback, arguments)
+        self._numpy = numpy
+        self.receipt = receipt
+        self._on_connect = on_connect
+        self._on_disconnect = on_disconnect
+        subscription.add(self)
+
+    def __repr__(self) -> str:
+        return f"<Subscriber {self.topic} [{self.message_class._type}] of {self.node.name}>"
+
+    def thaw_for(self, message_class: Any) -> Callable[[Any], Any] | None:
+        """Return how a frozen message becomes this subscriber's own; None: as it is."""
+        if self.receipt is not None:
+            return self.receipt(message_class)
+        thaw: Callable[[Any], Any] | None = message_class._thawer(numpy=self._numpy)
+        return thaw
+
+    @property
+    def wish(self) -> str:
+        """What this subscriber asked for, in words."""
+        if self.message_class._type == "*":
+            return "messages of any type"
+        arrays = " with numpy arrays" if self._numpy or self.receipt is not None else ""
+        return f"{self.message_class._type}{arrays}"
+
+    def wants_other_than(self, other: Subscriber) -> bool:
+        """Tell whether this one would get another object than ``other`` does for the same message."""
+        cls = other.message_class
+        return self.message_class._type != cls._type or self.thaw_for(cls) != other.thaw_for(cls)
+
+    def num_connections(self) -> int:
+        """Return the number of connected publishers."""
+        return 0 if self._subscription is None else self._subscription.num_open()
+
+    def _unregister(self) -> None:
+        subscription, self._subscription = self._subscription, None
+        if subscription is not None:
+            subscription.remove(self)
+
+    def detach(self) -> None:
+        """Learn that the node has shut down."""
+        self._subscription = None

@@ -14,11 +14,11 @@ from rosmini.core.errors import MasterUnreachable, ParameterError
 from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class
 
-from .callbacks import Callback
+from .connection import Observer
 
 if TYPE_CHECKING:
-    from .connection import Way
-    from .node_port import NodePort
+    from .connection import Connection
+    from .node import Node
 
 TOPIC = "/statistics"
 PARAMETER = "/enable_statistics"
@@ -31,7 +31,7 @@ LENGTH_SIZE = 4
 SECOND = 1_000_000_000
 
 
-def are_wanted(node: NodePort, topic: str) -> bool:
+def are_wanted(node: Node, topic: str) -> bool:
     """Return the value of ``/enable_statistics``; False if the Master does not answer, as in rospy.
 
     A Master in this process is asked without a record of the call: the parameter is read for every subscriber.
@@ -52,7 +52,7 @@ def are_wanted(node: NodePort, topic: str) -> bool:
 class TopicStatistics:
     """The statistics of one node's connections to a topic: one window for each publisher."""
 
-    def __init__(self, node: NodePort, topic: str) -> None:
+    def __init__(self, node: Node, topic: str) -> None:
         self._node = node
         self._topic = topic
         self._windows: dict[str, _Window] = {}
@@ -78,14 +78,16 @@ class TopicStatistics:
             return default
         return value
 
-    def observed(self, way: Way, publisher: str) -> Way:
-        """Return a way on which each message of ``publisher`` is counted before the callbacks get it."""
+    def observer(self, connection: Connection) -> Observer:
+        """Return what counts the messages of a connection."""
+        return _Counter(self, connection)
+
+    def window(self, publisher: str) -> _Window:
+        """Return the window of a publisher's messages."""
         window = self._windows.get(publisher)
         if window is None:
             window = self._windows[publisher] = _Window(self, self._node, self._topic, publisher)
-        return type(way)(
-            way.own, way.thaw, way.label, ((window.add, Callback(window.add, ())), *way.callbacks)
-        )
+        return window
 
     def close(self) -> None:
         """Stop publishing."""
@@ -94,10 +96,21 @@ class TopicStatistics:
         self._windows.clear()
 
 
+class _Counter(Observer):
+    """Counts the messages of one connection before the callbacks get them."""
+
+    def __init__(self, statistics: TopicStatistics, connection: Connection) -> None:
+        self._statistics = statistics
+        self._connection = connection
+
+    def before(self, frozen: Any) -> None:
+        self._statistics.window(self._connection.peer).add(frozen)
+
+
 class _Window:
     """What one connection received since its statistics were published last; all times are in nanoseconds."""
 
-    def __init__(self, statistics: TopicStatistics, node: NodePort, topic: str, publisher: str) -> None:
+    def __init__(self, statistics: TopicStatistics, node: Node, topic: str, publisher: str) -> None:
         self._statistics = statistics
         self._node = node
         self._names = {"topic": topic, "node_pub": publisher, "node_sub": node.name}

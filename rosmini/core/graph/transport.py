@@ -1,7 +1,7 @@
 """The seam between nodes and the way in which bytes or objects travel between them.
 
 A node knows only what is written here. Three things cross the seam: calls of another node's slave API, topic
-connections (from a publisher's :class:`Sender` to a subscriber's :class:`Receiver`), and service connections. What
+connections (from a publisher's :class:`Sender` to a subscriber's ``Connection``), and service connections. What
 travels is always a *frozen* message: a private copy, checked and rounded as the wire would round it.
 
 :class:`LocalTransport` hands frozen messages over inside one process. :mod:`rosmini.core.graph.byte_transport`
@@ -12,8 +12,6 @@ a TCPROS transport has nothing to add.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections import deque
 from collections.abc import Callable, Mapping
 from os import getpid
 from socket import gethostname
@@ -23,8 +21,7 @@ from rosmini.core.errors import TransportTerminated
 from rosmini.msgs.message import Message
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
+    from .connection import Connection
     from .scheduler import Scheduler
 
 Triple = list[Any]
@@ -58,95 +55,29 @@ class Sender(Protocol):
     """The publisher's end of a topic connection."""
 
     protocol: str
-    wants_bytes: bool
-    """True where it sends bytes: these are made once for all such connections of a publication."""
     destination: str
     info: str
-    """What ``getBusInfo`` says of the connection; empty where there is nothing to add to the destination."""
+    """The connection's description in ``getBusInfo``; empty if the destination is enough."""
     on_closed: Callable[[], None]
-    """Set by the publisher; called in the hub's thread when the subscriber has closed the connection."""
+    """Set by the publisher; called in the scheduler's thread when the subscriber has closed the connection."""
     on_dropped: Callable[[], None]
-    """Set by the publisher; called in the hub's thread when the first message is dropped."""
+    """Set by the publisher; called in the scheduler's thread when the first message is dropped."""
     dropped: int
-    """The number of messages dropped because the subscriber takes them too slowly."""
-    receiver: DirectReceiver | None
-    """The other end, if its queue may be appended to while it is pending."""
+    """Number of messages dropped because the subscriber takes them too slowly."""
 
     @property
     def sent(self) -> int:
-        """How many messages were sent."""
+        """Number of messages sent."""
 
-    def send(self, frozen: Any, size: int | None) -> None:
-        """Send a frozen message that now belongs to the connection; ``size`` bounds the queue (None: no bound).
+    def send(self, message: Any, size: int | None) -> None:
+        """Send a message; ``size`` is the maximum length of the queue (None: no limit).
 
-        One that :attr:`wants_bytes` is given the message's bytes with their length in front.
+        A :class:`~rosmini.core.graph.connection.QueuedSender` gets a frozen message that nobody else holds; one that
+        writes to a wire gets the message's bytes with their length in front, which are made once for all wires.
         """
 
     def close(self) -> None:
         """Close the connection after what was sent."""
-
-
-class Receiver(Protocol):
-    """The subscriber's end of a topic connection. Its methods are called in the hub's thread."""
-
-    message_class: Any
-
-    def deliver(self, messages: Iterable[Any]) -> None:
-        """Take frozen messages, oldest first; they now belong to the receiver. It runs no user code."""
-
-    def closed(self) -> None:
-        """Learn that the publisher closed the connection."""
-
-    def failed(self, error: Exception) -> None:
-        """Learn that the transport failed and closed the connection."""
-
-
-def refuse() -> bool:
-    """Give no turn: what a receiver does while nothing may join its queue."""
-    return False
-
-
-class DirectReceiver(ABC):
-    """A receiver whose queue a sender in the same process fills itself, while its callbacks are not busy."""
-
-    message_class: Any
-
-    def __init__(self) -> None:
-        self.header: Header = {}
-        """The publisher's connection header, which every message carries; it stays the same dictionary."""
-        self.incoming: deque[Any] = deque()
-        """The frozen messages that wait for the callbacks, oldest first."""
-        self.pending = False
-        """True while the callbacks' turn is due and has not begun: what is appended to ``incoming`` joins it."""
-        self.begin: Callable[[], bool] = refuse
-        """Asks for a turn of the callbacks; False when one is under way, and messages have to be delivered later."""
-        self.received = 0
-        """How many messages the callbacks got."""
-        self.dropped = 0
-        """The number of messages dropped because too many waited."""
-        self.bytes_received = 0
-        """How many bytes of messages were taken from a wire."""
-        self.info = ""
-        """What ``getBusInfo`` says of the connection, as :attr:`Sender.info`."""
-        self.on_drained: Callable[[], None] | None = None
-        """Called when the callbacks have taken all that waited: a sender that holds more back goes on then."""
-
-    @property
-    @abstractmethod
-    def queue_size(self) -> int | None:
-        """How many messages may wait for the callbacks; None or 0: no bound."""
-
-    @abstractmethod
-    def deliver(self, messages: Iterable[Any]) -> None:
-        """See :class:`Receiver`."""
-
-    @abstractmethod
-    def closed(self) -> None:
-        """See :class:`Receiver`."""
-
-    @abstractmethod
-    def failed(self, error: Exception) -> None:
-        """See :class:`Receiver`."""
 
 
 class ServiceSession(Protocol):
@@ -236,7 +167,7 @@ class Transport(Protocol):
         """Give up what is open, for the graph has been shut down; it may be used again."""
 
     def connect_topic(
-        self, caller: str, parameters: list[Any], header: Header, receiver: Receiver
+        self, caller: str, parameters: list[Any], header: Header, receiver: Connection
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection of the node at ``caller``; may block.
 
@@ -256,138 +187,6 @@ class Transport(Protocol):
 def slave_uri(uri: str) -> str:
     """Return the address of a node's slave API, given that or the one of its services."""
     return uri if uri.startswith("http://") else uri.replace("rosrpc://", "http://") + "/"
-
-
-def _nothing() -> None:
-    """Do nothing: what is called when nobody has asked to be."""
-
-
-IN_FLIGHT = 6 * 2**20
-"""Bytes that the buffers of a connection take, as those of two sockets do [bytes]; what follows waits in the queue."""
-
-OVERHEAD = 64
-"""What a message takes of that besides its own bytes [bytes]."""
-
-
-class QueuedSender:
-    """Collects messages until the next event of the queue, and then flushes them.
-
-    As in rospy, whose threads send while the publisher goes on, a burst fills no queue. A publisher's queue only counts
-    while the subscriber takes so few that the buffers between the two are full.
-    """
-
-    protocol = "INPROC"
-    wants_bytes = False
-    info = ""
-    __slots__ = (
-        "_closed",
-        "_queue",
-        "_queued",
-        "_ready",
-        "_receiver",
-        "destination",
-        "dropped",
-        "on_closed",
-        "on_dropped",
-        "receiver",
-    )
-
-    def __init__(self, scheduler: Scheduler, receiver: Receiver, destination: str) -> None:
-        self._ready = scheduler.ready
-        self._receiver = receiver
-        self._queue: deque[Any] = deque()
-        self._closed = False
-        self.destination = destination
-        self.on_closed: Callable[[], None] = _nothing
-        self.on_dropped: Callable[[], None] = _nothing
-        self.receiver: DirectReceiver | None = None
-        self._queued = 0
-        self.dropped = 0
-
-    @property
-    def sent(self) -> int:
-        """How many messages were sent, dropped ones included."""
-        return self._queued
-
-    def send(self, frozen: Any, size: int | None) -> None:
-        """Queue a message. If the buffers are full and ``size`` messages wait, the oldest of these is dropped."""
-        if size is not None and len(self._queue) >= size and self._is_full(frozen, size, len(self._queue)):
-            del self._queue[-size]
-            self._drop()
-        self._add(frozen)
-
-    def _add(self, frozen: Any) -> None:
-        self._queued += 1
-        if not self._queue:
-            self._ready.append(self._flush)
-        self._queue.append(frozen)
-
-    @staticmethod
-    def _is_full(frozen: Any, size: int, waiting: int) -> bool:
-        """Return whether the buffers and a queue of ``size`` are full when ``waiting`` such messages wait."""
-        return waiting - size >= IN_FLIGHT // (len(frozen._encode(frozen)) + OVERHEAD)
-
-    def _drop(self) -> None:
-        self.dropped += 1
-        if self.dropped == 1:
-            self.on_dropped()
-
-    def _flush(self) -> None:
-        queue = self._queue
-        if not self._closed:
-            self._receiver.deliver(queue)
-        queue.clear()
-
-    def close(self) -> None:
-        """Close from the publisher's side: what is queued still arrives, then the receiver is told."""
-        if not self._closed:
-            self._ready.append(self._close)
-
-    def _close(self) -> None:
-        if not self._closed:
-            self._closed = True
-            self._receiver.closed()
-
-    def drop(self) -> None:
-        """Close from the subscriber's side: nothing more arrives, and the publisher is told."""
-        if not self._closed:
-            self._closed = True
-            self.on_closed()
-
-
-class LocalSender(QueuedSender):
-    """Hands messages to a receiver in the same process: straight into its queue, unless its callbacks are busy."""
-
-    __slots__ = ("_direct", "_incoming")
-
-    def __init__(self, scheduler: Scheduler, receiver: DirectReceiver, destination: str) -> None:
-        super().__init__(scheduler, receiver, destination)
-        self.receiver = self._direct = receiver
-        self._incoming = receiver.incoming
-
-    @property
-    def sent(self) -> int:
-        """How many messages were sent, dropped ones included."""
-        to = self._direct
-        return self.dropped + len(self._queue) + len(self._incoming) + to.dropped + to.received
-
-    def send(self, frozen: Any, size: int | None) -> None:
-        """Hand a message over. If the buffers are full and ``size`` messages wait, the oldest of these is dropped."""
-        receiver, incoming, queue = self._direct, self._incoming, self._queue
-        waiting = len(incoming) + len(queue)
-        if size is not None and waiting >= size and self._is_full(frozen, size, waiting):
-            if len(queue) >= size:
-                del queue[-size]
-            else:
-                del incoming[len(queue) - size]
-            self._drop()
-        if not receiver.pending:
-            if queue or not receiver.begin():
-                self._add(frozen)
-                return
-            receiver.pending = True
-        set_header(frozen, receiver.header)
-        incoming.append(frozen)
 
 
 class LocalServiceLink:
@@ -471,14 +270,12 @@ class LocalTransport:
         caller: str,  # noqa: ARG002 - the seam's
         parameters: list[Any],
         header: Header,
-        receiver: Receiver,
+        receiver: Connection,
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection."""
-        sender = (
-            LocalSender(self._scheduler, receiver, header["callerid"])
-            if isinstance(receiver, DirectReceiver)
-            else QueuedSender(self._scheduler, receiver, header["callerid"])
-        )
+        from .connection import LocalSender
+
+        sender = LocalSender(self._scheduler, receiver, header["callerid"])
         reply = self.endpoint(parameters[1]).accept_subscriber(header, sender)
         return reply, sender.drop
 

@@ -9,8 +9,9 @@ from rosmini.core.errors import TransportException, TransportInitError, shown
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from .connection import Connection
     from .scheduler import Scheduler
-    from .transport import Endpoint, Header, Receiver, ServiceLink, Transport, Triple
+    from .transport import Endpoint, Header, ServiceLink, Transport, Triple
 
 
 class Transports:
@@ -91,7 +92,7 @@ class Transports:
         return answer
 
     def connect_topic(
-        self, caller: str, parameters: list[Any], header: Header, receiver: Receiver
+        self, caller: str, parameters: list[Any], header: Header, receiver: Connection
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection in the way that was agreed on; see ``Transport``."""
         for way in self.ways:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rosmini.core.dynamic_reconfigure import Server
 from rosmini.core.errors import RosminiError, ServiceException
 from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.graph import MessageFactory
 from rosmini.core.maps.grid_map import GridMap
 from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
 from rosmini.core.tf.messages import set_pose
@@ -408,7 +409,7 @@ class Amcl:
 
     def _publish_cloud(self, stamp: Time) -> None:
         particles, frame = self.localizer.filter.particles.copy(), self.parameters.global_frame_id
-        self._cloud.publish_late(lambda: cloud(particles, frame, stamp))
+        self._cloud.publish(MessageFactory(lambda: cloud(particles, frame, stamp)))
 
     def _broadcast(self, stamp: Time) -> None:
         p = self.parameters

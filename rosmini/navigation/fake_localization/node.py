@@ -11,6 +11,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.graph import MessageFactory
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.core.tf import TransformBroadcaster, TransformException, TransformListener
 from rosmini.core.tf.broadcaster import resolve, tf_prefix
@@ -108,8 +109,8 @@ class FakeLocalization:
             found.header.stamp, found.header.frame_id = stamp, frame
             return found
 
-        self._pose.publish_late(posed)
-        self._cloud.publish_late(cloud)
+        self._pose.publish(MessageFactory(posed))
+        self._cloud.publish(MessageFactory(cloud))
 
     def _on_initial_pose(self, message: Any) -> None:
         frame = message.header.frame_id.lstrip("/")

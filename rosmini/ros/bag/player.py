@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from heapq import merge
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.graph import MessageFactory
 from rosmini.core.time import Time
 
 from .bag import Bag
@@ -191,11 +192,12 @@ class Player:
             latch=latch,
             on_connect=(lambda peer: self._greet(topic, peer)) if greets else None,
         )
+        self._publishers[topic].expect_nobody()
 
     def _greet(self, topic: str, peer: str) -> None:
         """Send a late subscriber the latched message of each connection; the graph has already sent it the newest."""
         for message in list(self._latched[topic].values())[:-1]:
-            self._publishers[topic].publish_to(peer, message)
+            self._publishers[topic].publish_to(peer, _as_recorded(message))
 
     def _wait_for_subscribers(self) -> None:
         for topic, publisher in self._publishers.items():
@@ -274,7 +276,7 @@ class Player:
             key = id(bag), conn.id
             kept.pop(key, None)
             kept[key] = message  # the newest comes last
-        self._publishers[topic].relay(message)
+        self._publishers[topic].publish(_as_recorded(message))
         self.played += 1
         return conn.topic, time
 
@@ -353,3 +355,8 @@ class Player:
 
 def _nothing() -> None:
     """Cancel nothing."""
+
+
+def _as_recorded(message: Any) -> MessageFactory:
+    """Return a message that is published with the sequence number that its header has in the bag."""
+    return MessageFactory(lambda: message, keeps_number=True)

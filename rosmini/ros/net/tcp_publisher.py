@@ -9,7 +9,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rosmini.core.graph.scheduler import Scheduler
-    from rosmini.core.graph.transport import DirectReceiver
 
     from .tcp_stream import Stream
 
@@ -24,8 +23,6 @@ class TcpSender:
     """Sends serialised messages to one subscriber in batches; drops the oldest if it reads slowly."""
 
     protocol = "TCPROS"
-    wants_bytes = True
-    receiver: DirectReceiver | None = None
 
     def __init__(self, scheduler: Scheduler, stream: Stream, destination: str) -> None:
         self._scheduler = scheduler

@@ -10,8 +10,8 @@ from rosmini.core.errors import DeserializationError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rosmini.core.graph.connection import Connection
     from rosmini.core.graph.scheduler import Scheduler
-    from rosmini.core.graph.transport import DirectReceiver
 
     from .tcp_stream import Stream
 
@@ -36,7 +36,7 @@ class TopicInlet:
         self,
         scheduler: Scheduler,
         stream: Stream,
-        receiver: DirectReceiver,
+        receiver: Connection,
         first: list[bytes],
         on_cut: Callable[[], None],
     ) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from socket import gaierror
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from rosmini.core.errors import DeserializationError, TransportException, TransportInitError, shown
 from rosmini.core.graph.headers import decode_fields, encode_header
@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     import socket
     from collections.abc import Callable, Coroutine
 
+    from rosmini.core.graph.connection import Connection
     from rosmini.core.graph.scheduler import Scheduler
-    from rosmini.core.graph.transport import DirectReceiver, Endpoint, Header, Receiver, Triple
+    from rosmini.core.graph.transport import Endpoint, Header, Triple
 
     from .addresses import Addresses
     from .xmlrpc_client import XmlRpcClient
@@ -145,7 +146,7 @@ class TcpTransport:
         caller: str,  # noqa: ARG002 - the seam's
         parameters: list[Any],
         header: Header,
-        receiver: Receiver,
+        receiver: Connection,
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection; the lane is parked meanwhile.
 
@@ -161,8 +162,7 @@ class TcpTransport:
         stream, reply, more = self._open(
             open_topic(network.io, host, port, header), f"the publisher of {header['topic']}"
         )
-        end = cast("DirectReceiver", receiver)
-        end.info = stream.describe(host)
+        receiver.info = stream.describe(host)
         name, topic = header["callerid"], header["topic"]
 
         def complain() -> None:
@@ -170,7 +170,7 @@ class TcpTransport:
             text = f"{name} lost a message on {topic}: {who} closed the connection in the middle of it"
             network.warn(text, (name, topic, host, "cut"))
 
-        inlet = TopicInlet(network.scheduler, stream, end, more, complain)
+        inlet = TopicInlet(network.scheduler, stream, receiver, more, complain)
         return reply, inlet.close
 
     def connect_service(

@@ -23,7 +23,7 @@ from rosmini.core.names import Remappings, canonicalize
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.core.graph.node_port import NodePort
+    from rosmini.core.graph.node import Node
 
 _ATTRIBUTE = "_rospy_session"
 
@@ -173,7 +173,7 @@ def any_node() -> Node:
     return current_node() or current_session().unnamed()
 
 
-def answer_interrupt(node: NodePort, error: KeyboardInterrupt) -> BaseException:
+def answer_interrupt(node: Node, error: KeyboardInterrupt) -> BaseException:
     """Return the exception that a blocking call raises on Ctrl-C.
 
     In a standalone program rospy shuts the node down, unless ``init_node`` was told not to handle signals;

@@ -8,11 +8,13 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Iterable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import Pose, compose, inverse
+from rosmini.core.graph import MessageFactory
 from rosmini.msgs import message_class
 from rosmini.sim.engine.odometry import Odometry
 from rosmini.sim.engine.robot import HolonomicRobot
@@ -310,7 +312,7 @@ class OdometryTransforms(Device):
         """Publish the current transforms."""
         if self._publisher.num_connections():
             made = [make(*stamp, drive.reckoned.pose) for drive, make in self._drives.items()]
-            self._publisher.publish_frozen(self._list(transforms=made))
+            self._publisher.publish(MessageFactory(partial(self._list, transforms=made), is_frozen=True))
 
     def state(self) -> Any:
         """Return the order of the drives."""

@@ -84,7 +84,7 @@ class RangeDevice(Sensor):
             self.ranges = ranges
             self._last = (*stamp, ranges.astype(np.float32), intensities)
             if self.outlet.num_connections():
-                self.outlet.publisher.publish_frozen(self.outlet.make(*self._last))
+                self.outlet.publish(self._last[:2], self._last[2:])
 
     @property
     def seen_from(self) -> Floats:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from rosmini.core.graph import MessageFactory
 from rosmini.msgs import message_class
 from rosmini.msgs.template import template
 from rosmini.sim.host import Device, Host, Stamp
@@ -35,7 +37,8 @@ class Outlet:
 
     def publish(self, stamp: Stamp, values: Sequence[Any] = ()) -> None:
         """Publish a message with the values of the varying fields."""
-        self.publisher.publish_frozen(self.make(*stamp, *values) if self._stamped else self.make(*values))
+        varying = (*stamp, *values) if self._stamped else values
+        self.publisher.publish(MessageFactory(partial(self.make, *varying), is_frozen=True))
 
     def close(self) -> None:
         """Close the topic."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from rosmini.core.geometry.angles import normalize_angle
 from rosmini.core.geometry.poses import Pose
+from rosmini.core.graph import MessageFactory
 from rosmini.msgs import message_class
 from rosmini.sim.devices import DifferentialDrive, GroundTruth, OdometryTransforms, RangeDevice
 from rosmini.sim.devices.drive import OdometryReading
@@ -220,7 +222,7 @@ class StageTransforms(Device):
         fixed = [*self._still, *(make for wanted, make in self._sometimes if wanted())]
         made = [make(*stamp) for make in fixed]
         made += [make(*stamp, base.reckoned.pose) for base, make in self._moving]
-        self._publisher.publish_frozen(self._list(transforms=made))
+        self._publisher.publish(MessageFactory(partial(self._list, transforms=made), is_frozen=True))
 
     def close(self) -> None:
         """Close the topic."""

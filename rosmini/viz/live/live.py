@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph import Node
     from rosmini.core.graph.clock import Timer
-    from rosmini.core.graph.subscriber import Subscriber
+    from rosmini.core.graph.subscription import Subscriber
 
     from .pad import TeleopPad
 

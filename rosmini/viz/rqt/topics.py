@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from optparse import Values
 
     from rosmini.core.graph import Graph
-    from rosmini.core.graph.subscriber import Subscriber
+    from rosmini.core.graph.subscription import Subscriber
     from rosmini.core.verbs import Call
     from rosmini.viz.view import View
 

@@ -33,15 +33,14 @@ def test_each_publisher_has_chances_of_its_own() -> None:
     assert passed(TopicFault("/t", lose=0.5), 50, "/a") != passed(TopicFault("/t", lose=0.5), 50, "/b")
 
 
-def test_the_nearer_fault_is_the_one_that_holds() -> None:
+def test_a_fault_for_one_subscriber_adds_to_that_for_all() -> None:
     gates = Gates(Scheduler())
-    assert gates.gate("/t", "/a") is None
+    assert gates.of("/t", "/a") == []
     gates.faults["/t", ""] = TopicFault("/t", lose=1)
     gates.faults["/t", "/a"] = TopicFault("/t", "/a", delay=1)
     kept: list[object] = []
-    near, far = gates.gate("/t", "/a"), gates.gate("/t", "/b")
-    assert near is not None
-    assert far is not None
+    (far,) = gates.of("/t", "/b")
+    assert len(gates.of("/t", "/a")) == 2
     far.pass_on([Int32(1)], "/p", kept.extend)
     assert kept == []
     assert gates.faults["/t", ""].lost == 1

@@ -10,7 +10,7 @@ import pytest
 
 from rosmini.core.errors import TransportException, TransportInitError
 from rosmini.core.graph import Graph
-from rosmini.core.graph.transport import QueuedSender
+from rosmini.core.graph.connection import QueuedSender
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 from rosmini.ros.net.tcp_transport import TcpTransport

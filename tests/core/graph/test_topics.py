@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import weakref
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 
 from rosmini import Graph
 from rosmini.core.errors import GraphEnded, ROSException, SerializationError, TypeMismatch
+from rosmini.core.graph import MessageFactory
 from rosmini.msgs.geometry_msgs.msg import Point, PointStamped, Polygon, Twist, Vector3
 from rosmini.msgs.nav_msgs.msg import Path
 from rosmini.msgs.rosgraph_msgs.msg import Log
@@ -251,7 +253,7 @@ def test_what_is_published_late_is_made_when_somebody_comes_and_is_the_same(
             message.header.frame_id = name
             return message
 
-        publisher.publish_late(make) if late else publisher.publish(make())
+        publisher.publish(MessageFactory(make) if late else make())
 
     publish("a")
     publish("b")
@@ -271,7 +273,7 @@ def test_what_is_published_late_is_made_when_somebody_comes_and_is_the_same(
 
 def test_a_later_message_replaces_one_that_was_not_made_yet(graph: Graph) -> None:
     publisher = graph.node("talker").publisher("chatter", String, latch=True)
-    publisher.publish_late(lambda: String("old"))
+    publisher.publish(MessageFactory(lambda: String("old")))
     publisher.publish("new")
     heard: list[str] = []
     graph.node("listener").subscriber("chatter", String, lambda message: heard.append(message.data))
@@ -982,11 +984,11 @@ def test_what_a_template_made_reaches_everybody_with_numbers_in_its_header(graph
     publisher = connected(graph.node("sender"), "point", PointStamped, 2, queue_size=10)
     made = template(PointStamped(), "point.x")
     for x in range(3):
-        publisher.publish_frozen(made(float(x)))
+        publisher.publish(MessageFactory(partial(made, float(x)), is_frozen=True))
     until(graph, lambda: all(len(messages) == 3 for messages in heard.values()))
     for messages in heard.values():
         assert [(m.header.seq, m.point.x) for m in messages] == [(1, 0.0), (2, 1.0), (3, 2.0)]
         assert {m._connection_header["callerid"] for m in messages} == {"/sender"}
     publisher.unregister()
     with pytest.raises(ROSException, match="unregister"):
-        publisher.publish_frozen(made(0.0))
+        publisher.publish(MessageFactory(partial(made, 0.0), is_frozen=True))
