@@ -109,6 +109,7 @@ class Publication:
                 self._latched = message
                 return
             frozen = self._made(message)
+            set_header(frozen, self._header)
         else:
             if self._has_header:
                 self._number(message)

@@ -31,7 +31,7 @@ Header = dict[str, str]
 """A connection header: the fields that two ends show each other before the first message."""
 
 
-set_header: Callable[[Any, Header], None] = Message.__dict__["_connection_header"].__set__
+set_header: Callable[[Any, Header | None], None] = Message.__dict__["_connection_header"].__set__
 """Sets a message's `_connection_header`, past the check of names that an assignment makes."""
 
 

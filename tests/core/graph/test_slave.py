@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -160,7 +161,7 @@ def test_nobody_answers_for_a_node_that_has_gone(talking: Graph) -> None:
 def test_a_bad_header_of_a_subscriber_is_refused_in_ross_words(
     talking: Graph, capsys: pytest.CaptureFixture[str], header: dict[str, str], text: str
 ) -> None:
-    sender = QueuedSender(talking.scheduler, None, "/wire")  # type: ignore[arg-type]
+    sender = QueuedSender(talking.scheduler, SimpleNamespace(header={}), "/wire")  # type: ignore[arg-type]
     with pytest.raises(TransportInitError) as caught:
         talking.nodes["/talker"].accept_subscriber({"callerid": "/wire", **header}, sender)
     assert str(caught.value) == text
@@ -170,7 +171,7 @@ def test_a_bad_header_of_a_subscriber_is_refused_in_ross_words(
 @pytest.mark.parametrize("header", [{"type": "*", "md5sum": "*"}, {"md5sum": MD5}])
 def test_wildcards_are_welcome(talking: Graph, header: dict[str, str]) -> None:
     talker = talking.nodes["/talker"]
-    sender = QueuedSender(talking.scheduler, None, "/wire")  # type: ignore[arg-type]
+    sender = QueuedSender(talking.scheduler, SimpleNamespace(header={}), "/wire")  # type: ignore[arg-type]
     answer = talker.accept_subscriber({"callerid": "/wire", "topic": "/chatter", **header}, sender)
     assert list(answer) == ["callerid", "latching", "md5sum", "message_definition", "topic", "type"]
     assert answer["message_definition"] == "string data\n"
