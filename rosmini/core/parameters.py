@@ -25,7 +25,7 @@ from dataclasses import Field, dataclass, field, fields
 from typing import TYPE_CHECKING, Any, ClassVar, Self, Union, get_args, get_origin, get_type_hints
 
 from rosmini.core.errors import ParameterError, nearest
-from rosmini.core.graph.parameter_api import expected
+from rosmini.core.graph.parameter_client import expected
 
 if TYPE_CHECKING:
     from rosmini.core.graph import Node

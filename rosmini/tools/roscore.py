@@ -70,7 +70,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def main(args: argparse.Namespace) -> int:
     """Serve until Ctrl-C, SIGTERM or a call of the Master's `shutdown`."""
     from rosmini.core.graph import Graph
-    from rosmini.core.graph.transport import LocalTransport
+    from rosmini.core.graph.local_transport import LocalTransport
     from rosmini.core.names import Remappings
     from rosmini.ros.net.addresses import addresses
     from rosmini.ros.net.master_server import AddressInUse

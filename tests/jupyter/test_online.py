@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini.core.graph import Graph
-from rosmini.core.graph.transport import LocalTransport
+from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.msgs import message_class
 from rosmini.ros.net import connect
 from rosmini.ros.net.addresses import addresses

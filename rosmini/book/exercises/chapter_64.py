@@ -13,7 +13,7 @@ from typing import Any
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
 from rosmini.core.graph import Graph
 from rosmini.core.graph.headers import encode_header
-from rosmini.core.graph.transport import LocalTransport
+from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import String

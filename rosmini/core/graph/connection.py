@@ -23,7 +23,7 @@ from rosmini.msgs.full_text import class_from
 from .callbacks import Callback
 from .mismatch import describe_mismatch, recast
 from .rosout import LEVELS
-from .transport import LocalTransport, set_header
+from .transport import LOCAL, set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -44,7 +44,7 @@ def _class_of(header: Header, protocol: str, default: Any) -> Any:
     """
     name, md5sum, text = (header.get(key, "") for key in ("type", "md5sum", "message_definition"))
     makers = [partial(message_class, name)]
-    if protocol != LocalTransport.protocol:
+    if protocol != LOCAL:
         makers.append(partial(class_from, name, text))
     for make in makers:
         try:
@@ -114,7 +114,7 @@ class QueuedSender:
     while the subscriber takes so few that the buffers between the two are full.
     """
 
-    protocol = "INPROC"
+    protocol = LOCAL
     info = ""
     __slots__ = (
         "_closed",

@@ -2,25 +2,145 @@
 
 from __future__ import annotations
 
+import heapq
 import threading
 import time
 from _thread import get_ident
 from collections import deque
+from contextlib import suppress
 from math import inf
 from numbers import Real
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from rosmini.core.errors import RosminiError, shown
 
-from .events import TimedEvents
-from .inbox import Inbox
-from .interrupts import MAIN_THREAD
+from .threads import MAIN_THREAD
 
 if TYPE_CHECKING:
+    from collections import deque
     from collections.abc import Callable
 
-    from .events import Timer
-    from .inbox import Sleeper
+
+SWEEP_FROM = 1_024
+"""From this many entries on, cancelled ones are thrown out now and then."""
+
+
+class Timer(list[Any]):
+    """A call in the future that can be cancelled: ``[when_ns, sequence number, callback]``, ordered as lists are."""
+
+    __slots__ = ()
+
+    @property
+    def when_ns(self) -> int:
+        """When it is due."""
+        return int(self[0])
+
+    def cancel(self) -> None:
+        """Do not call. Harmless when it was called already."""
+        self[2] = None
+
+
+class TimedEvents:
+    """The timers that have not been called."""
+
+    def __init__(self) -> None:
+        self.heap: list[Timer] = []
+        """What is to be called, ordered by time and then by number; it stays the same list."""
+        self._sequence = 0
+        self._sweep_at = SWEEP_FROM
+
+    def __len__(self) -> int:
+        return len(self.heap)
+
+    def add(self, when_ns: int, callback: Callable[[], object]) -> Timer:
+        """Note a call at ``when_ns``."""
+        self._sequence += 1
+        timer = Timer((when_ns, self._sequence, callback))
+        heapq.heappush(self.heap, timer)
+        if len(self.heap) >= self._sweep_at:
+            self._sweep()
+        return timer
+
+    def _sweep(self) -> None:
+        """Throw out cancelled calls: a wait with a long timeout that ends early leaves one."""
+        self.heap[:] = [entry for entry in self.heap if entry[2] is not None]
+        heapq.heapify(self.heap)
+        self._sweep_at = max(SWEEP_FROM, 2 * len(self.heap))
+
+    def take_due(self, now_ns: int, ready: deque[Callable[[], object]]) -> None:
+        """Move the calls that are due into ``ready``."""
+        heap = self.heap
+        while heap and heap[0][0] <= now_ns:
+            callback = heapq.heappop(heap)[2]
+            if callback is not None:
+                ready.append(callback)
+
+    def next_ns(self) -> int | None:
+        """Return the time of the next call, or None."""
+        heap = self.heap
+        while heap and heap[0][2] is None:
+            heapq.heappop(heap)
+        return int(heap[0][0]) if heap else None
+
+    def clear(self) -> None:
+        """Forget all."""
+        self.heap.clear()
+
+
+T = TypeVar("T")
+
+
+class Sleeper(Protocol):
+    """Where the reader sleeps instead, to be woken by more than the inbox."""
+
+    is_asleep: bool
+
+    def sleep(self, timeout: float, nothing_came: Callable[[], bool]) -> None:
+        """Sleep for at most `timeout` seconds, unless something came before `is_asleep` was true."""
+
+    def wake(self) -> None:
+        """Wake the reader. From any thread, and from a signal's handler."""
+
+
+class Inbox(Generic[T]):
+    """A queue with any number of writers and one reader. A writer may interrupt another in the middle of `put`.
+
+    Not a ``queue.SimpleQueue``: until Python 3.12 its ``get`` may wait for ever where the time-out is over before it
+    waits at all, as it is on a busy machine.
+    """
+
+    def __init__(self) -> None:
+        self._items: deque[T] = deque()
+        self._bell = threading.Lock()  # free while nobody has looked since something came
+        self._bell.acquire()
+        self.sleeper: Sleeper | None = None
+
+    def put(self, item: T) -> None:
+        """Add something, and wake the reader."""
+        self._items.append(item)
+        sleeper = self.sleeper
+        if sleeper is not None and sleeper.is_asleep:
+            sleeper.wake()
+            return
+        with suppress(RuntimeError):  # it was free already
+            self._bell.release()
+
+    def empty(self) -> bool:
+        """Return whether there is nothing."""
+        return not self._items
+
+    def get(self) -> T:
+        """Return the oldest thing. Raises ``IndexError`` if there is nothing."""
+        return self._items.popleft()
+
+    def wait(self, timeout: float) -> None:
+        """Wait for at most `timeout` seconds until there is something; it may also return for no reason."""
+        sleeper = self.sleeper
+        if sleeper is not None:
+            sleeper.sleep(timeout, self.empty)
+        elif not self._items:
+            self._bell.acquire(timeout=timeout)
+
 
 SIMULATED_START_NS = 1_000 * 10**9
 """Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""

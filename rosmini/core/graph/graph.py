@@ -13,13 +13,13 @@ from .faults import Faults
 from .graph_core import GraphCore
 from .history import History
 from .live import Errand, LiveDrive
+from .local_transport import LocalTransport
 from .master_port import LEAVE_NS
 from .node import Node
 from .notebook import kernel_loop
 from .recording import Recording
 from .show import find_extension, show
-from .transport import LocalTransport
-from .workers import running_scheduler
+from .threads import running_scheduler
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

@@ -13,16 +13,15 @@ from rosmini.core.names import AnonymousNames
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
 
-from .changes import Changes
 from .event_queue import span_ns
-from .gates import Gates
+from .faults import Gates
 from .log_file import log_folder
 from .master import Master
 from .master_port import MasterPort, MasterProxy
 from .notebook import kernel_shell
-from .notices import Notices
+from .notices import Changes, Notices
 from .scheduler import Scheduler
-from .transports import Transports
+from .transport import Transports
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from greenlet import greenlet
 
-    from .events import Timer
+    from .event_queue import Timer
 
 
 PATIENCE_S = 2.0

@@ -16,25 +16,31 @@ heard hello
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Unpack
 
 from rosmini.core.errors import (
     CallbackError,
     DuplicateNode,
+    MasterUnreachable,
     ROSException,
     ROSInterruptException,
+    ROSTimeMovedBackwardsException,
+    ServiceException,
     TransportInitError,
     TypeMismatch,
 )
 from rosmini.core.names import Remappings, canonicalize, check_base_name, check_name, resolve
-from rosmini.core.time import Duration
+from rosmini.core.time import Duration, Time
 
+from .callbacks import describe_failure
 from .clock import GraphClock, Rate, Timer, TimerEvent, TopicClock
+from .lanes import Lane, Waiter
 from .master_port import MasterProxy
+from .parameter_client import UNSET, ParameterClient
 from .publisher import Publication, Publisher
 from .rosout import LEVELS, Logger, logger_services
-from .service import timed_out
-from .service_api import ServiceApi
+from .service import ServiceClient, Services, ServiceServer, Session, timed_out
 from .slave import SlaveApi
 from .subscription import Subscriber, Subscription
 from .topic_statistics import TopicStatistics, are_wanted
@@ -44,11 +50,19 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .graph_core import GraphCore
-    from .lanes import Lane, LaneContext, Waiter
+    from .lanes import LaneContext
+    from .rosout import LogOptions
     from .transport import Header, Sender, Triple
 
 
-class Node(ServiceApi):
+TICKS_PER_REFUSAL = 100
+"""What a blocking call of a node that was shut down weighs in a loop that never blocks: raising is dear."""
+
+POLL_NS = 100_000_000
+"""How often a Master in another process is asked for what may have changed there."""
+
+
+class Node:
     """A node of a :class:`~rosmini.core.graph.graph.Graph`; made by ``graph.node(name)`` or ``Node(name)``.
 
     Args:
@@ -100,15 +114,13 @@ class Node(ServiceApi):
         """Called once, when the node has been shut down and the Master has forgotten it."""
         self.publications: dict[str, Publication] = {}
         self.subscriptions: dict[str, Subscription] = {}
-        self.services = {}
+        self.services = Services(self)
         self._hooks: list[Callable[[], object]] = []
         self.timers: dict[Timer, None] = {}
         """The timers that run."""
         self._waiters: dict[Waiter, None] = {}
         self._connections = 0
-        self._parameter_callbacks: dict[str, list[Callable[[Any], object]]] = {}
-        self._parameter_told: dict[str, Any] = {}
-        self._parameter_lane: Lane | None = None
+        self.parameters = ParameterClient(self)
         self._stopped = False
         self.clock: GraphClock | TopicClock = GraphClock(self.scheduler)
         self.logger = Logger(self)
@@ -180,7 +192,7 @@ class Node(ServiceApi):
         headers: Header | None,
         *callbacks: Any,
     ) -> Publisher:
-        self._require_running(f"publish {topic}")
+        self.require_running(f"publish {topic}")
         publication = self.publications.get(topic)
         if publication is None:
             publication = Publication(self, topic, cls)
@@ -236,7 +248,7 @@ class Node(ServiceApi):
 
         def make() -> Subscriber:
             name = self.resolve(topic)
-            self._require_running(f"subscribe to {name}")
+            self.require_running(f"subscribe to {name}")
             statistics = TopicStatistics(self, name) if are_wanted(self, name) else None
             if self._stopped:  # while it waited for the Master
                 raise ROSInterruptException(self._shutdown_message())
@@ -320,6 +332,311 @@ class Node(ServiceApi):
         finally:
             subscriber.unregister()
         return waiter.value
+
+    # -- services ------------------------------------------------------------------------------------------------
+
+    def service(
+        self, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
+    ) -> ServiceServer:
+        """Offer a service: ``handler(request)`` returns the response.
+
+        Raises ``ROSException`` if this node offers it already.
+        """
+        return self.services.offer(name, service_class, handler, numpy=numpy)
+
+    def service_client(
+        self,
+        name: str,
+        service_class: Any,
+        *,
+        persistent: bool = False,
+        numpy: bool = True,
+        headers: Header | None = None,
+    ) -> ServiceClient:
+        """Return what calls a service, whether it is there yet or not.
+
+        ``headers`` are further fields of the connection header.
+        """
+        return ServiceClient(
+            self,
+            self.resolve(name),
+            service_class,
+            persistent=persistent,
+            numpy=numpy,
+            headers=headers,
+        )
+
+    def wait_for_service(self, name: str, timeout: float | None = None) -> None:
+        """Block until a node offers the service, and answers. Raises ``ROSException`` after ``timeout`` seconds."""
+        self.services.wait_for(name, timeout)
+
+    # -- parameters ----------------------------------------------------------------------------------------------
+
+    def get_param(
+        self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None
+    ) -> Any:
+        """Return a parameter's value, or ``default`` if it is not set.
+
+        With ``expect`` a value of another type is an error (an int is accepted for a float). Raises
+        ``ParameterNotSet``, which names similar parameters.
+        """
+        return self.parameters.get(name, default, expect=expect)
+
+    def set_param(self, name: str, value: Any) -> None:
+        """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
+        self.parameters.set(name, value)
+
+    def has_param(self, name: str) -> bool:
+        """Return True if a parameter, or a tree of them, is set."""
+        return self.parameters.has(name)
+
+    def delete_param(self, name: str) -> None:
+        """Delete a parameter or a tree. Raises ``ParameterNotSet``."""
+        self.parameters.delete(name)
+
+    def search_param(self, name: str) -> str | None:
+        """Return the full name of the nearest parameter upwards from the node's own namespace, or None."""
+        return self.parameters.search(name)
+
+    def param_names(self) -> list[str]:
+        """Return the names of all parameters, sorted."""
+        return self.parameters.names()
+
+    def on_param(self, name: str, callback: Callable[[Any], object]) -> Any:
+        """Call ``callback(value)`` when a parameter changes, and return its present value: `ParameterClient.watch`."""
+        return self.parameters.watch(name, callback)
+
+    def off_param(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
+        """Undo :meth:`on_param`, for one callback or for all. Raises ``ParameterError`` if there is none."""
+        self.parameters.unwatch(name, callback)
+
+    # -- names ---------------------------------------------------------------------------------------------------
+
+    def resolve(self, name: str) -> str:
+        """Return the global name that ``name`` means here: namespace, private names and remappings applied."""
+        return resolve(name, self.namespace, self.name, self.remappings)
+
+    def resolve_parameter(self, name: str) -> str:
+        """Return the global name that a parameter's ``name`` means here; as in rospy its characters are not checked."""
+        return resolve(name, self.namespace, self.name, self.remappings, what="parameter name", check=False)
+
+    # -- log messages --------------------------------------------------------------------------------------------
+
+    def logdebug(self, text: object, **options: Unpack[LogOptions]) -> None:
+        """Log at level DEBUG."""
+        self.logger.write("DEBUG", text, **options)
+
+    def loginfo(self, text: object, **options: Unpack[LogOptions]) -> None:
+        """Log at level INFO."""
+        self.logger.write("INFO", text, **options)
+
+    def logwarn(self, text: object, **options: Unpack[LogOptions]) -> None:
+        """Log at level WARN."""
+        self.logger.write("WARN", text, **options)
+
+    def logerr(self, text: object, **options: Unpack[LogOptions]) -> None:
+        """Log at level ERROR."""
+        self.logger.write("ERROR", text, **options)
+
+    def logfatal(self, text: object, **options: Unpack[LogOptions]) -> None:
+        """Log at level FATAL."""
+        self.logger.write("FATAL", text, **options)
+
+    # -- time ----------------------------------------------------------------------------------------------------
+
+    def now(self) -> Time:
+        """Return the node's time."""
+        return Time.from_nsec(self.clock.now_ns())
+
+    def sleep(self, duration: float | Duration) -> None:
+        """Block for seconds of the node's time; for zero or less, only let the others have their turn.
+
+        Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when its
+        clock jumps back.
+        """
+        self.sleep_ns(duration.to_nsec() if isinstance(duration, Duration) else int(duration * 1e9))
+
+    def sleep_ns(self, span: int) -> None:
+        """Block for nanoseconds of the node's time; see :meth:`sleep`."""
+        if span <= 0 and not self._stopped:
+            self.scheduler.give_way()  # a loop that cannot keep its rate must not keep the others waiting
+        if self._stopped:
+            self._refuse_to_block()
+        if span <= 0:
+            return
+        clock = self.clock
+        if isinstance(clock, GraphClock):
+            waiter = Waiter(self.scheduler, "time to pass")
+            self._waiters[waiter] = None
+            try:
+                waiter.wait(span)
+            finally:
+                self._waiters.pop(waiter, None)
+            return
+        if clock.now_ns() == 0:
+            self._wait_on_topic(clock, 1, "the first message on /clock")
+        start = clock.now_ns()
+        self._wait_on_topic(clock, start + span, "time to pass")
+        now = clock.now_ns()
+        if now < start:
+            raise ROSTimeMovedBackwardsException((now - start) / 1e9)
+
+    def _wait_on_topic(self, clock: TopicClock, when_ns: int, reason: str) -> None:
+        waiter = self.waiter(reason)
+        cancel = self.scheduler.on_hub(lambda: clock.call_at(when_ns, waiter.wake))
+        try:
+            self.wait(waiter)
+        finally:
+            cancel()
+
+    # -- blocking ------------------------------------------------------------------------------------------------
+
+    def waiter(self, reason: str, *, remote: bool = False) -> Waiter:
+        """Return something to wait for; ``reason`` completes "... was waiting for".
+
+        ``remote``: what wakes it comes from another process.
+        """
+        return self.scheduler.waiter(reason, remote=remote)
+
+    def wait(
+        self,
+        waiter: Waiter,
+        timeout: float | None = None,
+        *,
+        timeout_ns: int | None = None,
+    ) -> bool:
+        """Block until ``waiter`` is woken (True) or ``timeout`` seconds have passed (False).
+
+        Raises ``ROSInterruptException`` when the node shuts down meanwhile.
+        """
+        if self._stopped:
+            self._refuse_to_block()
+        if timeout is not None and timeout_ns is None:
+            timeout_ns = int(timeout * 1e9)
+        self._waiters[waiter] = None
+        try:
+            return waiter.wait(timeout_ns)
+        finally:
+            self._waiters.pop(waiter, None)
+
+    def _refuse_to_block(self) -> NoReturn:
+        """Raise ``ROSInterruptException``; a loop that takes no notice of it lets the others have their turn."""
+        self.scheduler.tick(TICKS_PER_REFUSAL)
+        raise ROSInterruptException(self._shutdown_message())
+
+    def wait_until(
+        self, condition: Callable[[], bool], timeout: float | None, reason: str, failure: Callable[[], str]
+    ) -> None:
+        """Block until ``condition()`` holds: something of this node's own, such as its connections. It must not block.
+
+        Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
+        """
+        waiter = self.waiter(reason)
+
+        def begin() -> None:
+            self.graph.changes.watch(condition, waiter)
+
+        self.scheduler.on_hub(begin)
+        if not self.wait(waiter, timeout):
+            waiter.wake()
+            msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure()}"
+            raise ROSException(msg)
+
+    def wait_for_master(
+        self,
+        is_so: Callable[[], bool],
+        timeout: float | None,
+        reason: str,
+        failure: Callable[[], str],
+        look_again: Callable[[], bool] = lambda: False,
+    ) -> None:
+        """Block until ``is_so()``, which asks the Master, returns True: it is called again and again.
+
+        After each change at the Master, and now and then if the Master is in another process or while ``look_again()``.
+
+        Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
+        """
+        scheduler = self.scheduler
+        end = None if timeout is None else scheduler.now_ns() + int(timeout * 1e9)
+        while True:
+            waiter = self.waiter(reason)
+            scheduler.on_hub(
+                partial(self.graph.changes.next, waiter)
+            )  # before the question: no change is missed
+            try:
+                if self._is_answered(is_so):
+                    return
+                span = None if end is None else max(end - scheduler.now_ns(), 0)
+                if not self.graph.master.is_local or look_again():
+                    span = POLL_NS if span is None else min(span, POLL_NS)
+                if not self.wait(waiter, timeout_ns=span) and end is not None and scheduler.now_ns() >= end:
+                    msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure()}"
+                    raise ROSException(msg)
+            finally:
+                waiter.wake()
+
+    def _is_answered(self, is_so: Callable[[], bool]) -> bool:
+        try:
+            return is_so()
+        except MasterUnreachable:
+            return False  # it may come back: rospy keeps trying, too
+
+    def spin(self) -> None:
+        """Block until the node is shut down; callbacks go on meanwhile."""
+        if not self._stopped:
+            waiter = self.waiter("spin")
+            self._waiters[waiter] = None
+            try:
+                waiter.wait()
+            except ROSInterruptException:
+                return
+            finally:
+                self._waiters.pop(waiter, None)
+
+    # -- lanes and callbacks -------------------------------------------------------------------------------------
+
+    def spawn(self, name: str, task: Callable[[], object] | None = None) -> Lane:
+        """Return a lane of this node; ``task`` may block in it."""
+        lane = Lane(self.scheduler, name, node=self, context=self.context, on_error=self._lane_error)
+        if task is not None:
+            lane.submit(task)
+        return lane
+
+    def run(self, task: Callable[[], object], name: str | None = None) -> Lane:
+        """Run ``task`` as this node's main program: it may sleep, wait and call services while the graph goes on."""
+        return self.spawn(name or f"{self.name} {getattr(task, '__name__', 'task')}", task)
+
+    def guarded(self, callback: Callable[..., object], *arguments: Any, what: str) -> None:
+        """Call a user's callback; an error is reported and goes no further."""
+        try:
+            callback(*arguments)
+        except Exception as error:
+            self.callback_failed(error, callback, what, None)
+
+    def callback_failed(
+        self,
+        error: Exception,
+        callback: Callable[..., object],
+        where: str,
+        message: Any,
+        *,
+        service: bool = False,
+    ) -> None:
+        """Report what a callback raised, with the user's own frame, where it came from, and the message."""
+        if self._is_by_shutdown(error):
+            return
+        problem = describe_failure(error, callback, where, message, self.name)
+        self.graph.report(problem, self, raise_strict=not service)
+
+    def _lane_error(self, error: BaseException) -> None:
+        if not self._is_by_shutdown(error):
+            self.graph.report(error, self)
+
+    def _is_by_shutdown(self, error: BaseException) -> bool:
+        """Return whether an error only says that the node, or the whole graph with the servers in it, ends."""
+        if isinstance(error, ServiceException):
+            return self.graph.closing
+        return self._stopped and isinstance(error, ROSInterruptException)
 
     # -- what runs by itself -------------------------------------------------------------------------------------
 
@@ -424,6 +741,24 @@ class Node(ServiceApi):
                 problem = problem or error
         return problem
 
+    def is_shutdown(self) -> bool:
+        """Tell whether the node has been shut down."""
+        return self._stopped
+
+    def _why_over(self) -> str | None:
+        return self._shutdown_message() if self._stopped else None
+
+    def _shutdown_message(self) -> str:
+        return f"node {self.name} was shut down" + (
+            f": {self.shutdown_reason}" if self.shutdown_reason else ""
+        )
+
+    def require_running(self, what: str) -> None:
+        """Raise ``ROSException`` if the node has been shut down: it cannot do ``what`` any more."""
+        if self.shutdown_reason is not None:
+            msg = f"{self._shutdown_message()}; it cannot {what} any more. Make a new node."
+            raise ROSException(msg)
+
     # -- called across the transport seam ------------------------------------------------------------------------
 
     def slave_call(self, method: str, *arguments: Any) -> Triple:
@@ -439,6 +774,10 @@ class Node(ServiceApi):
                 f"{self.slave.getPublications('')[2]}"
             )
         return publication.accept(header, sender)
+
+    def accept_client(self, header: Header) -> Session:
+        """Take a service client's connection."""
+        return self.services.accept(header)
 
     def next_connection_id(self) -> int:
         """Return a number for a new connection."""

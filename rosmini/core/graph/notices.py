@@ -14,10 +14,56 @@ from .lanes import Lane
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .changes import Changes
     from .scheduler import Scheduler
 
     Notice = tuple[str, tuple[Any, ...]]
+
+    from .lanes import Waiter
+
+
+class Changes:
+    """The conditions that somebody waits for; each is evaluated whenever something changes."""
+
+    def __init__(self, scheduler: Scheduler) -> None:
+        self._scheduler = scheduler
+        self._watched: list[tuple[Callable[[], bool], Waiter]] = []
+        self._check_queued = False
+
+    def watch(self, condition: Callable[[], bool], waiter: Waiter) -> None:
+        """Wake ``waiter`` as soon as ``condition()`` holds.
+
+        The condition must not block: it asks only what is the node's own.
+        """
+        if condition():
+            waiter.wake()
+        else:
+            self._watched.append((condition, waiter))
+
+    def next(self, waiter: Waiter) -> None:
+        """Wake ``waiter`` at the next change."""
+        self._watched.append((_always, waiter))
+
+    def notify(self) -> None:
+        """Evaluate the conditions soon: something has changed. From any thread."""
+        if self._watched and not self._check_queued:
+            self._check_queued = True
+            self._scheduler.call_soon(self._check)
+
+    def _check(self) -> None:
+        self._check_queued = False
+        watched, self._watched = self._watched, []
+        for condition, waiter in watched:
+            if waiter.done:
+                continue
+            if condition():
+                waiter.wake()
+            else:
+                self._watched.append((condition, waiter))
+
+
+def _always() -> bool:
+    return True
+
 
 LIMIT = 1_000
 """How many notices wait for a node that hangs; then only the latest about each topic and parameter is kept."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO, TypedDict
 
 from rosmini.core.errors import RosminiError
 from rosmini.core.time import Time
@@ -13,10 +13,9 @@ from rosmini.msgs import message_class, service_class
 
 from .clock import TopicClock
 from .log_file import LogFile
-from .log_gates import LogGates
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Hashable
     from types import FrameType
 
     from .node import Node
@@ -92,6 +91,48 @@ class LoggerTree:
         return [(name, self.level(name)) for name in self._known]
 
 
+class LogOptions(TypedDict, total=False):
+    """What a log call may be given beside its text."""
+
+    throttle: float | None
+    """Log at most once in so many seconds of the node's time from this place of the program."""
+    identical: bool
+    """Log only a text that has changed; with ``throttle``, the same text again when it is due."""
+    once: bool
+    """Log only the first time that this place of the program is reached."""
+    logger: str
+    """The logger ``rosout.<logger>``, which has a level of its own once that is set."""
+
+
+class LogGates:
+    """What was logged before, by the place of the program that logs."""
+
+    def __init__(self) -> None:
+        self._times: dict[Hashable, int] = {}
+        self._texts: dict[Hashable, str] = {}
+        self._seen: set[Hashable] = set()
+
+    def is_due(self, where: Hashable, now_ns: int, period_ns: int) -> bool:
+        """Tell whether more than ``period_ns`` have passed since this place was due; also when time has jumped back."""
+        last = self._times.get(where)
+        if last is not None and last <= now_ns <= last + period_ns:
+            return False
+        self._times[where] = now_ns
+        return True
+
+    def is_new(self, where: Hashable, text: str) -> bool:
+        """Tell whether this place logs another text than last time."""
+        changed = self._texts.get(where) != text
+        self._texts[where] = text
+        return changed
+
+    def is_first(self, where: Hashable) -> bool:
+        """Tell whether this place logs for the first time."""
+        fresh = where not in self._seen
+        self._seen.add(where)
+        return fresh
+
+
 class Logger:
     """One node's loggers. ``rosout`` and what is below it go to the console, to ``/rosout`` and to the log file.
 
@@ -137,6 +178,30 @@ class Logger:
         publication = node.publications.get("/rosout")
         if publication is not None:
             publication.send(self._message(level, text, now, caller(depth + 1)))
+
+    def write(
+        self,
+        level: str,
+        text: object,
+        throttle: float | None = None,
+        identical: bool = False,
+        once: bool = False,
+        logger: str = "",
+    ) -> None:
+        """Log for a user's call, unless one of its options holds the message back: see :class:`LogOptions`."""
+        shown = str(text)
+        is_always_logged = throttle is None and not identical and not once
+        if is_always_logged or self._is_let_through(shown, throttle, identical=identical, once=once):
+            self.log(LEVELS[level], shown, logger=f"rosout.{logger}" if logger else None)
+
+    def _is_let_through(self, text: str, throttle: float | None, *, identical: bool, once: bool) -> bool:
+        frame = caller(2, LOGGING)
+        where = (frame.f_code.co_filename, frame.f_lineno, frame.f_lasti)
+        if once:
+            return self.gates.is_first(where)
+        now = self._node.clock.now_ns()
+        due = throttle is not None and self.gates.is_due(where, now, round(throttle * 1e9))
+        return (self.gates.is_new(where, text) or due) if identical else due
 
     # -- the file ------------------------------------------------------------------------------------------------
 

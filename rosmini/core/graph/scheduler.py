@@ -24,11 +24,10 @@ from rosmini.core.errors import GraphEnded, RosminiError
 
 from . import threads
 from .event_queue import ROUNDS_PER_INSTANT, TICK_QUANTUM_NS, EventQueue
-from .interrupts import MAIN_THREAD, InterruptGuard
 from .lanes import Lane, LaneContext, LaneExit, RemoteWaiter, Waiter
 from .notebook import CellOutput, kernel_shell
 from .report import RunReport, Waiting, ended
-from .workers import Worker, adopt_thread, start_workers, work
+from .threads import MAIN_THREAD, InterruptGuard, Worker, adopt_thread, start_workers, work
 
 if TYPE_CHECKING:
     from collections.abc import Callable

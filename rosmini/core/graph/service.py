@@ -33,6 +33,87 @@ NO_TEXT = "b''"
 """What rospy shows of an error whose text is empty, as a refusal of a node in C++ is."""
 
 
+class Services(dict[str, "ServiceServer"]):
+    """The services that a node offers, by name."""
+
+    def __init__(self, node: Node) -> None:
+        super().__init__()
+        self._node = node
+
+    def offer(
+        self, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
+    ) -> ServiceServer:
+        """Offer a service: ``handler(request)`` returns the response.
+
+        Raises ``ROSException`` if this node offers it already.
+        """
+
+        def make() -> ServiceServer:
+            resolved = self._node.resolve(name)
+            self._node.require_running(f"offer {resolved}")
+            if resolved in self:
+                msg = (
+                    f"service [{resolved}] is already offered by {self._node.name}: "
+                    "shut the first one down before offering it again"
+                )
+                raise ROSException(msg)
+            server = self[resolved] = ServiceServer(self._node, resolved, service_class, handler, numpy=numpy)
+            uri = self._node.graph.transport.service_uri(self._node.uri)
+            try:
+                self._node.master.register(
+                    "registerService", resolved, uri, self._node.uri, warn=self._node.logerr
+                )
+            except ROSException:
+                del self[resolved]
+                raise
+            return server
+
+        return self._node.scheduler.on_hub(make)
+
+    def drop(self, server: ServiceServer) -> None:
+        """Withdraw a service. For the server only."""
+        if self.get(server.name) is server:
+            del self[server.name]
+        uri = self._node.graph.transport.service_uri(self._node.uri)
+        self._node.master.unregister("unregisterService", server.name, uri, warn=self._node.logwarn)
+
+    def wait_for(self, name: str, timeout: float | None = None) -> None:
+        """Block until somebody offers the service, and answers there: a node that was killed is still listed.
+
+        Raises ``ROSException`` after ``timeout`` seconds.
+        """
+        resolved = self._node.resolve(name)
+        silent: list[str] = []
+
+        def is_there() -> bool:
+            uri = self._node.master.find("lookupService", resolved)
+            silent[:] = [] if uri is None or self._answers(resolved, uri) else [uri]
+            return uri is not None and not silent
+
+        self._node.wait_for_master(
+            is_there,
+            timeout,
+            f"the service {resolved} to be offered",
+            lambda: f"nobody answers at {silent[0]}" if silent else f"nobody offers {resolved}",
+            look_again=lambda: bool(silent),
+        )
+
+    def _answers(self, service: str, uri: str) -> bool:
+        header = {"callerid": self._node.name, "md5sum": "*", "probe": "1", "service": service}
+        try:
+            self._node.graph.transport.probe_service(uri, header, self._node.uri)
+        except TransportException:
+            return False
+        return True
+
+    def accept(self, header: Header) -> Session:
+        """Take a service client's connection."""
+        server = None if self._node.is_shutdown() else self.get(header.get("service", ""))
+        if server is None:
+            raise TransportInitError(f"[{self._node.name}] is not a provider of [{header.get('service')}]")
+        return server.accept(header)
+
+
 class ServiceServer:
     """Answers calls of one service. Made by :meth:`Node.service <rosmini.core.graph.node.Node.service>`.
 
@@ -114,7 +195,7 @@ class ServiceServer:
         if self._open:
             self._open = False
             self.close_sessions(reason)
-            self.node.drop_service(self)
+            self.node.services.drop(self)
 
     def close_sessions(self, reason: str) -> None:
         """Refuse what is queued and fail what is being answered."""
@@ -357,7 +438,7 @@ class ServiceClient:
 
     def wait_for_service(self, timeout: float | None = None) -> None:
         """Block until the service is there. Raises ``ROSException`` after ``timeout`` seconds."""
-        self.node.wait_for_service(self.name, timeout)
+        self.node.services.wait_for(self.name, timeout)
 
     def close(self) -> None:
         """Close a persistent connection for good."""

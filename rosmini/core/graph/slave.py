@@ -181,9 +181,9 @@ class SlaveApi:
         problem = _name_problem("parameter_key", parameter_key)
         if problem:
             return [-1, problem, 0]
-        if not self._node.watches(parameter_key):
+        if not self._node.parameters.watches(parameter_key):
             return [-1, "not subscribed", 0]
-        self._post(lambda: self._node.parameter_changed(parameter_key, parameter_value))
+        self._post(lambda: self._node.parameters.changed(parameter_key, parameter_value))
         return [1, "", 0]
 
     def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:

@@ -4,25 +4,25 @@ A node knows only what is written here. Three things cross the seam: calls of an
 connections (from a publisher's :class:`Sender` to a subscriber's ``Connection``), and service connections. What
 travels is always a *frozen* message: a private copy, checked and rounded as the wire would round it.
 
-:class:`LocalTransport` hands frozen messages over inside one process. :mod:`rosmini.core.graph.byte_transport`
-serialises
-them and carries the bytes on real threads. Header fields are those of TCPROS (http://wiki.ros.org/ROS/TCPROS), so that
+:mod:`~rosmini.core.graph.local_transport` hands frozen messages over inside one process;
+:mod:`~rosmini.core.graph.byte_transport` serialises them and carries the bytes on real threads. Header fields are those of TCPROS (http://wiki.ros.org/ROS/TCPROS), so that
 a TCPROS transport has nothing to add.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from os import getpid
-from socket import gethostname
 from typing import TYPE_CHECKING, Any, Protocol
 
-from rosmini.core.errors import TransportTerminated
+from rosmini.core.errors import TransportException, TransportInitError, shown
 from rosmini.msgs.message import Message
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
     from .connection import Connection
     from .scheduler import Scheduler
+
 
 Triple = list[Any]
 """What every call of the Master and slave APIs answers: [code, status message, value]."""
@@ -30,6 +30,9 @@ Triple = list[Any]
 Header = dict[str, str]
 """A connection header: the fields that two ends show each other before the first message."""
 
+
+LOCAL = "INPROC"
+"""Name of the protocol between nodes of one process."""
 
 set_header: Callable[[Any, Header | None], None] = Message.__dict__["_connection_header"].__set__
 """Sets a message's `_connection_header`, past the check of names that an assignment makes."""
@@ -189,102 +192,124 @@ def slave_uri(uri: str) -> str:
     return uri if uri.startswith("http://") else uri.replace("rosrpc://", "http://") + "/"
 
 
-class LocalServiceLink:
-    """Hands requests to a session in the same process."""
+class Transports:
+    """The ways in which nodes reach one another, the preferred one first.
 
-    is_remote = False
-    __slots__ = ("_session", "header")
+    A node has one address, which the last of them gives: the one that reaches farthest.
+    """
 
-    def __init__(self, session: ServiceSession) -> None:
-        self._session = session
-        self.header = session.header
-
-    def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
-        """Hand over a request."""
-        self._session.handle(request, reply)
-
-    def close(self) -> None:
-        """Close the connection."""
-        self._session.close()
-
-
-class LocalTransport:
-    """Nodes of one process, connected by handing frozen messages over."""
-
-    protocol = "INPROC"
-
-    def __init__(self, scheduler: Scheduler) -> None:
+    def __init__(self, scheduler: Scheduler, makers: Sequence[Callable[[Scheduler], Transport]]) -> None:
         self._scheduler = scheduler
-        self._place = f"{gethostname()}/{getpid()}/{id(self)}"
-        self._endpoints: dict[str, Endpoint] = {}
-        self._numbers = 0
+        self.ways = [make(scheduler) for make in makers]
+        self.cut: frozenset[str] = frozenset()
+        """Services to which no connection can be made: a fault that somebody asked for."""
+        self._here: dict[str, str] = {}
+        """The nodes of this process: their URIs by those of their services."""
 
-    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
-        """Make a node reachable."""
-        self._numbers += 1
-        uri = uri or f"http://rosmini:{self._numbers}/"
-        self._endpoints[uri] = endpoint
+    def attach(self, endpoint: Endpoint) -> str:
+        """Make a node reachable in every way; return the URI of its slave API."""
+        uri: str | None = None
+        for way in reversed(self.ways):
+            uri = way.attach(endpoint, uri)
+        if uri is None:
+            raise TransportException("a graph needs a transport")
+        self._here[self.service_uri(uri)] = uri
         return uri
 
     def detach(self, uri: str) -> None:
         """Make a node unreachable."""
-        self._endpoints.pop(uri, None)
+        self._here.pop(self.service_uri(uri), None)
+        for way in self.ways:
+            way.detach(uri)
+
+    def add(self, way: Transport, here: Mapping[str, Endpoint]) -> dict[str, str]:
+        """Take up a further way, which gives the addresses from now on.
+
+        ``here`` has the nodes of this process by their URIs; return their new URIs, and those of their services, by the
+        old ones. Connections stay.
+        """
+        return self._change([*self.ways, way], here)
+
+    def remove(self, way: Transport, here: Mapping[str, Endpoint]) -> dict[str, str]:
+        """Do without a way again; what is open in it is closed. Returns addresses as :meth:`add` does."""
+        moved = self._change([each for each in self.ways if each is not way], here)
+        way.close()
+        return moved
+
+    def _change(self, ways: list[Transport], here: Mapping[str, Endpoint]) -> dict[str, str]:
+        services = {uri: self.service_uri(uri) for uri in here}
+        for uri in here:
+            self.detach(uri)
+        self.ways = ways
+        moved: dict[str, str] = {}
+        for uri, endpoint in here.items():
+            moved[uri] = self.attach(endpoint)
+            moved[services[uri]] = self.service_uri(moved[uri])
+        return moved
 
     def service_uri(self, uri: str) -> str:
-        """Return the address of the node's services."""
-        return uri.replace("http://", "rosrpc://").rstrip("/")
+        """Return the URI under which the node with slave API ``uri`` serves its services."""
+        return self.ways[-1].service_uri(uri)
 
-    def reaches(self, uri: str) -> bool:
-        """Return whether the node, or the one with these services, is in this process."""
-        return slave_uri(uri) in self._endpoints
+    def offers(self, caller: str) -> list[list[Any]]:
+        """Return what the node at ``caller`` offers in ``requestTopic``."""
+        return [offer for way in self.ways if (offer := way.offer(caller)) is not None]
 
-    def offer(self, caller: str) -> list[Any] | None:
-        """Return what a subscriber offers in ``requestTopic``: in which process, and in which graph there, it is."""
-        return [self.protocol, self._place] if caller in self._endpoints else None
-
-    def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
-        """Return the connection parameters of a topic."""
-        is_here = offer in ([self.protocol], [self.protocol, self._place]) and uri in self._endpoints
-        return [self.protocol, uri] if is_here else None
-
-    def endpoint(self, uri: str) -> Endpoint:
-        """Return the node at ``uri``, of its slave API or its services."""
-        found = self._endpoints.get(slave_uri(uri))
-        if found is None:
-            raise TransportTerminated(f"no node answers at {uri}: it has been shut down")
-        return found
+    def topic_parameters(self, uri: str, offers: list[list[Any]]) -> list[Any] | None:
+        """Return what ``requestTopic`` of the node at ``uri`` answers: by the first of our ways that is offered."""
+        answers = (way.topic_parameters(uri, offer) for way in self.ways for offer in offers)
+        return next((answer for answer in answers if answer is not None), None)
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API."""
-        return self.endpoint(uri).slave_call(method, *arguments)
-
-    def retry(self, seconds: float, function: Callable[[], object]) -> bool:  # noqa: ARG002 - the seam's
-        """Tell that who has gone stays away."""
-        return False
-
-    def close(self) -> None:
-        """Do nothing: there is nothing open."""
+        """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
+        answer = self._way_to(uri).call(uri, method, *arguments)
+        history = self._scheduler.history
+        if history is not None:
+            caller, *rest = arguments
+            history.called(caller, uri, method, tuple(rest), answer)
+        return answer
 
     def connect_topic(
-        self,
-        caller: str,  # noqa: ARG002 - the seam's
-        parameters: list[Any],
-        header: Header,
-        receiver: Connection,
+        self, caller: str, parameters: list[Any], header: Header, receiver: Connection
     ) -> tuple[Header, Callable[[], None]]:
-        """Open a topic connection."""
-        from .connection import LocalSender
-
-        sender = LocalSender(self._scheduler, receiver, header["callerid"])
-        reply = self.endpoint(parameters[1]).accept_subscriber(header, sender)
-        return reply, sender.drop
+        """Open a topic connection in the way that was agreed on; see ``Transport``."""
+        for way in self.ways:
+            if isinstance(parameters, list) and parameters and parameters[0] == way.protocol:
+                answer, close = way.connect_topic(caller, parameters, header, receiver)
+                history = self._scheduler.history
+                if history is not None:
+                    publisher = answer.get("callerid", "")
+                    history.connected(header["callerid"], publisher, header["topic"], answer.get("type", ""))
+                return answer, close
+        raise TransportInitError(f"the publisher answered with {shown(parameters)}, which was not offered")
 
     def connect_service(
-        self,
-        caller: str,  # noqa: ARG002 - the seam's
-        service_uri: str,
-        header: Header,
-        service_class: Any,  # noqa: ARG002 - the seam's
+        self, caller: str, service_uri: str, header: Header, service_class: Any
     ) -> ServiceLink:
-        """Open a service connection."""
-        return LocalServiceLink(self.endpoint(service_uri).accept_client(header))
+        """Open a service connection; see :class:`~rosmini.core.graph.transport.Transport`."""
+        if header.get("service") in self.cut:
+            raise TransportException("the connection was cut off on purpose; `%fault clear` mends it")
+        here = self._here.get(service_uri)
+        if here is not None:
+            way = self._way_to(here)
+            return way.connect_service(caller, way.service_uri(here), header, service_class)
+        return self._way_to(service_uri).connect_service(caller, service_uri, header, service_class)
+
+    def probe_service(self, uri: str, header: Header, caller: str = "") -> Header:
+        """Return the header with which a service's server answers. Raises as :meth:`connect_service`."""
+        link = self.connect_service(caller, uri, header, None)
+        link.close()
+        return link.header
+
+    def retry(self, uri: str, seconds: float, function: Callable[[], object]) -> bool:
+        """Call a function later, to connect again to the node at ``uri``; False where it cannot have come back."""
+        return self._way_to(uri).retry(seconds, function)
+
+    def close(self) -> None:
+        """Give up what is open, for the graph has been shut down."""
+        for way in self.ways:
+            way.close()
+
+    def _way_to(self, uri: str) -> Transport:
+        """Return the first way to a node; the last one tells best why there is none."""
+        return next((way for way in self.ways if way.reaches(uri)), self.ways[-1])

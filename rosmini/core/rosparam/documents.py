@@ -140,7 +140,7 @@ def _checked(name: str, value: Any, place: str) -> Any:
             "write '' for an empty text, {} for an empty namespace",
             place,
         )
-    from rosmini.core.graph.parameter_api import (
+    from rosmini.core.graph.parameter_client import (
         check_value,
     )  # here, so that reading parameters does not import the graph
 

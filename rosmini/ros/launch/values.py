@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ParameterError, nearest, shown
-from rosmini.core.graph.parameter_api import check_value
+from rosmini.core.graph.parameter_client import check_value
 from rosmini.core.rosparam import RosParamException
 from rosmini.core.rosparam import parse as parse_yaml
 

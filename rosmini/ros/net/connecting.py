@@ -6,7 +6,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from rosmini.core.graph import Graph
-from rosmini.core.graph.transport import LocalTransport
+from rosmini.core.graph.local_transport import LocalTransport
 
 from .addresses import addresses
 from .network import network_of, tcp

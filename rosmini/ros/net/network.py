@@ -7,7 +7,7 @@ import time
 from typing import TYPE_CHECKING
 
 from rosmini.core.errors import RosminiError
-from rosmini.core.graph.log_gates import LogGates
+from rosmini.core.graph.rosout import LogGates
 
 from .addresses import HERE
 from .io_thread import IoThread

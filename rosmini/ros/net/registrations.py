@@ -31,7 +31,7 @@ def register_again(node: Node) -> None:
     for name, server in list(node.services.items()):
         if node.services.get(name) is server and node.shutdown_reason is None:
             master.register("registerService", name, services_at, node.uri, warn=warn)
-    for key in node.watched_parameters:
+    for key in node.parameters.watched:
         if node.shutdown_reason is None:
             value = master.register("subscribeParam", node.uri, key, warn=warn)
-            node.parameter_changed(key, value)
+            node.parameters.changed(key, value)

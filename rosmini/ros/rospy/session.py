@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import ROSInitException, ROSInterruptException
 from rosmini.core.graph import Graph, Node, running_graph
 from rosmini.core.graph.lanes import LaneContext
-from rosmini.core.graph.log_gates import LogGates
+from rosmini.core.graph.rosout import LogGates
 from rosmini.core.names import Remappings, canonicalize
 
 if TYPE_CHECKING:

@@ -37,8 +37,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.graph.lanes import LaneExit
 from rosmini.core.graph.rosout import caller
-from rosmini.core.graph.threads import on_hub
-from rosmini.core.graph.workers import running_scheduler
+from rosmini.core.graph.threads import on_hub, running_scheduler
 from rosmini.core.packages import package_around
 
 from .environment import ScriptEnviron, folders_of_the_users

@@ -12,7 +12,7 @@ import pytest
 
 from rosmini.core.graph import Graph
 from rosmini.core.graph.byte_transport import ByteTransport
-from rosmini.core.graph.transport import LocalTransport
+from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.ros.net.network import tcp
 
 from ...conftest import nightly

@@ -12,7 +12,7 @@ from rosmini.core.errors import (
     RosminiError,
     ROSTimeMovedBackwardsException,
 )
-from rosmini.core.graph.transport import LocalTransport
+from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.core.time import Duration, Time
 from rosmini.msgs.rosgraph_msgs.msg import Clock
 from rosmini.msgs.std_msgs.msg import String

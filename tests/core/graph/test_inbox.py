@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from rosmini.core.graph.inbox import Inbox
+from rosmini.core.graph.event_queue import Inbox
 
 LONG = 300.0
 

@@ -9,8 +9,7 @@ import pytest
 
 import rosmini
 from rosmini import Graph
-from rosmini.core.graph.log_gates import LogGates
-from rosmini.core.graph.rosout import LoggerTree
+from rosmini.core.graph.rosout import LogGates, LoggerTree
 from rosmini.msgs.roscpp.srv import GetLoggers, SetLoggerLevel
 
 from .conftest import settle, until

@@ -11,7 +11,7 @@ import pytest
 from rosmini.core.errors import ROSException
 from rosmini.core.graph import Graph
 from rosmini.core.graph.byte_transport import ByteTransport
-from rosmini.core.graph.transport import LocalTransport
+from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Header, Int32, String
 

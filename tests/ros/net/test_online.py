@@ -12,8 +12,8 @@ import pytest
 from rosmini.core.errors import MasterUnreachable, RosminiError
 from rosmini.core.graph import Graph
 from rosmini.core.graph.clock import GraphClock, TopicClock
+from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.core.graph.master import Master
-from rosmini.core.graph.transport import LocalTransport
 from rosmini.msgs import message_class, service_class
 from rosmini.ros.net import connect
 from rosmini.ros.net.addresses import addresses

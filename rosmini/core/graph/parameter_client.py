@@ -15,20 +15,18 @@ from rosmini.core.errors import (
     ROSException,
     nearest,
 )
-from rosmini.core.names import canonicalize, resolve
+from rosmini.core.names import canonicalize
 
-from .blocking_api import BlockingApi
-from .logging_api import LoggingApi
 from .parameters import wire_copy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.core.names import Remappings
-
     from .lanes import Lane
+    from .node import Node
 
-_UNSET: Any = object()
+UNSET: Any = object()
+"""Stands for a default that was not given."""
 
 
 def check_value(name: str, value: Any) -> Any:
@@ -104,40 +102,28 @@ def _is_in(name: str, tree: str) -> bool:
     return name == tree or name.startswith(tree.rstrip("/") + "/")
 
 
-class ParameterApi(BlockingApi, LoggingApi):
-    """The part of a node that reads and writes parameters.
+class ParameterClient:
+    """A node's access to the Parameter Server; :class:`~rosmini.core.graph.node.Node` has short names for it.
 
-    All raise ``MasterUnreachable`` if the Master does not answer.
+    All methods raise ``MasterUnreachable`` if the Master does not answer.
     """
 
-    uri: str
-    namespace: str
-    remappings: Remappings
-    _hooks: list[Callable[[], object]]
-    _parameter_callbacks: dict[str, list[Callable[[Any], object]]]
-    _parameter_told: dict[str, Any]
-    _parameter_lane: Lane | None
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._callbacks: dict[str, list[Callable[[Any], object]]] = {}
+        self._told: dict[str, Any] = {}
+        self._lane: Lane | None = None
 
-    def resolve(self, name: str) -> str:
-        """Return the global name that ``name`` means here: namespace, private names and remappings applied."""
-        return resolve(name, self.namespace, self.name, self.remappings)
-
-    def resolve_parameter(self, name: str) -> str:
-        """Return the global name that a parameter's ``name`` means here; as in rospy its characters are not checked."""
-        return resolve(name, self.namespace, self.name, self.remappings, what="parameter name", check=False)
-
-    def get_param(
-        self, name: str, default: Any = _UNSET, *, expect: type | tuple[type, ...] | None = None
-    ) -> Any:
+    def get(self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
         """Return a parameter's value, or ``default`` if it is not set.
 
         With ``expect`` a value of another type is an error (an int is welcome where a float is expected). Raises
         ``ParameterNotSet``, which names parameters with a similar name and other namespaces that have this one.
         """
-        resolved = self.resolve_parameter(name)
-        code, _, value = self.master.call("getParam", resolved)
+        resolved = self._node.resolve_parameter(name)
+        code, _, value = self._node.master.call("getParam", resolved)
         if code != 1:
-            if default is not _UNSET:
+            if default is not UNSET:
                 return default
             raise ParameterNotSet(self._not_set(name, resolved))
         if expect is not None:
@@ -145,136 +131,136 @@ class ParameterApi(BlockingApi, LoggingApi):
         return value
 
     def _not_set(self, name: str, resolved: str) -> str:
-        names = self.master.ask("getParamNames")
+        names = self._node.master.ask("getParamNames")
         base = resolved.rpartition("/")[2]
         elsewhere = [other for other in names if other.rpartition("/")[2] == base]
         text = f"parameter {resolved} is not set"
         if name != resolved:
-            text += f" ({name!r} in node {self.name} means {resolved})"
+            text += f" ({name!r} in node {self._node.name} means {resolved})"
         if elsewhere:
             return f"{text}; it exists as {', '.join(elsewhere[:3])}. Use that name, or give a default."
         hint = nearest(resolved, names)
         return f"{text}. {hint or 'Set it first, or give a default.'}"
 
-    def set_param(self, name: str, value: Any) -> None:
+    def set(self, name: str, value: Any) -> None:
         """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
-        resolved = self.resolve_parameter(name)
-        code, status, _ = self.master.call("setParam", resolved, check_value(resolved, value))
+        resolved = self._node.resolve_parameter(name)
+        code, status, _ = self._node.master.call("setParam", resolved, check_value(resolved, value))
         if code != 1:
             raise ParameterError(status)
-        self._note_parameters()
+        self._note()
 
-    def has_param(self, name: str) -> bool:
+    def has(self, name: str) -> bool:
         """Tell whether a parameter, or a tree of them, is set."""
-        return bool(self.master.ask("hasParam", self.resolve_parameter(name)))
+        return bool(self._node.master.ask("hasParam", self._node.resolve_parameter(name)))
 
-    def delete_param(self, name: str) -> None:
+    def delete(self, name: str) -> None:
         """Delete a parameter or a tree. Raises ``ParameterNotSet``."""
-        resolved = self.resolve_parameter(name)
-        if self.master.call("deleteParam", resolved)[0] != 1:
+        resolved = self._node.resolve_parameter(name)
+        if self._node.master.call("deleteParam", resolved)[0] != 1:
             raise ParameterNotSet(self._not_set(name, resolved))
-        self._note_parameters()
+        self._note()
 
-    def search_param(self, name: str) -> str | None:
+    def search(self, name: str) -> str | None:
         """Return the full name of the nearest parameter upwards from the node's own namespace, or None."""
-        found: str | None = self.master.find("searchParam", name)
+        found: str | None = self._node.master.find("searchParam", name)
         return found
 
-    def param_names(self) -> list[str]:
+    def names(self) -> list[str]:
         """Return the names of all parameters, sorted."""
-        return sorted(self.master.ask("getParamNames"))
+        return sorted(self._node.master.ask("getParamNames"))
 
-    def on_param(self, name: str, callback: Callable[[Any], object]) -> Any:
+    def watch(self, name: str, callback: Callable[[Any], object]) -> Any:
         """Call ``callback(value)`` when a parameter, or anything in a tree of them, changes; return its value now.
 
         ``{}`` stands for a parameter that is not set, or not any more, as in ROS. The node does not hear of what it
         sets itself, and to set a parameter to the value that it has is no change.
         Raises ``ROSException`` if the Master refuses.
         """
-        resolved = self.resolve_parameter(name)
-        if not self._parameter_callbacks:
-            self._hooks.append(self._leave_parameters)
+        resolved = self._node.resolve_parameter(name)
+        if not self._callbacks:
+            self._node.on_shutdown(self._leave)
         key = canonicalize(resolved)
-        callbacks = self._parameter_callbacks.setdefault(key, [])
+        callbacks = self._callbacks.setdefault(key, [])
         callbacks.append(callback)
         try:
-            value = self.master.register("subscribeParam", self.uri, resolved, warn=self.logerr)
+            value = self._node.master.register(
+                "subscribeParam", self._node.uri, resolved, warn=self._node.logerr
+            )
         except ROSException:
             callbacks.remove(callback)
             raise
-        self._parameter_told.setdefault(key, value)
+        self._told.setdefault(key, value)
         return wire_copy(value)
 
-    def off_param(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
-        """Undo :meth:`on_param`: for one callback, or for all of a parameter.
+    def unwatch(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
+        """Undo :meth:`watch`: for one callback, or for all of a parameter.
 
         Raises ``ParameterError`` if there is none.
         """
-        resolved = canonicalize(self.resolve_parameter(name))
-        callbacks = self._parameter_callbacks.get(resolved, [])
+        resolved = canonicalize(self._node.resolve_parameter(name))
+        callbacks = self._callbacks.get(resolved, [])
         if not callbacks or (callback is not None and callback not in callbacks):
-            hint = nearest(resolved, self._parameter_callbacks)
-            msg = f"node {self.name} has no such callback for changes of parameter {resolved}"
+            hint = nearest(resolved, self._callbacks)
+            msg = f"node {self._node.name} has no such callback for changes of parameter {resolved}"
             raise ParameterError(f"{msg}; {hint}" if hint else msg)
         kept = list(callbacks)
         if callback is not None:
             kept.remove(callback)
         if callback is not None and kept:
-            self._parameter_callbacks[resolved] = kept
+            self._callbacks[resolved] = kept
             return
-        del self._parameter_callbacks[resolved]
-        self._parameter_told.pop(resolved, None)
-        self.master.unregister("unsubscribeParam", self.uri, resolved, warn=self.logwarn)
+        del self._callbacks[resolved]
+        self._told.pop(resolved, None)
+        self._node.master.unregister("unsubscribeParam", self._node.uri, resolved, warn=self._node.logwarn)
 
     @property
-    def watched_parameters(self) -> list[str]:
-        """The parameters for which :meth:`on_param` was called."""
-        return list(self._parameter_callbacks)
+    def watched(self) -> list[str]:
+        """The parameters for which :meth:`watch` was called."""
+        return list(self._callbacks)
 
     def watches(self, key: str) -> bool:
-        """Return whether :meth:`on_param` was called for this parameter or for a namespace that contains it."""
-        return any(_is_in(canonicalize(key), name) for name in self.watched_parameters)
+        """Return whether :meth:`watch` was called for this parameter or for a namespace that contains it."""
+        return any(_is_in(canonicalize(key), name) for name in self.watched)
 
-    def parameter_changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - what the Master says
+    def changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - what the Master says
         """Learn from the Master that a parameter has changed to which this node subscribes.
 
         The Master calls once for each subscription, so that one change may be told several times; and by now the value
         may be another.
         """
-        if self._parameter_lane is None:
-            self._parameter_lane = self.spawn(f"{self.name} parameters")
-        self._parameter_lane.submit(partial(self._look_at_parameters, canonicalize(key)))
+        if self._lane is None:
+            self._lane = self._node.spawn(f"{self._node.name} parameters")
+        self._lane.submit(partial(self._look_at, canonicalize(key)))
 
-    def _look_at_parameters(self, changed: str) -> None:
-        for name in list(self._parameter_callbacks):
+    def _look_at(self, changed: str) -> None:
+        for name in list(self._callbacks):
             if not _is_in(changed, name):
                 continue
             now = self._value_now(name)
-            callbacks = self._parameter_callbacks.get(name, [])
-            if repr(self._parameter_told.get(name, _UNSET)) == repr(
-                now
-            ):  # 1, 1.0 and True are equal, but not the same
+            callbacks = self._callbacks.get(name, [])
+            if repr(self._told.get(name, UNSET)) == repr(now):  # 1, 1.0 and True are equal, but not the same
                 continue
-            self._parameter_told[name] = now
+            self._told[name] = now
             for callback in callbacks:
                 self._tell(name, callback, wire_copy(now))
 
     def _value_now(self, name: str) -> Any:
-        code, _, value = self.master.insist("getParam", name, warn=self.logerr)
+        code, _, value = self._node.master.insist("getParam", name, warn=self._node.logerr)
         return value if code == 1 else {}
 
-    def _note_parameters(self) -> None:
+    def _note(self) -> None:
         """Take what this node has just set as told: the Master spares it an echo."""
-        for name in list(self._parameter_callbacks):
-            self._parameter_told[name] = self._value_now(name)
+        for name in list(self._callbacks):
+            self._told[name] = self._value_now(name)
 
     def _tell(self, name: str, callback: Callable[[Any], object], value: Any) -> None:
-        self.spawn(
-            f"{self.name} parameter {name}",
-            partial(self.guarded, callback, value, what=f"parameter {name}"),
+        self._node.spawn(
+            f"{self._node.name} parameter {name}",
+            partial(self._node.guarded, callback, value, what=f"parameter {name}"),
         )
 
-    def _leave_parameters(self) -> None:
+    def _leave(self) -> None:
         """Leave no subscription at the Master when the node ends."""
-        for name in list(self._parameter_callbacks):
-            self.off_param(name)
+        for name in list(self._callbacks):
+            self.unwatch(name)

@@ -1,0 +1,118 @@
+"""The transport between nodes of one process, which hands frozen messages over."""
+
+from __future__ import annotations
+
+from os import getpid
+from socket import gethostname
+from typing import TYPE_CHECKING, Any
+
+from rosmini.core.errors import TransportTerminated
+
+from .connection import LocalSender
+from .transport import LOCAL, ServiceLink, slave_uri
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .connection import Connection
+    from .scheduler import Scheduler
+    from .transport import Endpoint, Header, ServiceSession, Triple
+
+
+class LocalServiceLink:
+    """Hands requests to a session in the same process."""
+
+    is_remote = False
+    __slots__ = ("_session", "header")
+
+    def __init__(self, session: ServiceSession) -> None:
+        self._session = session
+        self.header = session.header
+
+    def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        """Hand over a request."""
+        self._session.handle(request, reply)
+
+    def close(self) -> None:
+        """Close the connection."""
+        self._session.close()
+
+
+class LocalTransport:
+    """Nodes of one process, connected by handing frozen messages over."""
+
+    protocol = LOCAL
+
+    def __init__(self, scheduler: Scheduler) -> None:
+        self._scheduler = scheduler
+        self._place = f"{gethostname()}/{getpid()}/{id(self)}"
+        self._endpoints: dict[str, Endpoint] = {}
+        self._numbers = 0
+
+    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
+        """Make a node reachable."""
+        self._numbers += 1
+        uri = uri or f"http://rosmini:{self._numbers}/"
+        self._endpoints[uri] = endpoint
+        return uri
+
+    def detach(self, uri: str) -> None:
+        """Make a node unreachable."""
+        self._endpoints.pop(uri, None)
+
+    def service_uri(self, uri: str) -> str:
+        """Return the address of the node's services."""
+        return uri.replace("http://", "rosrpc://").rstrip("/")
+
+    def reaches(self, uri: str) -> bool:
+        """Return whether the node, or the one with these services, is in this process."""
+        return slave_uri(uri) in self._endpoints
+
+    def offer(self, caller: str) -> list[Any] | None:
+        """Return what a subscriber offers in ``requestTopic``: in which process, and in which graph there, it is."""
+        return [self.protocol, self._place] if caller in self._endpoints else None
+
+    def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
+        """Return the connection parameters of a topic."""
+        is_here = offer in ([self.protocol], [self.protocol, self._place]) and uri in self._endpoints
+        return [self.protocol, uri] if is_here else None
+
+    def endpoint(self, uri: str) -> Endpoint:
+        """Return the node at ``uri``, of its slave API or its services."""
+        found = self._endpoints.get(slave_uri(uri))
+        if found is None:
+            raise TransportTerminated(f"no node answers at {uri}: it has been shut down")
+        return found
+
+    def call(self, uri: str, method: str, *arguments: Any) -> Triple:
+        """Call a method of a node's slave API."""
+        return self.endpoint(uri).slave_call(method, *arguments)
+
+    def retry(self, seconds: float, function: Callable[[], object]) -> bool:  # noqa: ARG002 - the seam's
+        """Tell that who has gone stays away."""
+        return False
+
+    def close(self) -> None:
+        """Do nothing: there is nothing open."""
+
+    def connect_topic(
+        self,
+        caller: str,  # noqa: ARG002 - the seam's
+        parameters: list[Any],
+        header: Header,
+        receiver: Connection,
+    ) -> tuple[Header, Callable[[], None]]:
+        """Open a topic connection."""
+        sender = LocalSender(self._scheduler, receiver, header["callerid"])
+        reply = self.endpoint(parameters[1]).accept_subscriber(header, sender)
+        return reply, sender.drop
+
+    def connect_service(
+        self,
+        caller: str,  # noqa: ARG002 - the seam's
+        service_uri: str,
+        header: Header,
+        service_class: Any,  # noqa: ARG002 - the seam's
+    ) -> ServiceLink:
+        """Open a service connection."""
+        return LocalServiceLink(self.endpoint(service_uri).accept_client(header))
