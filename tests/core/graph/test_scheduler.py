@@ -11,7 +11,7 @@ import weakref
 import pytest
 
 from rosmini.core.errors import GraphEnded, RosminiError
-from rosmini.core.graph import interrupts
+from rosmini.core.graph import threads
 from rosmini.core.graph.event_queue import TICK_QUANTUM_NS
 from rosmini.core.graph.lanes import Lane, LaneExit
 from rosmini.core.graph.scheduler import Scheduler
@@ -356,7 +356,7 @@ def test_a_second_interrupt_ends_a_callback_that_never_comes_back(scheduler: Sch
 def test_an_interrupt_that_ends_nothing_says_what_it_waits_for(
     scheduler: Scheduler, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(interrupts, "PATIENCE_S", 0)
+    monkeypatch.setattr(threads, "PATIENCE_S", 0)
 
     def heard() -> None:
         os.kill(os.getpid(), signal.SIGINT)
