@@ -16,7 +16,8 @@ from pathlib import Path
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 PAGES = ("README.md", "book/about/design.md")
-KERNEL = "core/graph"
+KERNEL = "kernel"
+"""The modules of `rosmini/core/graph` that its docstring lists in reading order."""
 SINGLE = {"msgs": "core"}
 """Packages at the top of the library that are part of a room."""
 UNIT = 500
@@ -62,9 +63,10 @@ def rows(arrows: dict[str, list[str]]) -> list[list[str]]:
 
 
 @cache
-def code_lines(folder: Path) -> int:
-    """Count the lines of code below `folder`: no blank lines, no comments and no docstrings."""
-    return sum(_code_lines(path.read_text(encoding="utf-8")) for path in sorted(folder.rglob("*.py")))
+def code_lines(place: Path) -> int:
+    """Count the lines of code of a module or below a folder: no blank lines, no comments and no docstrings."""
+    modules = [place] if place.is_file() else sorted(place.rglob("*.py"))
+    return sum(_code_lines(path.read_text(encoding="utf-8")) for path in modules)
 
 
 def _code_lines(source: str) -> int:
@@ -83,13 +85,25 @@ def _code_lines(source: str) -> int:
     return len(code - docstrings)
 
 
+def kernel(checkout: Path) -> list[Path]:
+    """Return the modules of the kernel, in reading order."""
+    graph = checkout / "rosmini" / "core" / "graph"
+    text = ast.get_docstring(ast.parse((graph / "__init__.py").read_text(encoding="utf-8"))) or ""
+    names = [
+        name
+        for line in re.findall(r"^\d\. .*$", text, re.MULTILINE)
+        for name in re.findall(r"``(\w+)``", line)
+    ]
+    return [graph / f"{name}.py" for name in names]
+
+
 def sizes(checkout: Path, arrows: dict[str, list[str]]) -> dict[str, int]:
     """Return the lines of code of each room, of the kernel and of the library."""
     library = checkout / "rosmini"
     found = {room: code_lines(library / room) for room in arrows}
     for package, room in SINGLE.items():
         found[room] += code_lines(library / package)
-    return found | {KERNEL: code_lines(library / KERNEL), "rosmini": sum(found.values())}
+    return found | {KERNEL: sum(map(code_lines, kernel(checkout))), "rosmini": sum(found.values())}
 
 
 def rounded(size: int, before: int | None = None) -> int:
@@ -106,7 +120,7 @@ def picture(arrows: dict[str, list[str]], lines: dict[str, int]) -> str:
     """Draw the rooms in rows as text, with their sizes."""
     width = max(map(len, arrows))
     drawn = ["   ".join(f"{room:{width}} {lines[room]:6,}" for room in row) for row in rows(arrows)]
-    drawn[-1] += f"   of which {KERNEL} {lines[KERNEL]:,}"
+    drawn[-1] += f"   of which the {KERNEL} {lines[KERNEL]:,}"
     return "\n".join(["```text", *drawn, "", f"{'rosmini':{width}} {lines['rosmini']:6,}", "```"])
 
 

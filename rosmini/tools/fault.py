@@ -12,7 +12,7 @@ from rosmini.core.verbs import Call, Lines, Parser, Tool, global_name
 if TYPE_CHECKING:
     from optparse import Values
 
-    from rosmini.core.graph.faults import Faults
+    from rosmini.core.graph.observers.faults import Faults
 
 TOOL = Tool(
     "fault",

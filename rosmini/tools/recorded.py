@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from rosmini.core.verbs import VerbError
 
 if TYPE_CHECKING:
-    from rosmini.core.graph.recording import Recording
+    from rosmini.core.graph.observers.recording import Recording
     from rosmini.core.verbs import Call, Parser
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from rosmini.core.errors import nearest
-from rosmini.core.graph.recording import Call, Recording
+from rosmini.core.graph.observers.recording import Call, Recording
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import MARGIN, arrow, box, name, rule, text
 from rosmini.viz.layout import Rect, Route

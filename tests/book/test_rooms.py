@@ -42,6 +42,13 @@ def test_a_room_imports_what_its_contract_leaves():
     assert rooms.rows(arrows) == [["viz", "book"], ["sim"], ["core"]]
 
 
+def test_the_kernel_is_small():
+    modules = rooms.kernel(ROOT)
+    assert all(module.is_file() for module in modules)
+    assert len(modules) <= 16
+    assert sum(map(rooms.code_lines, modules)) <= 5000
+
+
 def test_blank_lines_comments_and_docstrings_do_not_count(tmp_path):
     source = '"""A module."""\n\n# a comment\nx = 1\n"""A number."""\n\ndef f():\n    """Return 1."""\n    return x\n'
     (tmp_path / "module.py").write_text(source, encoding="utf-8")

@@ -15,7 +15,6 @@ import pytest
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.core.graph import Graph
-from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.msgs import message_class, service_class
 from rosmini.ros.scripts import run_source
 from rosmini.sim.engine import RobotGone
@@ -23,6 +22,7 @@ from rosmini.sim.models import BURGER, GRAVITY, UnknownModel
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Obstacle, World, WorldError
 from rosmini.sim.worlds import world
+from tests.core.graph.byte_transport import ByteTransport
 
 from ..processes import PATIENCE, run
 

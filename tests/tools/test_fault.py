@@ -8,7 +8,7 @@ import pytest
 
 from rosmini import Graph
 from rosmini.core.errors import ServiceException, UsageError
-from rosmini.core.graph.faults import FaultError
+from rosmini.core.graph.observers.faults import FaultError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import Trigger
 from rosmini.tools.fault import TOOL

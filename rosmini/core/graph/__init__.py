@@ -1,4 +1,14 @@
-"""The computation graph: scheduler, Master and Parameter Server, nodes, topics, services, log messages."""
+"""The computation graph: scheduler, Master and Parameter Server, nodes, topics, services, log messages.
+
+The kernel, in the order in which it is best read:
+
+1. how a message travels: ``publisher``, ``connection``, ``lanes``, ``callbacks``, ``subscription``;
+2. what runs it: ``scheduler``, ``event_queue``;
+3. who knows whom: ``master``, ``parameters``, ``master_port``, ``transport``, ``local_transport``;
+4. what users hold: ``service``, ``node``, ``graph``.
+
+The other modules serve these: the clock, log messages, the slave API, threads, Jupyter. ``observers`` watch it.
+"""
 
 from __future__ import annotations
 

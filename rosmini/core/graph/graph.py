@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError
 
-from .console import Console
-from .faults import Faults
 from .graph_core import GraphCore
-from .history import History
 from .live import Errand, LiveDrive
 from .local_transport import LocalTransport
 from .master_port import LEAVE_NS
 from .node import Node
 from .notebook import kernel_loop
-from .recording import Recording
+from .observers.console import Console
+from .observers.faults import Faults
+from .observers.history import History
+from .observers.recording import Recording
 from .show import find_extension, show
 from .threads import running_scheduler
 

@@ -14,12 +14,12 @@ from rosmini.core.time import Time
 from rosmini.msgs import message_class
 
 from .event_queue import span_ns
-from .faults import Gates
 from .log_file import log_folder
 from .master import Master
 from .master_port import MasterPort, MasterProxy
 from .notebook import kernel_shell
 from .notices import Changes, Notices
+from .observers.faults import Gates
 from .scheduler import Scheduler
 from .transport import Transports
 

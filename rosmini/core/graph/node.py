@@ -37,13 +37,13 @@ from .callbacks import describe_failure
 from .clock import GraphClock, Rate, Timer, TimerEvent, TopicClock
 from .lanes import Lane, Waiter
 from .master_port import MasterProxy
+from .observers.topic_statistics import TopicStatistics, are_wanted
 from .parameter_client import UNSET, ParameterClient
 from .publisher import Publication, Publisher
 from .rosout import LEVELS, Logger, logger_services
 from .service import ServiceClient, Services, ServiceServer, Session, timed_out
 from .slave import SlaveApi
 from .subscription import Subscriber, Subscription
-from .topic_statistics import TopicStatistics, are_wanted
 from .transport import extra_fields
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from .connection import Observer
     from .node import Node
-    from .topic_statistics import TopicStatistics
+    from .observers.topic_statistics import TopicStatistics
     from .transport import Header
 
 RETRY_S = 0.5

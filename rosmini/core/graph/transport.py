@@ -4,9 +4,8 @@ A node knows only what is written here. Three things cross the seam: calls of an
 connections (from a publisher's :class:`Sender` to a subscriber's ``Connection``), and service connections. What
 travels is always a *frozen* message: a private copy, checked and rounded as the wire would round it.
 
-:mod:`~rosmini.core.graph.local_transport` hands frozen messages over inside one process;
-:mod:`~rosmini.core.graph.byte_transport` serialises them and carries the bytes on real threads. Header fields are those of TCPROS (http://wiki.ros.org/ROS/TCPROS), so that
-a TCPROS transport has nothing to add.
+:mod:`~rosmini.core.graph.local_transport` hands frozen messages over inside one process; `rosmini.ros.net` has the
+transport of real ROS. Header fields are those of TCPROS (http://wiki.ros.org/ROS/TCPROS).
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from rosmini.core.errors import RosminiError, nearest
 from rosmini.core.graph.show import show
 
 if TYPE_CHECKING:
-    from rosmini.core.graph.history import Event, History
+    from rosmini.core.graph.observers.history import Event, History
 
 DEPTH = 12
 """Default number of causes shown."""

@@ -8,7 +8,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from rosmini.core.errors import nearest
-from rosmini.core.graph.console import Console
+from rosmini.core.graph.observers.console import Console
 from rosmini.core.graph.rosout import LEVELS, NAMES
 from rosmini.viz.rqt.selection import matches
 from rosmini.viz.view import ViewError

@@ -8,9 +8,9 @@ import pytest
 
 from rosmini.core.actionlib import ActionServer, SimpleActionServer
 from rosmini.core.graph import Graph
-from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.msgs.actionlib_tutorials.msg import FibonacciAction, FibonacciFeedback, FibonacciResult
+from tests.core.graph.byte_transport import ByteTransport
 
 from ...processes import PATIENCE
 

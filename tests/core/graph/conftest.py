@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from rosmini.core.graph import Graph
-from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.ros.net.network import tcp
+from tests.core.graph.byte_transport import ByteTransport
 
 from ...conftest import nightly
 from ...processes import PATIENCE

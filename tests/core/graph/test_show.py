@@ -14,7 +14,7 @@ from rosmini.viz.live.simulation_view import SimulationView
 DRIVEN = {"show3d": "simulation_3d", "view": "simulation_view", "pad": "teleop_pad"}
 SHOWN = {
     "rosmini.ros.bag:Bag": {"show": "bag"},
-    "rosmini.core.graph.console:Console": {"show": "log_console"},
+    "rosmini.core.graph.observers.console:Console": {"show": "log_console"},
     "rosmini.core.graph:Graph": {"show": "computation_graph"},
     "rosmini.sim.urdf.model:Robot": {"show": "robot", "show3d": "robot_3d"},
     "rosmini.sim.simulator:Simulator": {"show": "simulation", **DRIVEN},

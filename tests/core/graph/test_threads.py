@@ -10,10 +10,10 @@ import pytest
 
 from rosmini.core.errors import ROSException
 from rosmini.core.graph import Graph
-from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Header, Int32, String
+from tests.core.graph.byte_transport import ByteTransport
 
 from ...processes import PATIENCE
 from .conftest import KINDS, WALL_RATE, close, make, until

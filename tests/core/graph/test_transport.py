@@ -8,10 +8,10 @@ import pytest
 
 from rosmini.core.errors import ServiceException
 from rosmini.core.graph import Graph
-from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import String
+from tests.core.graph.byte_transport import ByteTransport
 
 from .conftest import close, until
 

@@ -14,12 +14,12 @@ import pytest
 
 from rosmini.core.errors import TypeMismatch
 from rosmini.core.graph import Graph
-from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.ros.bag import Bag, BagFull, Player, Recorder, ROSBagException, reindex
 from rosmini.ros.bag.index import connection
 from rosmini.ros.bag.writer import Writer
+from tests.core.graph.byte_transport import ByteTransport
 
 from ...core.graph.restless_master import RestlessMaster
 from ...processes import PATIENCE, run, start

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import pytest
 
 from rosmini import Graph
-from rosmini.core.graph.byte_transport import ByteTransport
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import Trigger
 from rosmini.ros.introspection.why import NothingRecorded, explain
+from tests.core.graph.byte_transport import ByteTransport
 
 
 @pytest.fixture

@@ -5,8 +5,9 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
+from rosmini.core.graph.show import show
+
 from .history import MASTER
-from .show import show
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

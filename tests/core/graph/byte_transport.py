@@ -16,15 +16,14 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.core.errors import TransportException, TransportInitError, TransportTerminated
-
-from .connection import QueuedSender
-from .headers import decode_header, encode_header
-from .transport import slave_uri
+from rosmini.core.graph.connection import QueuedSender
+from rosmini.core.graph.headers import decode_header, encode_header
+from rosmini.core.graph.transport import slave_uri
 
 if TYPE_CHECKING:
-    from .connection import Connection
-    from .scheduler import Scheduler
-    from .transport import Endpoint, Header, ServiceSession, Triple
+    from rosmini.core.graph.connection import Connection
+    from rosmini.core.graph.scheduler import Scheduler
+    from rosmini.core.graph.transport import Endpoint, Header, ServiceSession, Triple
 
 
 OnFailure = Callable[[Exception], None]
@@ -208,7 +207,7 @@ class ByteTransport:
         reply = self._ask(uri, serve, on_hub=False)
         return cast("Triple", xmlrpc.client.loads(reply)[0][0])
 
-    def retry(self, seconds: float, function: Callable[[], object]) -> bool:  # noqa: ARG002 - the seam's
+    def retry(self, seconds: float, function: Callable[[], object]) -> bool:
         """Tell that who has gone stays away."""
         return False
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rosmini.core.graph.faults import FaultError, Gate, Gates, TopicFault
+from rosmini.core.graph.observers.faults import FaultError, Gate, Gates, TopicFault
 from rosmini.core.graph.scheduler import Scheduler
 from rosmini.msgs.std_msgs.msg import Int32
 

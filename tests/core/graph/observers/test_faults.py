@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from rosmini import Graph
 from rosmini.core.errors import ROSException, RosminiError, ServiceException
-from rosmini.core.graph.faults import FaultError
+from rosmini.core.graph.observers.faults import FaultError
 from rosmini.msgs.std_msgs.msg import Int32, String, UInt8MultiArray
 from rosmini.msgs.std_srvs.srv import Trigger
 

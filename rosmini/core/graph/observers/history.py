@@ -18,19 +18,19 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
+from rosmini.core.graph.connection import Observer
+from rosmini.core.graph.rosout import OWN, source_of
 from rosmini.msgs.message import Message
 
 from .brief import Values, brief, values
-from .connection import Observer
-from .rosout import OWN, source_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from types import CodeType, FrameType
 
-    from .connection import Connection
-    from .lanes import Lane
-    from .scheduler import Scheduler
+    from rosmini.core.graph.connection import Connection
+    from rosmini.core.graph.lanes import Lane
+    from rosmini.core.graph.scheduler import Scheduler
 
 Kind = Literal["call", "connection", "publication", "delivery", "loss", "request", "answer"]
 

@@ -11,14 +11,13 @@ from math import isqrt
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import MasterUnreachable, ParameterError
+from rosmini.core.graph.connection import Observer
 from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class
 
-from .connection import Observer
-
 if TYPE_CHECKING:
-    from .connection import Connection
-    from .node import Node
+    from rosmini.core.graph.connection import Connection
+    from rosmini.core.graph.node import Node
 
 TOPIC = "/statistics"
 PARAMETER = "/enable_statistics"

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
-from .node import Node
-from .show import show
+from rosmini.core.graph.show import show
 
 if TYPE_CHECKING:
-    from .graph_core import GraphCore
+    from rosmini.core.graph.graph_core import GraphCore
+    from rosmini.core.graph.node import Node
 
 __all__ = ["Console"]
 
@@ -31,7 +31,7 @@ class Console:
         self._messages: deque[Any] = deque(maxlen=limit)
         self.total = 0
         """How many messages came; those over the limit are gone."""
-        listener = Node(name, graph) if node is None else node
+        listener = graph.node(name) if node is None else node
         self._own = listener if node is None else None
         self._subscriber = listener.subscriber("/rosout_agg", graph.log_class, self._take)
 

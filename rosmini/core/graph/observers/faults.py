@@ -13,18 +13,17 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError, nearest
-
-from .clock import GraphClock, TopicClock, WrongClock
-from .connection import Observer
-from .event_queue import span_ns
+from rosmini.core.graph.clock import GraphClock, TopicClock, WrongClock
+from rosmini.core.graph.connection import Observer
+from rosmini.core.graph.event_queue import span_ns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     import numpy as np
 
-    from .graph_core import GraphCore
-    from .scheduler import Scheduler
+    from rosmini.core.graph.graph_core import GraphCore
+    from rosmini.core.graph.scheduler import Scheduler
 
 
 class FaultError(RosminiError):
