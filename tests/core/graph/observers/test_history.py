@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini import Graph
-from rosmini.core.graph import history as history_module
+from rosmini.core.graph.observers import history as history_module
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import String
