@@ -216,7 +216,10 @@ class Evaluation:
             value, at = self._term(tokens, at + 1, depth + 1)
             return not value, at
         if word == "(":
+            opened = tokens[at].line
             value, at = self._any(tokens, at + 1, depth + 1)
+            if at >= len(tokens):
+                raise self.error("a parenthesis in a condition is not closed", opened)
             return value, at + 1
         if word in _UNARY:
             return _UNARY[word](self, following), min(at + 2, len(tokens))

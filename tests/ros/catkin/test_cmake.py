@@ -140,6 +140,7 @@ def test_loops_and_what_is_passed_over() -> None:
         ("foreach()\nendforeach()", "needs a variable"),
         ("if(" + "( " * 60 + ")" * 60 + ")\nendif()", "nested too deeply"),
         ("if(a b)\nendif()", "does not understand 'b'"),
+        ('if("(" a)\nendif()', "is not closed"),
     ],
 )
 def test_what_would_not_end_is_refused(text: str, says: str) -> None:
