@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from greenlet import greenlet
 
-    from .event_queue import Timer
+    from .scheduler import Scheduler
 
 
 PATIENCE_S = 2.0
@@ -55,49 +55,6 @@ class LaneContext(Protocol):
         """Learn, in a lane that runs, that its loop has gone on for long without a blocking call."""
 
 
-class Hub(Protocol):
-    """What lanes and waiters need of the scheduler."""
-
-    simulated: bool
-    rate: float
-    thread: int
-    """The identifier of the thread that runs the queue."""
-    ready: deque[Callable[[], object]]
-    ask_driver: Callable[[Waiter], Callable[[], None]]
-    history: Any
-    """What records what happens, or None."""
-
-    def take_hub(self, *, to_wait: bool = False) -> bool:
-        """Move the hub to the calling thread, which is about to drive; return False if it cannot be moved."""
-
-    def current(self) -> Lane:
-        """Return the caller's lane."""
-
-    def now_ns(self) -> int:
-        """Return the graph time in nanoseconds."""
-
-    def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
-        """Call ``callback`` at graph time ``when_ns``."""
-
-    def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
-        """Call ``callback`` soon in the hub's thread."""
-
-    def count_rounds(self, rounds: int) -> None:
-        """Count what a lane did at this instant besides the rounds of the loop."""
-
-    def enter_lane(self, lane: Lane) -> None:
-        """Make ``lane`` the running one."""
-
-    def lane_failed(self, lane: Lane, error: BaseException) -> None:
-        """Report that a task of ``lane`` raised."""
-
-    def park(self, waiter: Waiter) -> bool:
-        """Leave the caller parked until ``waiter`` resumes it; False if another thread has begun to drive."""
-
-    def count_remote(self, change: int) -> None:
-        """Count who waits for something outside this process."""
-
-
 class Lane:
     """A first-in, first-out queue of tasks with one blocking point.
 
@@ -125,7 +82,7 @@ class Lane:
 
     def __init__(
         self,
-        scheduler: Hub,
+        scheduler: Scheduler,
         name: str,
         *,
         node: Any = None,
@@ -256,7 +213,7 @@ class Waiter:
 
     __slots__ = ("_error", "_event", "_hub", "cause", "done", "greenlet", "queued", "reason", "value")
 
-    def __init__(self, hub: Hub, reason: str) -> None:
+    def __init__(self, hub: Scheduler, reason: str) -> None:
         self._hub = hub
         self.reason = reason
         self.done = False

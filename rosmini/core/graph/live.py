@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import asyncio
     from collections.abc import Callable
 
-    from .graph_core import GraphCore
+    from .graph import Graph
     from .lanes import Waiter
 
 SLICE_S = 0.01
@@ -50,7 +50,7 @@ STOPPED = (
 class LoopDrive(ABC):
     """Gives ``graph`` its turns in ``loop`` until :meth:`stop`, or until :meth:`over` holds."""
 
-    def __init__(self, graph: GraphCore, loop: asyncio.AbstractEventLoop) -> None:
+    def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop) -> None:
         self.graph = graph
         self.running = True
         self._loop = loop
@@ -130,7 +130,7 @@ class LiveDrive(LoopDrive):
     would end a ``graph.run()`` is shown there and stops the drive, and so does an interrupt while no cell runs.
     """
 
-    def __init__(self, graph: GraphCore, loop: asyncio.AbstractEventLoop, *, rate: float = 1.0) -> None:
+    def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop, *, rate: float = 1.0) -> None:
         if not rate > 0:
             msg = f"the rate of a live graph must be positive, not {rate!r}"
             raise RosminiError(msg)
@@ -190,7 +190,7 @@ class LiveDrive(LoopDrive):
 class Errand(LoopDrive):
     """Drives ``graph`` in the kernel's main thread for a call blocked in another thread, unless already driven."""
 
-    def __init__(self, graph: GraphCore, waiter: Waiter) -> None:
+    def __init__(self, graph: Graph, waiter: Waiter) -> None:
         self._waiter = waiter
         self._begun = False
         if not graph.scheduler.is_in_main_thread():

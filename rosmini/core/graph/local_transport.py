@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .connection import Connection
+    from .node import Node
     from .scheduler import Scheduler
-    from .transport import Endpoint, Header, ServiceSession, Triple
+    from .service import Session
+    from .transport import Header, Triple
 
 
 class LocalServiceLink:
@@ -25,7 +27,7 @@ class LocalServiceLink:
     is_remote = False
     __slots__ = ("_session", "header")
 
-    def __init__(self, session: ServiceSession) -> None:
+    def __init__(self, session: Session) -> None:
         self._session = session
         self.header = session.header
 
@@ -46,10 +48,10 @@ class LocalTransport:
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
         self._place = f"{gethostname()}/{getpid()}/{id(self)}"
-        self._endpoints: dict[str, Endpoint] = {}
+        self._endpoints: dict[str, Node] = {}
         self._numbers = 0
 
-    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
+    def attach(self, endpoint: Node, uri: str | None = None) -> str:
         """Make a node reachable."""
         self._numbers += 1
         uri = uri or f"http://rosmini:{self._numbers}/"
@@ -77,7 +79,7 @@ class LocalTransport:
         is_here = offer in ([self.protocol], [self.protocol, self._place]) and uri in self._endpoints
         return [self.protocol, uri] if is_here else None
 
-    def endpoint(self, uri: str) -> Endpoint:
+    def endpoint(self, uri: str) -> Node:
         """Return the node at ``uri``, of its slave API or its services."""
         found = self._endpoints.get(slave_uri(uri))
         if found is None:

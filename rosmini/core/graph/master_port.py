@@ -12,15 +12,15 @@ from abc import ABC, abstractmethod
 from collections import deque
 from contextlib import contextmanager
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import MasterUnreachable, ROSException, ROSInterruptException
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
+    from .graph import Graph
     from .lanes import Waiter
-    from .scheduler import Scheduler
     from .transport import Triple
 
 METHODS = frozenset(
@@ -86,16 +86,6 @@ class MasterPort(ABC):
         return partial(self.call, name)
 
 
-class MasterHost(Protocol):
-    """What a proxy needs of its graph."""
-
-    scheduler: Scheduler
-
-    @property
-    def master(self) -> MasterPort:
-        """The port to the Master of this moment."""
-
-
 class MasterProxy:
     """The Master as one caller sees it.
 
@@ -104,9 +94,9 @@ class MasterProxy:
     """
 
     def __init__(
-        self, host: MasterHost, caller_id: str, why_over: Callable[[], str | None] = lambda: None
+        self, graph: Graph, caller_id: str, why_over: Callable[[], str | None] = lambda: None
     ) -> None:
-        self._host = host
+        self._graph = graph
         self._caller_id = caller_id
         self._why_over = why_over
         self.is_mute = False
@@ -126,12 +116,12 @@ class MasterProxy:
 
     def call(self, method: str, *arguments: Any) -> Triple:
         """Return the Master's answer: [code, status, value]. Raises ``MasterUnreachable``."""
-        port = self._host.master
+        port = self._graph.master
         if port.is_local:
-            self._host.scheduler.charge(MASTER_TICKS)
+            self._graph.scheduler.charge(MASTER_TICKS)
             return self._reach(port, method, arguments)
         with self._turn():  # the graph may have another Master when the turn comes
-            return self._reach(self._host.master, method, arguments)
+            return self._reach(self._graph.master, method, arguments)
 
     def _reach(self, port: MasterPort, method: str, arguments: tuple[Any, ...]) -> Triple:
         """Return a port's answer, and have it recorded where the graph records what happens."""
@@ -140,7 +130,7 @@ class MasterProxy:
             answer = getattr(port, method)(self._caller_id, *arguments)
         else:
             answer = port.call(method, self._caller_id, *arguments)
-        history = self._host.scheduler.history
+        history = self._graph.scheduler.history
         if history is not None:
             history.called(self._caller_id, "", method, arguments, answer)
         return answer
@@ -168,14 +158,14 @@ class MasterProxy:
 
         Raises ``ROSInterruptException`` when the caller ends meanwhile.
         """
-        port = self._host.master
+        port = self._graph.master
         if port.is_local:
             self._has_registered = True
             return self._reach(port, method, arguments)
         with self._turn():
             while True:
                 try:
-                    answer = self._reach(self._host.master, method, self._current(arguments))
+                    answer = self._reach(self._graph.master, method, self._current(arguments))
                     self._has_registered = True
                     return answer
                 except MasterUnreachable as error:
@@ -186,7 +176,7 @@ class MasterProxy:
                         raise ROSInterruptException(over) from error
                     silence = str(error)
                 warn(
-                    f"Unable to register with master node [{self._host.master.uri}]: "
+                    f"Unable to register with master node [{self._graph.master.uri}]: "
                     f"master may not be running yet. Will keep trying. ({silence})"
                 )
                 warn = _silent
@@ -206,18 +196,18 @@ class MasterProxy:
         """
         if self.is_mute:
             return
-        port = self._host.master
+        port = self._graph.master
         if port.is_local:
             self._reach(port, method, arguments)
             return
-        scheduler = self._host.scheduler
+        scheduler = self._graph.scheduler
         with self._turn():
             while True:
                 started = scheduler.now_ns()
                 if port.leave_by is not None and started >= port.leave_by:
                     return
                 try:
-                    self._reach(self._host.master, method, arguments)
+                    self._reach(self._graph.master, method, arguments)
                 except MasterUnreachable as error:
                     if not self._has_registered:
                         return  # nothing stays there
@@ -254,7 +244,7 @@ class MasterProxy:
         return next((names for name, names in publishers if name == topic), [])
 
     def _pause(self) -> None:
-        scheduler = self._host.scheduler
+        scheduler = self._graph.scheduler
         scheduler.sleep_until(scheduler.now_ns() + RETRY_NS, "the Master")
 
     @contextmanager
@@ -263,7 +253,7 @@ class MasterProxy:
         with self._lock:
             waiter = None
             if self._busy:
-                waiter = self._host.scheduler.waiter("its turn at the Master")
+                waiter = self._graph.scheduler.waiter("its turn at the Master")
                 self._queue.append(waiter)
             self._busy = True
         try:

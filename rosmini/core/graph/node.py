@@ -49,7 +49,7 @@ from .transport import extra_fields
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .graph_core import GraphCore
+    from .graph import Graph
     from .lanes import LaneContext
     from .rosout import LogOptions
     from .transport import Header, Sender, Triple
@@ -77,13 +77,13 @@ class Node:
 
     """
 
-    default_graph: ClassVar[Callable[..., GraphCore]]
+    default_graph: ClassVar[Callable[..., Graph]]
     """Returns the graph of a node that is given none."""
 
     def __init__(
         self,
         name: str,
-        graph: GraphCore | None = None,
+        graph: Graph | None = None,
         *,
         namespace: str = "/",
         remappings: dict[str, str] | Remappings | None = None,

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.errors import RosminiError, nearest
 
 if TYPE_CHECKING:
-    from .graph_core import GraphCore
+    from .graph import Graph
 
 GROUP = "rosmini.renderers"
 
@@ -44,6 +44,6 @@ def show(kind: str, thing: object, **options: Any) -> Any:
     return find_extension(GROUP, kind)(thing, **options)
 
 
-def has_own_process(graph: GraphCore) -> bool:
+def has_own_process(graph: Graph) -> bool:
     """Return whether this process is but one of a graph's, in wall time, and no notebook that goes on by itself."""
     return not (graph.simulated or graph.master.is_local or graph.is_live)

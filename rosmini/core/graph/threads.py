@@ -8,13 +8,13 @@ import sys
 import threading
 from pathlib import Path
 from signal import SIGINT
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from greenlet import GreenletExit, getcurrent, greenlet
 
 from rosmini.core.errors import ROSInterruptException
 
-from .lanes import Hub, Lane, LaneExit, Waiter
+from .lanes import Lane, LaneExit, Waiter
 
 if TYPE_CHECKING:
     import weakref
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from .report import RunReport
+    from .scheduler import Scheduler
 
 
 class Worker(greenlet):  # type: ignore[misc] # greenlet has no types
@@ -165,24 +166,7 @@ LOOK_S = 0.005
 """How often a run beside another thread's checks whether it is over."""
 
 
-class Driven(Hub, Protocol):
-    """What is needed of a scheduler that another thread drives."""
-
-    @property
-    def driven(self) -> bool:
-        """True while somebody drives the queue."""
-
-    def report(self, reason: str) -> RunReport:
-        """Return how things stand at the end of a run."""
-
-    def hold(self) -> None:
-        """Let simulated time stand still until :meth:`release`."""
-
-    def release(self) -> None:
-        """Undo one :meth:`hold`."""
-
-
-def on_hub(scheduler: Hub, function: Callable[[], T]) -> T:
+def on_hub(scheduler: Scheduler, function: Callable[[], T]) -> T:
     """Return ``function()``, called through the inbox in a lane with the caller's node and context; blocks."""
     waiter = Waiter(scheduler, "the thread that runs the graph")
     caller = scheduler.current()
@@ -202,7 +186,7 @@ def on_hub(scheduler: Hub, function: Callable[[], T]) -> T:
     return cast("T", waiter.value)
 
 
-def complaint(scheduler: Driven, waiter: Waiter) -> Callable[[], None]:
+def complaint(scheduler: Scheduler, waiter: Waiter) -> Callable[[], None]:
     """Return a function that warns on standard error if nobody drives the graph that the calling thread waits for."""
     name = threading.current_thread().name
 
@@ -216,7 +200,7 @@ def complaint(scheduler: Driven, waiter: Waiter) -> Callable[[], None]:
     return complain
 
 
-def run_beside(scheduler: Driven, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
+def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
     """Wait for the time or the condition while another thread drives, as ``run`` does in wall time."""
     waiter = Waiter(scheduler, "the end of the run")
 
@@ -237,7 +221,7 @@ def run_beside(scheduler: Driven, until_ns: int | None, until: Callable[[], bool
     return scheduler.report(waiter.value)
 
 
-def in_thread(scheduler: Driven, function: Callable[[], T]) -> T:
+def in_thread(scheduler: Scheduler, function: Callable[[], T]) -> T:
     """Return ``function()``, run in a helper thread; the calling lane is parked and simulated time stands still."""
     waiter = Waiter(scheduler, "the operating system")
     scheduler.hold()

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from .connection import Connection
+    from .node import Node
     from .scheduler import Scheduler
 
 
@@ -82,19 +83,6 @@ class Sender(Protocol):
         """Close the connection after what was sent."""
 
 
-class ServiceSession(Protocol):
-    """The server's end of a service connection."""
-
-    header: Header
-    service_class: Any
-
-    def handle(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
-        """Answer a frozen request by ``reply(frozen_response, None)`` or ``reply(None, error_text)``, now or later."""
-
-    def close(self) -> None:
-        """Learn that the client closed the connection."""
-
-
 class ServiceLink(Protocol):
     """The client's end of a service connection."""
 
@@ -103,25 +91,10 @@ class ServiceLink(Protocol):
     """True where the server is in another process: waiting for it holds no simulated time."""
 
     def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
-        """Send a frozen request; ``reply`` is called in the hub's thread, as in :meth:`ServiceSession.handle`."""
+        """Send a frozen request; ``reply`` is called in the hub's thread, as in :meth:`Session.handle`."""
 
     def close(self) -> None:
         """Close the connection."""
-
-
-class Endpoint(Protocol):
-    """What a node offers to its transport."""
-
-    name: str
-
-    def slave_call(self, method: str, *arguments: Any) -> Triple:
-        """Answer a call of the slave API. In any thread, and at once."""
-
-    def accept_subscriber(self, header: Header, sender: Sender) -> Header:
-        """Take a subscriber's connection and return the answering header, or raise ``TransportInitError``."""
-
-    def accept_client(self, header: Header) -> ServiceSession:
-        """Take a service client's connection, or raise ``TransportInitError``."""
 
 
 class Transport(Protocol):
@@ -129,7 +102,7 @@ class Transport(Protocol):
 
     protocol: str
 
-    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
+    def attach(self, endpoint: Node, uri: str | None = None) -> str:
         """Make a node reachable.
 
         Return the URI of its slave API (its ``caller_api``): ``uri`` if it has one already.
@@ -205,7 +178,7 @@ class Transports:
         self._here: dict[str, str] = {}
         """The nodes of this process: their URIs by those of their services."""
 
-    def attach(self, endpoint: Endpoint) -> str:
+    def attach(self, endpoint: Node) -> str:
         """Make a node reachable in every way; return the URI of its slave API."""
         uri: str | None = None
         for way in reversed(self.ways):
@@ -221,7 +194,7 @@ class Transports:
         for way in self.ways:
             way.detach(uri)
 
-    def add(self, way: Transport, here: Mapping[str, Endpoint]) -> dict[str, str]:
+    def add(self, way: Transport, here: Mapping[str, Node]) -> dict[str, str]:
         """Take up a further way, which gives the addresses from now on.
 
         ``here`` has the nodes of this process by their URIs; return their new URIs, and those of their services, by the
@@ -229,13 +202,13 @@ class Transports:
         """
         return self._change([*self.ways, way], here)
 
-    def remove(self, way: Transport, here: Mapping[str, Endpoint]) -> dict[str, str]:
+    def remove(self, way: Transport, here: Mapping[str, Node]) -> dict[str, str]:
         """Do without a way again; what is open in it is closed. Returns addresses as :meth:`add` does."""
         moved = self._change([each for each in self.ways if each is not way], here)
         way.close()
         return moved
 
-    def _change(self, ways: list[Transport], here: Mapping[str, Endpoint]) -> dict[str, str]:
+    def _change(self, ways: list[Transport], here: Mapping[str, Node]) -> dict[str, str]:
         services = {uri: self.service_uri(uri) for uri in here}
         for uri in here:
             self.detach(uri)

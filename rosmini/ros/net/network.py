@@ -17,7 +17,7 @@ from .xmlrpc_client import XmlRpcClient
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.core.graph.graph_core import GraphCore
+    from rosmini.core.graph.graph import Graph
     from rosmini.core.graph.scheduler import Scheduler
 
     from .addresses import Addresses
@@ -67,7 +67,7 @@ def tcp(where: Addresses = HERE) -> Callable[[Scheduler], TcpTransport]:
     return lambda scheduler: Network(scheduler, where).transport
 
 
-def network_of(graph: GraphCore) -> Network:
+def network_of(graph: Graph) -> Network:
     """Return the network of a graph. Raises ``RosminiError`` if it has none."""
     for way in graph.transport.ways:
         if isinstance(way, TcpTransport) and isinstance(way.network, Network):

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rosmini.core.graph.scheduler import Scheduler
-    from rosmini.core.graph.transport import Header, ServiceSession
+    from rosmini.core.graph.service import Session
+    from rosmini.core.graph.transport import Header
 
     from .tcp_stream import Stream
 
@@ -19,7 +20,7 @@ class TcpClient:
         self,
         scheduler: Scheduler,
         stream: Stream,
-        session: ServiceSession,
+        session: Session,
         header: Header,
         first: list[bytes],
     ) -> None:

@@ -21,8 +21,9 @@ from .xmlrpc_text import NOT_XML
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rosmini.core.graph.node import Node
     from rosmini.core.graph.scheduler import Scheduler
-    from rosmini.core.graph.transport import Endpoint, Header
+    from rosmini.core.graph.transport import Header
 
     from .io_thread import IoThread
 
@@ -45,7 +46,7 @@ class TcpServer:
         self,
         io: IoThread,
         scheduler: Scheduler,
-        endpoint: Endpoint,
+        endpoint: Node,
         warn: Warn,
         *,
         bind: str,

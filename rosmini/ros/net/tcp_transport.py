@@ -25,8 +25,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
 
     from rosmini.core.graph.connection import Connection
+    from rosmini.core.graph.node import Node
     from rosmini.core.graph.scheduler import Scheduler
-    from rosmini.core.graph.transport import Endpoint, Header, Triple
+    from rosmini.core.graph.transport import Header, Triple
 
     from .addresses import Addresses
     from .xmlrpc_client import XmlRpcClient
@@ -67,7 +68,7 @@ class TcpTransport:
         self.network = network
         self._places: dict[str, _Place] = {}
 
-    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
+    def attach(self, endpoint: Node, uri: str | None = None) -> str:
         """Make a node reachable.
 
         Raises ``TransportException`` if the address to listen on is not this machine's.

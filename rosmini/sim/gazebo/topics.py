@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rosmini.core.errors import nearest
-from rosmini.core.graph.graph_core import GraphCore
+from rosmini.core.graph.graph import Graph
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.sdf import Pose6
 
@@ -52,7 +52,7 @@ TOPICS = {
 }
 """For each topic the type of its messages, the programs that publish it, and those that subscribe to it."""
 
-_RUNNING: weakref.WeakKeyDictionary[GraphCore, dict[str, GazeboMaster]] = weakref.WeakKeyDictionary()
+_RUNNING: weakref.WeakKeyDictionary[Graph, dict[str, GazeboMaster]] = weakref.WeakKeyDictionary()
 
 
 def address() -> str:
@@ -60,7 +60,7 @@ def address() -> str:
     return os.environ.get(VARIABLE) or DEFAULT
 
 
-def find_master(graph: GraphCore) -> GazeboMaster | None:
+def find_master(graph: Graph) -> GazeboMaster | None:
     """Return the Master at the address, if a server of the graph runs there."""
     return _RUNNING.get(graph, {}).get(address())
 

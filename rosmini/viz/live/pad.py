@@ -24,7 +24,6 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import ROSException, ROSInterruptException, RosminiError
 from rosmini.core.graph import Graph, Node
-from rosmini.core.graph.graph_core import GraphCore
 from rosmini.core.names import resolve
 from rosmini.msgs import message_class
 from rosmini.sim.simulation import Simulation
@@ -105,7 +104,7 @@ class TeleopPad(LiveView):
         self._driven, self._limits = driven, limits
         namespace = "/"
         if isinstance(driven, Graph):
-            self.graph: GraphCore = driven
+            self.graph: Graph = driven
         elif isinstance(driven, Simulation | TurtleSim):
             self.graph = driven.node.graph
             chosen = self._set_driven(driven, robot)

@@ -7,7 +7,7 @@ screen. In a graph with other nodes, such as a notebook's, it opens nothing and 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from rosmini.core.graph.show import has_own_process
 from rosmini.core.packages import address_of
@@ -17,7 +17,7 @@ from rosmini.viz.rviz import Config
 from .window import RVizWindow
 
 if TYPE_CHECKING:
-    from rosmini.core.graph import Graph, Node
+    from rosmini.core.graph import Node
     from rosmini.viz.live.loopback import PageServer
 
 
@@ -46,7 +46,7 @@ class RViz:
                 f"This graph opens no window. To see RViz, run: {' '.join(filter(None, ('%rviz', file, frame)))}"
             )
             return
-        self.window = RVizWindow(cast("Graph", node.graph), config, fixed_frame=given.fixed_frame, node=node)
+        self.window = RVizWindow(node.graph, config, fixed_frame=given.fixed_frame, node=node)
         node.on_shutdown(self.close)
         if self.window.scene.warning:
             node.logwarn(f"{self.window.scene.config.source}: {self.window.scene.warning}")

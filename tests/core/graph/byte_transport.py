@@ -22,8 +22,10 @@ from rosmini.core.graph.transport import slave_uri
 
 if TYPE_CHECKING:
     from rosmini.core.graph.connection import Connection
+    from rosmini.core.graph.node import Node
     from rosmini.core.graph.scheduler import Scheduler
-    from rosmini.core.graph.transport import Endpoint, Header, ServiceSession, Triple
+    from rosmini.core.graph.service import Session
+    from rosmini.core.graph.transport import Header, Triple
 
 
 OnFailure = Callable[[Exception], None]
@@ -114,9 +116,7 @@ class _ByteServiceLink:
 
     is_remote = False
 
-    def __init__(
-        self, transport: ByteTransport, wire: _Wire, session: ServiceSession, service_class: Any
-    ) -> None:
+    def __init__(self, transport: ByteTransport, wire: _Wire, session: Session, service_class: Any) -> None:
         self._scheduler = transport.scheduler
         self._wire = wire
         self._session = session
@@ -162,10 +162,10 @@ class ByteTransport:
 
     def __init__(self, scheduler: Scheduler) -> None:
         self.scheduler = scheduler
-        self._endpoints: dict[str, tuple[Endpoint, _Wire]] = {}
+        self._endpoints: dict[str, tuple[Node, _Wire]] = {}
         self._numbers = 0
 
-    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
+    def attach(self, endpoint: Node, uri: str | None = None) -> str:
         """Make a node reachable, with a thread of its own."""
         self._numbers += 1
         uri = uri or f"http://bytes:{self._numbers}/"
@@ -198,7 +198,7 @@ class ByteTransport:
         """Call a method of a node's slave API through an XML-RPC document; blocks. The node's thread answers."""
         request = xmlrpc.client.dumps(arguments, method, allow_none=False)
 
-        def serve(endpoint: Endpoint) -> str:
+        def serve(endpoint: Node) -> str:
             values, name = xmlrpc.client.loads(request)
             return xmlrpc.client.dumps(
                 (endpoint.slave_call(cast("str", name), *values),), methodresponse=True
@@ -221,7 +221,7 @@ class ByteTransport:
         request = encode_header(header)
         made: list[_ByteSender] = []
 
-        def serve(endpoint: Endpoint) -> bytes:
+        def serve(endpoint: Node) -> bytes:
             fields = decode_header(request)
             sender = _ByteSender(self.scheduler, self._wire_of(caller), receiver, fields["callerid"])
             made.append(sender)
@@ -236,7 +236,7 @@ class ByteTransport:
         """Open a service connection by exchanging headers; blocks."""
         request = encode_header(header)
 
-        def serve(endpoint: Endpoint) -> ServiceSession:
+        def serve(endpoint: Node) -> Session:
             return endpoint.accept_client(decode_header(request))
 
         session = self._ask(slave_uri(service_uri), serve)
@@ -249,7 +249,7 @@ class ByteTransport:
             raise TransportInitError(msg)
         return found[1]
 
-    def _ask(self, uri: str, serve: Callable[[Endpoint], Any], *, on_hub: bool = True) -> Any:
+    def _ask(self, uri: str, serve: Callable[[Node], Any], *, on_hub: bool = True) -> Any:
         """Have ``serve`` run in the node's thread, or in the hub's on its behalf; park the caller meanwhile."""
         found = self._endpoints.get(uri)
         if found is None:

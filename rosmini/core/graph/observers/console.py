@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.core.graph.show import show
 
 if TYPE_CHECKING:
-    from rosmini.core.graph.graph_core import GraphCore
+    from rosmini.core.graph.graph import Graph
     from rosmini.core.graph.node import Node
 
 __all__ = ["Console"]
@@ -26,7 +26,7 @@ class Console:
     """
 
     def __init__(
-        self, graph: GraphCore, *, limit: int = 20000, name: str = "rqt_console", node: Node | None = None
+        self, graph: Graph, *, limit: int = 20000, name: str = "rqt_console", node: Node | None = None
     ) -> None:
         self._messages: deque[Any] = deque(maxlen=limit)
         self.total = 0

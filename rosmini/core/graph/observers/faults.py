@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from rosmini.core.graph.graph_core import GraphCore
+    from rosmini.core.graph.graph import Graph
     from rosmini.core.graph.scheduler import Scheduler
 
 
@@ -152,7 +152,7 @@ CALLER_ID = "/fault"
 class Faults:
     """The faults of a graph. Names are global; a name that nobody knows raises ``FaultError`` with the nearest."""
 
-    def __init__(self, host: GraphCore) -> None:
+    def __init__(self, host: Graph) -> None:
         self._host = host
         self._topics = host.gates.faults
         self._jumps: dict[str, float] = {}
