@@ -8,7 +8,7 @@ import pytest
 from assets.generate.meshes.turtlebot3 import HOLE, MESHES
 from rosmini.core.packages import assets_dir
 from rosmini.sim.urdf.meshes import read
-from rosmini.viz.meshcat.scene3d import TINY
+from rosmini.viz.meshcat.scene3d import OMITTED_COLOURS
 
 FOLDER = assets_dir() / "ros" / "turtlebot3_description" / "meshes"
 
@@ -20,7 +20,7 @@ def test_together_they_are_small():
 
 
 def test_what_a_world_leaves_out_of_them_is_the_holes():
-    assert TINY == (HOLE,)
+    assert OMITTED_COLOURS == (HOLE,)
 
 
 def bounds(name):

@@ -56,7 +56,9 @@ def test_an_erratic_maps_the_floor_on_its_way_to_a_goal(graph, capsys):
     assert [name for name, code in launch.state().codes if code is None] == [
         "/move_base_node", "/stageros", "/slam_gmapping", "/rviz",
     ]  # fmt: skip
-    assert "To look: %rviz -d package://navigation_stage/single_robot.rviz" in capsys.readouterr().out
+    assert (
+        "To see RViz, run: %rviz -d package://navigation_stage/single_robot.rviz" in capsys.readouterr().out
+    )
     results = send(graph, "", (0.7, 0.0, 0.0))
     graph.run(10.0)
     assert statuses(results) == REACHED

@@ -28,7 +28,8 @@ CELL = re.compile(r"^# %%( \[markdown\])?( hide-input)?\n(.*?)(?=^# %%|\Z)", re.
 
 
 def environment(checkout: Path) -> dict[str, str]:
-    return os.environ | {"PYTHONPATH": str(checkout)}
+    own = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_XDIST")}
+    return own | {"PYTHONPATH": str(checkout)}
 
 
 @pytest.fixture(scope="module")

@@ -180,6 +180,7 @@ def test_a_page_cannot_be_framed(page):
         frame = """(address) => new Promise((done) => document.body.append(
             Object.assign(document.createElement("iframe"), { src: address, onload: done })))"""
         page.evaluate(frame, server.url)
+        page.frames[1].wait_for_function("location.href != 'about:blank'")
         assert [each.url for each in page.frames[1:]] == ["chrome-error://chromewebdata/"]
         assert widget.heard == []
         with page.expect_request(lambda request: request.method == "POST") as said:

@@ -92,7 +92,7 @@ def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
 def formatted_points(points: Iterable[Point]) -> str:
     """Format points [m], at most `MAX_LISTED` of them.
 
-    >>> places([(1.0, 2.0), (0.5, 0.25)])
+    >>> formatted_points([(1.0, 2.0), (0.5, 0.25)])
     '(1.00, 2.00), (0.50, 0.25)'
     """
     texts = [f"({x:.2f}, {y:.2f})" for x, y in points]

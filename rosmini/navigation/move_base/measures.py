@@ -60,7 +60,7 @@ def lethal_cells(layers: Sequence[object]) -> int:
 def decrease_text(count: int) -> str:
     """Describe a decrease in the number of lethal cells; a negative `count` is an increase.
 
-    >>> fewer(3), fewer(-2), fewer(0)
+    >>> decrease_text(3), decrease_text(-2), decrease_text(0)
     ('3 lethal cells fewer', '2 lethal cells more', 'no lethal cell fewer')
     """
     if count == 0:

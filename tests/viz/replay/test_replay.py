@@ -304,7 +304,7 @@ def test_what_is_no_run_is_refused():
         replay("recording")
     with pytest.raises(RecordingError, match="at least one sample"):
         replace(recording, times=np.empty(0), truth=np.empty((0, 3)), odom=np.empty((0, 3)))
-    with pytest.raises(RecordingError, match="which is no number"):
+    with pytest.raises(RecordingError, match="which is not a number"):
         replace(recording, truth=recording.truth * math.nan)
 
 
