@@ -1,4 +1,4 @@
-"""Users' callbacks: what they are called with, and which of them failed, where, and on which message."""
+"""User callbacks: how they are called, and how a failure is reported with its place and message."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 STANDARD_LIBRARY = str(Path(os.__file__).parent) + os.sep
 
 SHOWN_LINES = 12
-"""So much of a message is shown."""
+"""Maximum number of lines of a message that an error report shows."""
 
 
 class Callback(NamedTuple):
-    """A user's function, and what it gets after each message."""
+    """A user's function, and the extra arguments that it gets after each message."""
 
     function: Callable[..., object]
     arguments: tuple[Any, ...]
 
     def caller(self) -> Callable[[Any], object]:
-        """Return what calls the user's function with a message."""
+        """Return a function that calls the user's function with a message."""
         function, arguments = self.function, self.arguments
         return (lambda message: function(message, *arguments)) if arguments else function
 
@@ -77,7 +77,7 @@ def _users_line(error: BaseException) -> str | None:
 
 
 class TopicHandle(ABC):
-    """A handle of a topic; ``on_connect`` and ``on_disconnect`` get the name of the node at the other end."""
+    """Base of handles of a topic; ``on_connect`` and ``on_disconnect`` get the name of the node at the other end."""
 
     node: Node
     topic: str
@@ -86,22 +86,22 @@ class TopicHandle(ABC):
 
     @abstractmethod
     def _unregister(self) -> None:
-        """Leave the topic, in the hub's thread."""
+        """Leave the topic. Runs in the scheduler's thread."""
 
     @abstractmethod
     def detach(self) -> None:
-        """Learn that the node has shut down."""
+        """Called when the node has shut down."""
 
     def unregister(self) -> None:
-        """End this handle. The topic is left when the node's last one has gone. Harmless when repeated."""
+        """End this handle. The node leaves the topic when its last handle ends. Harmless when repeated."""
         self.node.scheduler.on_hub(self._unregister)
 
     def connected(self, peer: str) -> None:
-        """Learn that the node ``peer`` was connected."""
+        """Called when the node ``peer`` has been connected."""
         self._tell(self._on_connect, peer)
 
     def disconnected(self, peer: str) -> None:
-        """Learn that the node ``peer`` was disconnected."""
+        """Called when the node ``peer`` has been disconnected."""
         self._tell(self._on_disconnect, peer)
 
     def _tell(self, callback: Callable[[str], object] | None, peer: str) -> None:

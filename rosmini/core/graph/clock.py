@@ -1,7 +1,7 @@
-"""Clocks of a node, and the things that wait for them: Rate and Timer.
+"""The clocks of a node, and Rate and Timer, which wait for them.
 
-A node normally lives on the graph's time. With the parameter ``/use_sim_time`` set it lives on what arrives on the
-topic ``/clock`` instead, as in ROS (http://wiki.ros.org/Clock): time stands still until somebody publishes it.
+A node normally uses the graph's time. With the parameter ``/use_sim_time`` set, it uses the time published on the topic
+``/clock`` instead, as in ROS (http://wiki.ros.org/Clock): time stands still until a message arrives.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .scheduler import Scheduler
 
 CLOCK_PATIENCE_NS = 2 * 10**9
-"""After how long without ``/clock`` a node says why its sleeps hang."""
+"""Time without ``/clock`` after which a node says why its sleeps hang."""
 
 
 class GraphClock:
@@ -29,10 +29,10 @@ class GraphClock:
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
         self.now_ns: Callable[[], int] = scheduler.now_ns
-        """Returns the time in nanoseconds."""
+        """Function that returns the time in nanoseconds."""
 
     def call_at(self, when_ns: int, callback: Callable[[], object]) -> Callable[[], None]:
-        """Call ``callback`` at ``when_ns``; return a function that takes it back."""
+        """Call ``callback`` at ``when_ns``; return a function that cancels the call."""
         return self._scheduler.call_at(when_ns, callback).cancel
 
 
@@ -45,12 +45,12 @@ class WrongClock(GraphClock):
         self.now_ns = lambda: scheduler.now_ns() + offset_ns
 
     def call_at(self, when_ns: int, callback: Callable[[], object]) -> Callable[[], None]:
-        """Call ``callback`` at ``when_ns`` of this clock; return a function that takes it back."""
+        """Call ``callback`` at ``when_ns`` of this clock; return a function that cancels the call."""
         return super().call_at(when_ns - self._offset, callback)
 
 
 class TopicClock:
-    """Time as the topic ``/clock`` tells it; zero before the first message."""
+    """The time published on the topic ``/clock``; zero before the first message."""
 
     def __init__(self, scheduler: Scheduler, complain: Callable[[str], None]) -> None:
         self._scheduler = scheduler
@@ -65,7 +65,7 @@ class TopicClock:
         return self._now
 
     def call_at(self, when_ns: int, callback: Callable[[], object]) -> Callable[[], None]:
-        """Call ``callback`` when the clock shows ``when_ns`` or has gone back; return a function that takes it back."""
+        """Call ``callback`` when the clock shows ``when_ns`` or goes back; return a function that cancels the call."""
         self._sequence += 1
         entry: list[Callable[[], object] | None] = [callback]
         heapq.heappush(self._calls, (when_ns, self._sequence, entry))
@@ -76,7 +76,7 @@ class TopicClock:
         return cancel
 
     def update(self, message: Any) -> None:
-        """Take a ``rosgraph_msgs/Clock``."""
+        """Set the time from a ``rosgraph_msgs/Clock`` message."""
         self._watch.cancel()
         before, self._now = self._now, message.clock.to_nsec()
         backwards = self._now < before
@@ -98,9 +98,9 @@ class TopicClock:
 
 
 class Rate:
-    """Keeps a loop at ``hz`` turns a second of the node's time (http://wiki.ros.org/rospy/Overview/Time).
+    """Keeps a loop at ``hz`` cycles per second of the node's time (http://wiki.ros.org/rospy/Overview/Time).
 
-    With ``reset`` a jump of the clock back to an earlier time restarts the cycle instead of raising.
+    With ``reset``, a jump of the clock back to an earlier time restarts the cycle instead of raising an exception.
     """
 
     def __init__(self, node: Node, hz: float, *, reset: bool = False) -> None:
@@ -114,7 +114,7 @@ class Rate:
 
     @property
     def sleep_dur(self) -> Duration:
-        """How long a turn is."""
+        """The length of a cycle."""
         return Duration.from_nsec(self._period)
 
     @sleep_dur.setter
@@ -122,18 +122,18 @@ class Rate:
         self._period = duration.to_nsec()
 
     def remaining(self) -> Duration:
-        """Return how long :meth:`sleep` would sleep."""
+        """Return the time that :meth:`sleep` would sleep."""
         return Duration.from_nsec(self.left_ns(self._node.clock.now_ns()))
 
     def left_ns(self, now: int) -> int:
-        """Return how much is left of this turn at a time of the node's clock; negative when it took too long."""
+        """Return the time left in this cycle at the node's time ``now`` [ns]; negative if the cycle took too long."""
         self._last = min(self._last, now)
         return self._last + self._period - now
 
     def sleep(self) -> None:
-        """Sleep to the end of this turn; after a turn that took too long, start afresh.
+        """Sleep until the end of this cycle; if the cycle took far too long, start afresh.
 
-        Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when its clock
+        Raises ``ROSInterruptException`` if the node shuts down, and ``ROSTimeMovedBackwardsException`` if its clock
         jumps back.
         """
         node = self._node
@@ -148,18 +148,18 @@ class Rate:
         self.end_turn(clock.now_ns())
 
     def restart(self, now: int) -> None:
-        """Let a turn begin now."""
+        """Start a cycle now."""
         self._last = now
 
     def end_turn(self, now: int) -> None:
-        """Note that a turn was slept to its end; the next one began when it was due, unless it is very late."""
+        """End a cycle; the next one began when it was due, unless that is more than two periods ago."""
         self._last += self._period
         if now - self._last > 2 * self._period:
             self._last = now
 
 
 class TimerEvent(NamedTuple):
-    """What a timer's callback is given: when it was due and when it ran, for this call and the one before."""
+    """The argument of a timer's callback: when this call and the previous one were due, and when they ran."""
 
     last_expected: Time | None
     last_real: Time | None
@@ -169,11 +169,11 @@ class TimerEvent(NamedTuple):
 
 
 class Timer:
-    """Calls ``callback(event)`` every ``period`` seconds of the node's time, in a lane of its own.
+    """Calls ``callback(event)`` every ``period`` seconds of the node's time, in a separate lane.
 
-    A callback that takes longer than the period delays the next one; missed ones are not made up for. One that raises
-    ends the timer, as it ends the thread of a ``rospy.Timer``: that is reported, and the node goes on. Between two
-    callbacks nothing is parked.
+    A callback that takes longer than the period delays the next call; missed calls are not made up for. A callback that
+    raises an exception ends the timer, as it ends the thread of a ``rospy.Timer``: the error is reported, and the node
+    continues. The lane is not parked between callbacks.
     """
 
     def __init__(
@@ -205,14 +205,14 @@ class Timer:
         self._lane = node.spawn(f"{node.name} timer {name}", self._begin)
 
     def shutdown(self) -> None:
-        """Stop the timer: no callback starts after this."""
+        """Stop the timer: no callback starts after this call."""
         self._running = False
         self._node.timers.pop(self, None)
         if self._cancel is not None:
             self._cancel()
 
     def is_alive(self) -> bool:
-        """Tell whether callbacks may still come."""
+        """Return True if the timer may still call its callback."""
         return self._running
 
     def _begin(self) -> None:
@@ -222,7 +222,7 @@ class Timer:
         self._wait()
 
     def _wait(self) -> None:
-        """Ask for the next turn, as :meth:`Rate.sleep` sleeps until then."""
+        """Schedule the next callback for the time at which :meth:`Rate.sleep` would return."""
         node = self._node
         if node.is_shutdown():
             self.shutdown()
@@ -231,7 +231,7 @@ class Timer:
         clock = node.clock
         now = self._slept_from = clock.now_ns()
         span = self._cycle.left_ns(now)
-        if span <= 0:  # everything else that is due comes first
+        if span <= 0:  # everything else that is due runs first
             node.scheduler.call_soon_threadsafe(self._due)
         elif now == 0:
             self._cancel = clock.call_at(1, partial(self._wait_from_first_message, span))
@@ -247,14 +247,14 @@ class Timer:
         self._lane.post(self._turn)
 
     def _turn(self) -> None:
-        """Call the callback. In the timer's lane."""
+        """Call the callback. Runs in the timer's lane."""
         if not self._running:
             return
         node = self._node
         now = node.clock.now_ns()
         if now >= self._slept_from:
             self._cycle.end_turn(now)
-        elif self._reset or isinstance(node.clock, GraphClock):  # rospy looks at jumps of /clock only
+        elif self._reset or isinstance(node.clock, GraphClock):  # rospy checks only /clock for jumps
             self._cycle.restart(now)
         else:  # the clock has moved backwards
             self.shutdown()
@@ -269,7 +269,7 @@ class Timer:
         try:
             self._callback(TimerEvent(last_expected, last_real, expected, real, last_duration))
         except Exception as error:
-            self.shutdown()  # before the report, which may raise where the graph is driven
+            self.shutdown()  # first, because the report may raise an exception
             node.callback_failed(error, self._callback, "a timer, which ends with it", None)
             return
         if self._oneshot:

@@ -1,4 +1,4 @@
-"""The connection between a publisher and a subscriber: the end that sends, the queue, and the lane of the callbacks."""
+"""The connection between a publisher and a subscriber: the sending end, the queue, and the lane of the callbacks."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ if TYPE_CHECKING:
     from .transport import Header, Triple
 
 _NO_CLASS = (UnknownType, UnknownPackage, DefinitionError, IllegalName)
-"""What is raised where there is no such type, and for a header that names or defines none."""
+"""The errors for an unknown type, and for a header without a valid name or definition of a type."""
 
 
 def _class_of(header: Header, protocol: str, default: Any) -> Any:
-    """Return the class of what a connection carries, for subscribers of any type; else ``default``.
+    """Return the message class of a connection, for subscribers of any type, or ``default`` if there is none.
 
-    One that this machine does not have, or has otherwise, is made from the definition that the publisher sent; not so
-    for messages that stay in the process, which have their class already.
+    A class that this machine lacks, or has in another version, is made from the definition that the publisher sent.
+    Messages that stay in the process already have their class.
     """
     name, md5sum, text = (header.get(key, "") for key in ("type", "md5sum", "message_definition"))
     makers = [partial(message_class, name)]
@@ -57,38 +57,38 @@ def _class_of(header: Header, protocol: str, default: Any) -> Any:
 
 
 class Route(NamedTuple):
-    """How frozen messages of a connection reach the callbacks."""
+    """How the frozen messages of a connection reach the callbacks."""
 
     own: Any
-    """The class that the callbacks get; None: any."""
+    """The class that the callbacks get; None for any class."""
     thaw: Callable[[Any], Any] | None
-    """Makes a frozen message the callbacks' own; None: it is passed on as it is."""
+    """Makes the callbacks' own copy of a frozen message; None if the message is passed on unchanged."""
     set_header: Callable[[Any, Header], None]
     callbacks: tuple[tuple[Callable[[Any], object], Callback], ...]
 
 
 class Observer:
-    """Sees the messages of one connection: a recording, statistics, or a fault, which may also hold them back.
+    """Observes the messages of one connection: a recording, statistics, or a fault, which may also hold messages back.
 
-    Its methods are called in the scheduler's thread; unless they are overridden they change nothing.
+    Its methods are called in the scheduler's thread; by default they change nothing.
     """
 
     holds_back = False
-    """True if :meth:`pass_on` is to be called."""
+    """True if :meth:`pass_on` must be called."""
 
     def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[Iterable[Any]], None]) -> None:  # noqa: ARG002
-        """Call ``accept`` with the messages from ``peer`` that are to arrive, now or later."""
+        """Call ``accept``, now or later, with those messages from ``peer`` that should arrive."""
         accept(messages)
 
     def before(self, frozen: Any) -> None:
-        """See a message before the callbacks get it. In the connection's lane, as is :meth:`after`."""
+        """Called before the callbacks get a message. Runs in the connection's lane, as does :meth:`after`."""
 
     def after(self) -> None:
-        """Learn that all callbacks have returned."""
+        """Called when all callbacks have returned."""
 
 
 def _tell(observers: Iterable[Observer], frozen: Any) -> None:
-    """Let observers see a message before the callbacks get it; without a message, learn that these have returned."""
+    """Show a message to the observers before the callbacks get it; None means that the callbacks have returned."""
     for observer in observers:
         if frozen is None:
             observer.after()
@@ -101,17 +101,17 @@ def _nothing() -> None:
 
 
 IN_FLIGHT = 6 * 2**20
-"""Bytes that the buffers of a connection take, as those of two sockets do [bytes]; what follows waits in the queue."""
+"""Size of a connection's buffers, like those of two sockets [bytes]; further messages wait in the queue."""
 
 OVERHEAD = 64
-"""What a message takes of that besides its own bytes [bytes]."""
+"""Size of a message in these buffers in addition to its content [bytes]."""
 
 
 class QueuedSender:
-    """Collects messages until the next event of the queue, and then flushes them.
+    """Collects messages until the scheduler's next event, and then flushes them.
 
-    As in rospy, whose threads send while the publisher goes on, a burst fills no queue. A publisher's queue only counts
-    while the subscriber takes so few that the buffers between the two are full.
+    As in rospy, whose threads send while the publisher continues, a burst does not fill the queue. A publisher's queue
+    size matters only while the subscriber is so slow that the buffers between the two are full.
     """
 
     protocol = LOCAL
@@ -136,7 +136,7 @@ class QueuedSender:
         self._closed = False
         self.destination = destination
         self.header = receiver.header
-        """The connection header that the publication sets on the messages."""
+        """The connection header, which the publication sets on the messages."""
         self.on_closed: Callable[[], None] = _nothing
         self.on_dropped: Callable[[], None] = _nothing
         self._queued = 0
@@ -144,11 +144,11 @@ class QueuedSender:
 
     @property
     def sent(self) -> int:
-        """How many messages were sent, dropped ones included."""
+        """Number of messages sent, including dropped ones."""
         return self._queued
 
     def send(self, frozen: Any, size: int | None) -> None:
-        """Queue a message. If the buffers are full and ``size`` messages wait, the oldest of these is dropped."""
+        """Queue a message. If the buffers are full and ``size`` messages wait, drop the oldest of these."""
         if size is not None and len(self._queue) >= size and self._is_full(frozen, size, len(self._queue)):
             del self._queue[-size]
             self._drop()
@@ -162,7 +162,7 @@ class QueuedSender:
 
     @staticmethod
     def _is_full(frozen: Any, size: int, waiting: int) -> bool:
-        """Return whether the buffers and a queue of ``size`` are full when ``waiting`` such messages wait."""
+        """Return True if the buffers and a queue of ``size`` are full when ``waiting`` messages like this one wait."""
         return waiting - size >= IN_FLIGHT // (len(frozen._encode(frozen)) + OVERHEAD)
 
     def _drop(self) -> None:
@@ -177,7 +177,7 @@ class QueuedSender:
         queue.clear()
 
     def close(self) -> None:
-        """Close from the publisher's side: what is queued still arrives, then the receiver is told."""
+        """Close from the publisher's side: queued messages still arrive, then the receiver is notified."""
         if not self._closed:
             self._ready.append(self._close)
 
@@ -187,14 +187,14 @@ class QueuedSender:
             self._receiver.closed()
 
     def drop(self) -> None:
-        """Close from the subscriber's side: nothing more arrives, and the publisher is told."""
+        """Close from the subscriber's side: nothing more arrives, and the publisher is notified."""
         if not self._closed:
             self._closed = True
             self.on_closed()
 
 
 class LocalSender(QueuedSender):
-    """The publisher's end in the same process: appends to the connection's queue, unless its callbacks are busy."""
+    """The publisher's end in the same process: appends to the connection's queue unless its callbacks are busy."""
 
     __slots__ = ("_incoming", "_join")
 
@@ -205,12 +205,12 @@ class LocalSender(QueuedSender):
 
     @property
     def sent(self) -> int:
-        """How many messages were sent, dropped ones included."""
+        """Number of messages sent, including dropped ones."""
         to = self._receiver
         return self.dropped + len(self._queue) + len(self._incoming) + to.dropped + to.received
 
     def send(self, frozen: Any, size: int | None) -> None:
-        """Hand a message over. If the buffers are full and ``size`` messages wait, the oldest of these is dropped."""
+        """Hand a message over. If the buffers are full and ``size`` messages wait, drop the oldest of these."""
         receiver = self._receiver
         if size is not None and (waiting := len(self._incoming) + len(self._queue)) >= size:
             self._make_room(frozen, size, waiting)
@@ -229,7 +229,7 @@ class LocalSender(QueuedSender):
 
 
 class Connection:
-    """A subscription's link to one publisher: its queue and the lane in which callbacks run."""
+    """A subscription's link to one publisher: its queue and the lane that runs the callbacks."""
 
     def __init__(self, subscription: Subscription, uri: str) -> None:
         node = subscription.node
@@ -239,27 +239,27 @@ class Connection:
         self.peer = ""
         self.protocol = ""
         self.header: Header = {}
-        """The publisher's connection header, which every message carries; it stays the same dictionary."""
+        """The publisher's connection header, which every message carries; always the same dictionary."""
         self.message_class = subscription.message_class
         self.route: Route | None = None
-        """Set at the next message if it is None."""
+        """None until the next message sets it."""
         self.incoming: deque[Any] = deque()
-        """The frozen messages that wait for the callbacks, oldest first."""
+        """The frozen messages that are waiting for the callbacks, oldest first."""
         self.pending = False
-        """True while the callbacks are about to be called: the sender may append to ``incoming`` itself."""
+        """True while the callbacks are about to run: the sender may append to ``incoming`` itself."""
         self.received = 0
-        """Number of messages that the callbacks got."""
+        """Number of messages passed to the callbacks."""
         self.dropped = 0
-        """Number of messages dropped because too many waited."""
+        """Number of messages dropped because too many were waiting."""
         self.bytes_received = 0
-        """Number of bytes of messages that came over a wire."""
+        """Number of message bytes received over a wire."""
         self.info = ""
         """The connection's description in ``getBusInfo``; empty if the peer's name is enough."""
         self.on_drained: Callable[[], None] | None = None
-        """Called when the callbacks have taken all messages; a wire that holds more back goes on then."""
+        """Called when the callbacks have taken all messages; a wire that holds more back then continues."""
         self.is_open = False
         self.had_success = False
-        """True if it has ended after messages had arrived, and not because one could not be decoded."""
+        """True if the connection received messages before it ended, and did not end with one that cannot be decoded."""
         self.publisher_left = False
         """True if the publisher left the topic while the connection was being made, so that it may fail."""
         self._is_over = False
@@ -275,7 +275,7 @@ class Connection:
         self.observe()
 
     def _open(self) -> None:
-        """Ask the publisher for the topic and connect to it. In the connection's lane."""
+        """Ask the publisher for the topic and connect to it. Runs in the connection's lane."""
         if self._is_over:
             return
         subscription = self.subscription
@@ -283,7 +283,7 @@ class Connection:
         transport = node.graph.transport
         try:
             code, status, parameters = self._request_topic()
-            if code == -1:  # the publisher has left the topic meanwhile
+            if code == -1:  # the publisher has already left the topic
                 subscription.abandon(self)
                 return
             if code != 1:
@@ -293,7 +293,7 @@ class Connection:
         except TransportInitError as error:
             self._refused(error)
             return
-        except TransportTerminated:  # the publisher went away meanwhile; the Master will say so
+        except TransportTerminated:  # the publisher has gone; the Master will say so
             subscription.lost(self, None)
             return
         except TransportException as error:
@@ -315,18 +315,18 @@ class Connection:
         node.connections_changed()
 
     def _request_topic(self) -> Triple:
-        """Ask the publisher how to connect; -1 says that it does not publish the topic."""
+        """Ask the publisher how to connect; code -1 means that it does not publish the topic."""
         node, transport = self.subscription.node, self.subscription.node.graph.transport
         return transport.call(
             self.uri, "requestTopic", node.name, self.subscription.topic, transport.offers(node.uri)
         )
 
     def _has_left(self) -> bool:
-        """Tell whether the publisher left between its two answers, which is no reason to complain."""
+        """Return True if the publisher left between its two answers, which is not worth reporting."""
         try:
             return bool(self._request_topic()[0] == -1)
         except TransportException:
-            return True  # if it is there after all, the Master still lists it and says so
+            return True  # if it still exists, the Master still lists it and says so
 
     def _request(self) -> Header:
         subscription = self.subscription
@@ -371,19 +371,19 @@ class Connection:
 
     @property
     def queue_size(self) -> int | None:
-        """How many messages may wait for the callbacks."""
+        """Maximum number of messages that wait for the callbacks."""
         return self.subscription.queue_size
 
     def observe(self) -> None:
-        """Ask the graph who observes this connection; called again when that changes."""
+        """Ask the graph for the observers of this connection; called again when they change."""
         self._observers = tuple(self.subscription.observers(self))
         self._filters = tuple(observer for observer in self._observers if observer.holds_back)
         self.route = None
 
     def begin(self) -> bool:
-        """Let the callbacks have their turn, for a message that the sender is about to append to ``incoming``.
+        """Schedule the callbacks for a message that the sender is about to append to ``incoming``.
 
-        Return False if they are busy, or if messages are held back: then they have to be delivered later.
+        Return False if they are busy or if messages are held back: the message must then be delivered later.
         """
         if self._filters or self._is_over or not self._lane.post_if_idle(self._drain_ref):
             return False
@@ -391,7 +391,7 @@ class Connection:
         return True
 
     def deliver(self, messages: Iterable[Any]) -> None:
-        """Queue frozen messages for the callbacks; while one is busy, the oldest beyond the queue size are dropped."""
+        """Queue frozen messages for the callbacks; while a callback blocks, drop the oldest beyond the queue size."""
         accept = self._accept
         for observer in reversed(self._filters):
             accept = partial(observer.pass_on, peer=self.peer, accept=accept)
@@ -409,12 +409,12 @@ class Connection:
             self._post()
 
     def _post(self) -> None:
-        """Ask for a turn of the callbacks; what is sent meanwhile joins the queue, unless it has to pass a filter."""
+        """Schedule the callbacks; messages sent meanwhile join the queue, unless they must pass a filter."""
         self.pending = not self._filters and not self._is_over
         self._lane.post(self._drain_ref)
 
     def _trim(self) -> None:
-        """Drop the oldest messages beyond the queue size: the callback that is running takes longer than they do."""
+        """Drop the oldest messages beyond the queue size: the running callback is slower than the publisher."""
         size = self.subscription.queue_size
         while size and len(self.incoming) > size:
             self.incoming.popleft()
@@ -423,7 +423,7 @@ class Connection:
             self._report_drops()
 
     def _report_drops(self) -> None:
-        """Log on ``/rosout``, once for each connection, that messages are dropped; that may well be meant to be so."""
+        """Log on ``/rosout``, once for each connection, that messages are dropped, which may be intended."""
         self._has_reported_drops = True
         subscription = self.subscription
         node, topic = subscription.node, subscription.topic
@@ -438,11 +438,11 @@ class Connection:
 
     @property
     def waiting(self) -> int:
-        """How many messages wait for the callbacks."""
+        """Number of messages that are waiting for the callbacks."""
         return len(self.incoming)
 
     def _drain(self) -> None:
-        """Call the callbacks for the queued messages. In the connection's lane."""
+        """Call the callbacks for the queued messages. Runs in the connection's lane."""
         incoming, take, header, lane = self.incoming, self.incoming.popleft, self.header, self._lane
         self.pending, self._draining = False, True
         parks, is_latching = lane.parks, self._is_latching
@@ -450,7 +450,7 @@ class Connection:
             while incoming:
                 own, thaw, set_own_header, callbacks = route = self._find_route()
                 observers, size = self._observers, self.subscription.queue_size
-                while incoming and self.route is route:  # until a callback changes who subscribes
+                while incoming and self.route is route:  # until a callback changes the subscribers
                     self.received += 1
                     message = take()
                     if observers:
@@ -497,19 +497,19 @@ class Connection:
             self._failed(error, callback, message)
 
     def replay(self, callback: Callback) -> None:
-        """Give a late callback the message that the publisher latched, as the others got it."""
+        """Give a late callback the publisher's latched message, as the other callbacks got it."""
         if self._last is not None:
             message = self._last
             self._lane.submit(lambda: self._call(callback, message))
 
     def closed(self) -> None:
-        """Learn that the publisher closed the connection."""
+        """Called when the publisher has closed the connection."""
         self._shut()
         self.had_success = self.received > 0
         self.subscription.closed(self)
 
     def failed(self, error: Exception) -> None:
-        """Learn that the transport failed and closed the connection."""
+        """Called when the transport has failed and closed the connection."""
         if self._is_over:
             return
         self._shut()
@@ -517,7 +517,7 @@ class Connection:
         self.subscription.lost(self, error)
 
     def close(self) -> None:
-        """Close the connection: callbacks that have not started do not come."""
+        """Close the connection; callbacks that have not started will not run."""
         self.incoming.clear()
         if self._close_link is not None:
             self._close_link()

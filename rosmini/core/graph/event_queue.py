@@ -1,4 +1,4 @@
-"""The part of the scheduler that knows no lanes: the time, and events due now, later, or from another thread."""
+"""The part of the scheduler without lanes: the time, and events that are due now, due later, or from another thread."""
 
 from __future__ import annotations
 
@@ -22,30 +22,30 @@ if TYPE_CHECKING:
 
 
 SWEEP_FROM = 1_024
-"""From this many entries on, cancelled ones are thrown out now and then."""
+"""Number of entries above which cancelled ones are removed from time to time."""
 
 
 class Timer(list[Any]):
-    """A call in the future that can be cancelled: ``[when_ns, sequence number, callback]``, ordered as lists are."""
+    """A future call that can be cancelled: ``[when_ns, sequence number, callback]``, ordered as lists are."""
 
     __slots__ = ()
 
     @property
     def when_ns(self) -> int:
-        """When it is due."""
+        """The graph time at which the call is due [ns]."""
         return int(self[0])
 
     def cancel(self) -> None:
-        """Do not call. Harmless when it was called already."""
+        """Cancel the call. Harmless if it has already been made."""
         self[2] = None
 
 
 class TimedEvents:
-    """The timers that have not been called."""
+    """The timers whose calls have not been made."""
 
     def __init__(self) -> None:
         self.heap: list[Timer] = []
-        """What is to be called, ordered by time and then by number; it stays the same list."""
+        """The scheduled calls, ordered by time and then by number; always the same list."""
         self._sequence = 0
         self._sweep_at = SWEEP_FROM
 
@@ -53,7 +53,7 @@ class TimedEvents:
         return len(self.heap)
 
     def add(self, when_ns: int, callback: Callable[[], object]) -> Timer:
-        """Note a call at ``when_ns``."""
+        """Schedule a call at ``when_ns``."""
         self._sequence += 1
         timer = Timer((when_ns, self._sequence, callback))
         heapq.heappush(self.heap, timer)
@@ -62,7 +62,7 @@ class TimedEvents:
         return timer
 
     def _sweep(self) -> None:
-        """Throw out cancelled calls: a wait with a long timeout that ends early leaves one."""
+        """Remove cancelled calls: a wait with a long timeout that ends early leaves one."""
         self.heap[:] = [entry for entry in self.heap if entry[2] is not None]
         heapq.heapify(self.heap)
         self._sweep_at = max(SWEEP_FROM, 2 * len(self.heap))
@@ -83,7 +83,7 @@ class TimedEvents:
         return int(heap[0][0]) if heap else None
 
     def clear(self) -> None:
-        """Forget all."""
+        """Remove all calls."""
         self.heap.clear()
 
 
@@ -91,50 +91,50 @@ T = TypeVar("T")
 
 
 class Sleeper(Protocol):
-    """Where the reader sleeps instead, to be woken by more than the inbox."""
+    """Lets the reader sleep outside the inbox, so that other things can wake it too."""
 
     is_asleep: bool
 
     def sleep(self, timeout: float, nothing_came: Callable[[], bool]) -> None:
-        """Sleep for at most `timeout` seconds, unless something came before `is_asleep` was true."""
+        """Sleep for at most `timeout` seconds, unless something arrived before `is_asleep` became true."""
 
     def wake(self) -> None:
-        """Wake the reader. From any thread, and from a signal's handler."""
+        """Wake the reader. Safe in any thread and in a signal handler."""
 
 
 class Inbox(Generic[T]):
-    """A queue with any number of writers and one reader. A writer may interrupt another in the middle of `put`.
+    """A queue with any number of writers and one reader. A writer may interrupt another one during `put`.
 
-    Not a ``queue.SimpleQueue``: until Python 3.12 its ``get`` may wait for ever where the time-out is over before it
-    waits at all, as it is on a busy machine.
+    Not a ``queue.SimpleQueue``: before Python 3.12 its ``get`` may wait for ever if the timeout expires before the
+    wait begins, as happens on a busy machine.
     """
 
     def __init__(self) -> None:
         self._items: deque[T] = deque()
-        self._bell = threading.Lock()  # free while nobody has looked since something came
+        self._bell = threading.Lock()  # free if something has arrived since the last wait
         self._bell.acquire()
         self.sleeper: Sleeper | None = None
 
     def put(self, item: T) -> None:
-        """Add something, and wake the reader."""
+        """Add an item and wake the reader."""
         self._items.append(item)
         sleeper = self.sleeper
         if sleeper is not None and sleeper.is_asleep:
             sleeper.wake()
             return
-        with suppress(RuntimeError):  # it was free already
+        with suppress(RuntimeError):  # it was already free
             self._bell.release()
 
     def empty(self) -> bool:
-        """Return whether there is nothing."""
+        """Return True if the inbox is empty."""
         return not self._items
 
     def get(self) -> T:
-        """Return the oldest thing. Raises ``IndexError`` if there is nothing."""
+        """Return the oldest item. Raises ``IndexError`` if the inbox is empty."""
         return self._items.popleft()
 
     def wait(self, timeout: float) -> None:
-        """Wait for at most `timeout` seconds until there is something; it may also return for no reason."""
+        """Wait for at most `timeout` seconds until there is an item; may return early without one."""
         sleeper = self.sleeper
         if sleeper is not None:
             sleeper.sleep(timeout, self.empty)
@@ -143,22 +143,22 @@ class Inbox(Generic[T]):
 
 
 SIMULATED_START_NS = 1_000 * 10**9
-"""Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""
+"""Start of simulated time: not zero, because ``Time(0)`` means "the latest"."""
 
 TICK_QUANTUM_NS = 1_000_000
-"""How far simulated time goes on in the turns of a polling loop, and at an instant that has no end."""
+"""Step of simulated time in a polling loop, and at an instant whose events never end."""
 
 ROUNDS_PER_INSTANT = 10_000
-"""More rounds of events at one instant, each caused by the one before, are nodes that answer each other without end."""
+"""Maximum number of rounds of events at one instant; more mean that nodes answer each other without end."""
 
 ROUNDS_PER_QUANTUM = 20
-"""From then on so many rounds cost a quantum: 0.1 ms for a message and its callback, about as on a robot."""
+"""Beyond that maximum, number of rounds that take one quantum: 0.1 ms for a message and its callback, as on a robot."""
 
 
 def span_ns(seconds: float, what: str) -> int:
     """Return a span of graph time in nanoseconds.
 
-    Raises ``RosminiError``, saying ``what`` it is, for no finite number from zero on.
+    Raises ``RosminiError``, which names ``what``, unless the number is finite and at least zero.
     """
     if isinstance(seconds, Real) and not isinstance(seconds, bool) and 0 <= seconds < inf:
         return int(seconds * 1e9)
@@ -197,43 +197,43 @@ class EventQueue:
         return self._wall_start + int((time.perf_counter_ns() - self._mono_start) * self.rate)
 
     def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
-        """Call ``callback`` at graph time ``when_ns`` (at once if that is past). Only from the hub's thread."""
+        """Call ``callback`` at graph time ``when_ns`` (at once if that is past). Only from the scheduler's thread."""
         return self._timed.add(when_ns, callback)
 
     def call_soon(self, callback: Callable[[], object]) -> None:
-        """Call ``callback`` after what is already due now. It must not block: code that may goes into a lane."""
+        """Call ``callback`` after everything that is due now. It must not block; use a lane for code that may."""
         if get_ident() == self.thread:
             self.ready.append(callback)
         else:
             self._inbox.put(callback)
 
     def call_last(self, callback: Callable[[], object]) -> None:
-        """Call ``callback`` as soon as nothing else is due. Only from the hub's thread."""
+        """Call ``callback`` as soon as nothing else is due. Only from the scheduler's thread."""
         self._last.append(callback)
 
     def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
-        """Like :meth:`call_soon`, through the inbox: the only door for other threads."""
+        """Like :meth:`call_soon`, but always through the inbox, which other threads must use."""
         self._inbox.put(callback)
 
     def sleep_in(self, sleeper: Sleeper | None) -> None:
-        """Have the hub sleep in ``sleeper`` when it has nothing to do; None: in the inbox."""
+        """Let the scheduler sleep in ``sleeper`` when it has nothing to do; None means in the inbox."""
         self._inbox.sleeper = sleeper
 
     def is_hub_thread(self) -> bool:
-        """Tell whether the caller is in the thread that runs the queue."""
+        """Return True if the caller is in the thread that runs the queue."""
         return get_ident() == self.thread
 
     def is_in_main_thread(self) -> bool:
-        """Tell whether the queue runs in the main thread."""
+        """Return True if the queue runs in the main thread."""
         return self.thread == MAIN_THREAD
 
     def hold(self) -> None:
-        """Say that something is under way outside the queue: simulated time stands still until :meth:`release`."""
+        """Stop simulated time until :meth:`release`, because work is running outside the queue."""
         with self._hold_lock:
             self._holds += 1
 
     def release(self) -> None:
-        """Undo one :meth:`hold`, from any thread, after its result was put into the inbox."""
+        """Undo one :meth:`hold`, from any thread, after its result has been put into the inbox."""
 
         def let_go() -> None:
             with self._hold_lock:
@@ -242,25 +242,25 @@ class EventQueue:
         self._inbox.put(let_go)
 
     def count_remote(self, change: int) -> None:
-        """Count who waits for something outside this process, which may take what time it likes. From any thread."""
+        """Change the number of waits for something outside this process, which may take any time. From any thread."""
         with self._hold_lock:
             self._remote_waits += change
 
     def quiet(self) -> bool:
-        """Tell whether there is nothing to do at this moment."""
+        """Return True if nothing is due at this moment."""
         due = self._timed.next_ns()
         return (
             not self.ready and not self._last and self._inbox.empty() and (due is None or due > self.now_ns())
         )
 
     def pending(self) -> int:
-        """Return how many events there are, due now and later."""
+        """Return the number of events that are due now or later."""
         return len(self.ready) + len(self._timed)
 
     # -- for the scheduler's loop --------------------------------------------------------------------------------
 
     def _empty_inbox(self) -> None:
-        """Take what other threads want done."""
+        """Move the calls posted by other threads into ``ready``."""
         inbox = self._inbox
         while not inbox.empty():
             item = inbox.get()
@@ -271,7 +271,7 @@ class EventQueue:
         self._timed.take_due(self.now_ns(), self.ready)
 
     def count_rounds(self, rounds: int) -> None:
-        """Count what a lane did at this instant beside the rounds of the loop. For lanes only."""
+        """Count a lane's work at this instant in addition to the loop's rounds. For lanes only."""
         self._rounds += rounds
 
     def _take_last(self) -> None:
@@ -279,14 +279,14 @@ class EventQueue:
         self._last.clear()
 
     def _creep(self) -> None:
-        """Let simulated time go on although this instant has no end."""
+        """Advance simulated time although the events of this instant never end."""
         due, soon = self._timed.next_ns(), self._now + TICK_QUANTUM_NS
         self._now = soon if due is None else min(soon, max(due, self._now))
         self._rounds -= ROUNDS_PER_QUANTUM
         self._take_due()
 
     def _wait_for_event(self, due_ns: int | None) -> None:
-        """Wait until then, or for something from another thread, or, lest a Ctrl-C be overlooked, for a moment."""
+        """Wait until ``due_ns``, for an event from another thread, or only briefly, so that Ctrl-C is noticed."""
         timeout = 0.2  # Python on Windows notices Ctrl-C only between waits
         if due_ns is not None and not self.simulated:
             timeout = min(timeout, (due_ns - self.now_ns()) / 1e9 / self.rate)

@@ -55,26 +55,26 @@ ROSCORE_PARAMETERS = {
     "/rosversion": "1.16.0\n",
     "/run_id": "00000000-0000-0000-0000-000000000001",
 }
-"""What ``roscore`` sets; its run id is random, that of a graph is not unless it is given one."""
+"""The parameters that ``roscore`` sets; its run id is random, a graph's is fixed unless one is given."""
 
 
 class Graph:
     """A ROS computation graph in this process.
 
     Args:
-        simulated: simulated time, which jumps from event to event (the default), or wall time.
-        rate: in wall time, how many seconds of graph time pass in one second.
-        seed: what random numbers of this graph start from; see :meth:`rng`.
-        strict: raise an exception that a callback lets out at the call that drives the graph; else log it, as ROS does.
-        transports: each makes a transport from the scheduler, the preferred one first; in-process hand-over by default.
+        simulated: use simulated time, which jumps from event to event (the default), instead of wall time.
+        rate: in wall time, the seconds of graph time that pass in one second.
+        seed: the seed of the graph's random numbers; see :meth:`rng`.
+        strict: raise an exception of a callback at the call that drives the graph; if False, log it, as ROS does.
+        transports: each makes a transport from the scheduler, the preferred one first; by default in-process hand-over.
         rosout: run the node ``/rosout``, which ``roscore`` starts; a Master elsewhere has its own.
-        log_dir: write a log file for each node, ``<log_dir>/<run_id>/<node>-<number>.log``; if not given, the folder
-            that the environment variable ``ROS_LOG_DIR`` names, and no files if there is none. A graph writes its files
-            anew.
-        master: makes the way to a Master elsewhere from the graph; by default the graph has its own in this process.
-        run_id: what ``/run_id`` is set to, and the folder of log files called; the same for all graphs by default.
+        log_dir: write a log file for each node, ``<log_dir>/<run_id>/<node>-<number>.log``; by default in the folder
+            that the environment variable ``ROS_LOG_DIR`` names; without either, no files. A graph in simulated
+            time overwrites its files.
+        master: makes the port of a Master elsewhere from the graph; by default the graph has its own Master.
+        run_id: the value of ``/run_id`` and the name of the folder of log files; by default the same for all graphs.
 
-    Only the graph's creator drives it, with :meth:`run` or by any call that blocks.
+    Only the graph's creator drives it, with :meth:`run` or with any call that blocks.
 
     """
 
@@ -102,13 +102,13 @@ class Graph:
         self.notices = Notices(
             self.scheduler, self.changes, self.transport.call, lambda error: self.report(error, None)
         )
-        """What carries the notices of a Master in this process."""
+        """Delivers the notices of a Master in this process."""
         self.master: MasterPort = Master(MASTER_URI, self.notices) if master is None else master(self)
-        """The Master, or the way to it."""
+        """The Master in this process, or the port of one elsewhere."""
         self.nodes: dict[str, Node] = {}
         """The nodes in this process, by name."""
         self.gates = Gates(self.scheduler)
-        """What messages have to pass on their way to subscribers."""
+        """The gates that messages pass on their way to subscribers."""
         self.closing = False
         """True while the whole graph shuts down."""
         self.log_class = message_class("rosgraph_msgs/Log")
@@ -116,14 +116,14 @@ class Graph:
         self._live: LiveDrive | None = None
         self._anonymous = AnonymousNames() if simulated else AnonymousNames(os.getpid())
         self.keeps_time = False
-        """True while this graph publishes its time on ``/clock``: its own nodes do not follow that topic then."""
+        """True while this graph publishes its time on ``/clock``; its own nodes do not follow that topic then."""
         parameters = ROSCORE_PARAMETERS | ({} if run_id is None else {"/run_id": run_id})
         if self.master.is_local:
             roscore = self.ask_as("/roscore")
             for key, value in parameters.items():
                 roscore.ask("setParam", key, value)
         self.log_folder = log_folder(log_dir, parameters["/run_id"] if self.master.is_local else "")
-        """Where the log files are, if there are any."""
+        """The folder of the log files, or None."""
         self.scheduler.graph = self
         if self.notebook:
             self.scheduler.ask_driver = self._run_errand
@@ -131,7 +131,7 @@ class Graph:
         self._online: Any = None
         self._recordings = 0
         self.faults = Faults(self)
-        """What goes wrong because somebody asked for it; it does as `%fault`."""
+        """The faults that were requested; it does the same as `%fault`."""
         if rosout and self.master.is_local:
             self.start_rosout()
 
@@ -149,11 +149,11 @@ class Graph:
 
     def start_rosout(self) -> None:
         """Start the node ``/rosout``."""
-        node = Node("rosout", self, has_rosout=False)  # it would hear itself
+        node = Node("rosout", self, has_rosout=False)  # it would receive its own messages
         aggregate = node.publisher("/rosout_agg", self.log_class, queue_size=None)
 
         def pass_on(message: Any) -> None:
-            if not node.is_shutdown():  # the last words of others may still be on their way then
+            if not node.is_shutdown():  # messages of other nodes may still arrive
                 aggregate.publish(message)
 
         node.subscriber("/rosout", self.log_class, pass_on)
@@ -164,7 +164,7 @@ class Graph:
         return self.master.uri
 
     def ask_as(self, caller_id: str) -> MasterProxy:
-        """Return the Master as a caller of this name sees it: for tools that are no nodes."""
+        """Return the Master as seen by a caller of this name, for tools that are not nodes."""
         return MasterProxy(self, caller_id)
 
     # -- time ----------------------------------------------------------------------------------------------------
@@ -174,10 +174,10 @@ class Graph:
         return Time.from_nsec(self.scheduler.now_ns())
 
     def run(self, duration: float | None = None, until: Callable[[], bool] | None = None) -> RunReport:
-        """Run the graph for ``duration`` seconds of its time, until ``until()`` holds, or until nothing is left to do.
+        """Run the graph for ``duration`` seconds of its time, until ``until()`` is true, or until nothing is left.
 
-        What a callback raises is raised here when the graph is strict. Ctrl-C stops the drive and leaves the graph in
-        order. Raises ``RosminiError`` for a duration that is no number of seconds from zero on.
+        If the graph is strict, exceptions of callbacks are raised here. Ctrl-C stops the run and leaves the graph
+        consistent. Raises ``RosminiError`` if the duration is not a finite number of at least zero.
         """
         until_ns = (
             None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
@@ -186,11 +186,11 @@ class Graph:
 
     @property
     def is_live(self) -> bool:
-        """True while the graph goes on by itself after :meth:`~rosmini.core.graph.graph.Graph.live`."""
+        """True while the graph runs by itself after :meth:`~rosmini.core.graph.graph.Graph.live`."""
         return self._live is not None and self._live.running
 
     def rng(self, name: str) -> np.random.Generator:
-        """Return a random generator of its own for ``name``: the same on each run, whoever else draws from another."""
+        """Return a separate random generator for ``name``, which gives the same numbers in each run."""
         import numpy as np
 
         return np.random.default_rng([self.seed, zlib.crc32(name.encode())])
@@ -198,7 +198,7 @@ class Graph:
     # -- nodes ---------------------------------------------------------------------------------------------------
 
     def anonymous_name(self, base: str) -> str:
-        """Return ``base`` with a number and a time that make it unique: the same on each run in simulated time."""
+        """Return ``base`` with a number and a time that make it unique; in simulated time, the same in each run."""
         return self._anonymous.make(base, self.scheduler.now_ns())
 
     def who_publishes(self, topic: str) -> str:
@@ -207,7 +207,7 @@ class Graph:
 
     @property
     def unreachable(self) -> tuple[str, ...]:
-        """The nodes that the Master knows and that do not answer: they ended without a word."""
+        """The nodes that the Master knows but that do not answer: they ended without unregistering."""
         return self.scheduler.on_hub(self._find_unreachable)
 
     def _find_unreachable(self) -> tuple[str, ...]:
@@ -235,7 +235,7 @@ class Graph:
         return found
 
     def observers_changed(self) -> None:
-        """Let every publisher and connection of this process learn that faults or the recording have changed."""
+        """Notify every publisher and connection of this process that faults or the recording have changed."""
         for node in self.nodes.values():
             for publication in node.publications.values():
                 publication.connections_changed()
@@ -246,7 +246,7 @@ class Graph:
     # -- errors --------------------------------------------------------------------------------------------------
 
     def report(self, error: BaseException, node: Any, *, raise_strict: bool = True) -> None:
-        """Report a problem, of ``node`` if given: raised where a strict graph is driven, else logged."""
+        """Report a problem, of ``node`` if given: raise it at the call that drives a strict graph, else log it."""
         if self.strict and raise_strict and self.scheduler.raise_in_driver(error):
             return
         if node is not None:
@@ -260,9 +260,9 @@ class Graph:
     # -- driving -------------------------------------------------------------------------------------------------
 
     def live(self, rate: float = 1.0) -> LiveDrive:
-        """Let the graph go on by itself in a notebook, ``rate`` seconds of its time a second, beside cells and widgets.
+        """Let the graph run by itself in a notebook, ``rate`` seconds of its time per second, beside cells and widgets.
 
-        Call ``stop()`` on the result to end that. Raises ``RosminiError`` where no event loop runs: use :meth:`run`
+        Call ``stop()`` on the result to stop it. Raises ``RosminiError`` if no event loop runs: use :meth:`run`
         in a program.
         """
         loop = kernel_loop()
@@ -276,18 +276,18 @@ class Graph:
     ) -> Any:
         """Connect this graph with the nodes of other processes and machines, until :meth:`offline`.
 
-        Where a Master answers at ``master_uri`` (by default, what ``ROS_MASTER_URI`` names), the graph joins it: its
-        nodes register there, and the parameters that it has go there. Else the graph's own Master is served there.
+        If a Master answers at ``master_uri`` (by default, the value of ``ROS_MASTER_URI``), the graph joins it: its
+        nodes register there, and its parameters are set there. Otherwise the graph's own Master is served there.
         Others reach the nodes at ``ROS_IP`` or ``ROS_HOSTNAME`` of ``environ`` (by default ``os.environ``); only this
-        machine does if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set.
+        machine can if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set.
 
-        In a notebook the graph goes on by itself, as after :meth:`live`; elsewhere drive it with :meth:`run`, which
-        now takes a second for a second of simulated time, since others live on it. With ``live`` False it only goes
-        on when it is driven, and as fast as it can.
+        In a notebook the graph runs by itself, as after :meth:`live`; elsewhere drive it with :meth:`run`, which
+        now takes one second per second of simulated time, since other processes use it. With ``live`` False it runs
+        only while it is driven, and as fast as possible.
 
-        Raises ``MasterUnreachable`` where no Master answers and none of this machine's can be served, or what listens
-        there does not answer within ten seconds (the graph stays offline then), and
-        ``RosminiError`` if the graph is online already or has its Master elsewhere anyway.
+        Raises ``MasterUnreachable`` if no Master answers and none can be served on this machine, or if the process
+        that listens there does not answer within ten seconds (the graph then stays offline), and
+        ``RosminiError`` if the graph is already online or already uses a Master elsewhere.
         """
         if self._online is not None:
             raise RosminiError(f"this graph is online already, at {self.master_uri}; offline() ends that")
@@ -301,12 +301,12 @@ class Graph:
         return self._online is not None
 
     def keep_pace(self, condition: Callable[[], bool]) -> None:
-        """Let simulated time go no faster than real time while ``condition()`` is true; only with :meth:`online`."""
+        """Limit simulated time to the pace of real time while ``condition()`` is true; only with :meth:`online`."""
         if self._online is not None:
             self._online.keep_pace(condition)
 
     def offline(self) -> None:
-        """Leave the nodes of other processes; those of this one go on among themselves. Harmless when repeated."""
+        """Disconnect from other processes; the nodes of this one keep running. Harmless when repeated."""
         online, self._online = self._online, None
         if online is not None:
             self.scheduler.on_hub(online.end)
@@ -315,9 +315,9 @@ class Graph:
         return Errand(self, waiter).complain
 
     def shutdown(self, reason: str = "") -> None:
-        """Shut every node down, newest first, and end what still blocks.
+        """Shut every node down, newest first, and end all calls that still block.
 
-        The graph is empty then and can be used again.
+        The graph is then empty and can be used again.
         """
         self.scheduler.on_hub(lambda: self._shutdown(reason))
 
@@ -336,7 +336,7 @@ class Graph:
         for step in [*steps, scheduler.close, self.transport.close]:
             try:
                 step()
-            except Exception as error:  # what one node does at its end must not keep another up
+            except Exception as error:  # the failure of one node must not stop the others
                 problems.append(error)
         self.closing = False
         self.notices.clear()
@@ -346,7 +346,7 @@ class Graph:
             raise problems[0]
 
     def _let_leave(self) -> None:
-        """Let nodes whose end is under way in lanes of theirs take their registrations back."""
+        """Let nodes that are shutting down in their own lanes finish unregistering."""
         scheduler = self.scheduler
         scheduler.run(until_ns=scheduler.now_ns())
         if self.nodes and not self.master.is_local:
@@ -359,7 +359,7 @@ class Graph:
         return Node(name, self, **options)
 
     def add_node(self, node: Node) -> Path | None:
-        """Learn of a new node; an older one of its name hears from the Master at the new one's first registration."""
+        """Add a node; return its log file's path. The Master ends an older node of its name when this one registers."""
         self.nodes[node.name] = node
         self._nodes_started += 1
         asked = node.remappings.log_file
@@ -368,12 +368,12 @@ class Graph:
         if self.log_folder is None:
             return None
         name = node.name.lstrip("/")
-        if not self.master.is_local:  # one of many processes: as rospy names it
+        if not self.master.is_local:  # one of many processes: named as in rospy
             return self.log_folder / f"{name.replace('/', '_')}.log"
         return self.log_folder / f"{name.replace('/', '-')}-{self._nodes_started}.log"
 
     def remove_node(self, node: Node) -> None:
-        """Learn that a node has ended."""
+        """Remove a node that has ended."""
         if self.nodes.get(node.name) is node:
             del self.nodes[node.name]
 
@@ -385,22 +385,22 @@ class Graph:
         Options, with their defaults:
             mode='nodes_only': topics as labels; 'nodes_topics_active': connected ones as boxes; 'nodes_topics_all': all
             hide=('debug', 'dead_sinks', 'leaf_topics', 'params', 'unreachable'): what to leave out; also 'tf'; or ()
-            group=('actions', 'images', 'tf'): what is drawn as one box, where topics are boxes
-            namespaces=2: how deep boxes around namespaces nest; 0 draws none
-            namespace='/': only these nodes: names or regular expressions with commas between, - excludes
+            group=('actions', 'images', 'tf'): kinds of topics drawn as one box, if topics are boxes
+            namespaces=2: nesting depth of the boxes around namespaces; 0 draws none
+            namespace='/': only these nodes: names or regular expressions separated by commas; - excludes
             topics='/': only these topics, in the same form
             direction='right': or 'down'
-            since=None: an earlier state; what is new since then is bold, what is gone is dashed
-            highlight='': a node or topic: what it hears is blue, what hears it green, all else pale
-            title=None: a caption under the picture, and the first words of its text form
+            since=None: an earlier state; additions since then are bold, removals are dashed
+            highlight='': a node or topic: its sources are blue, its receivers green, everything else pale
+            title=None: a caption under the picture, and the beginning of its text form
         """
         return show("computation_graph", self, **options)
 
     def record(self) -> Recording:
-        """Record from now on who calls whom, who sends what to whom, and what each of it was caused by.
+        """Record from now on all calls and messages between nodes, and the cause of each.
 
-        Call ``stop()`` on the result to end that, or use it in a ``with`` statement. ``%roswhy`` and ``%rossequence``
-        answer from what is recorded. A graph that does not record spends nothing on it.
+        Call ``stop()`` on the result to end the recording, or use it in a ``with`` statement. ``%roswhy`` and
+        ``%rossequence`` use the recording. A graph that does not record has no overhead.
         """
         return self.scheduler.on_hub(self._record)
 
@@ -412,7 +412,7 @@ class Graph:
 
     @property
     def recorded(self) -> Recording | None:
-        """All that this graph has recorded, if it records."""
+        """Everything that this graph has recorded, or None if it is not recording."""
         history: History | None = self.scheduler.history
         return None if history is None else Recording(history, lambda: None, from_start=True)
 
@@ -426,7 +426,7 @@ class Graph:
         self.observers_changed()
 
     def console(self, **options: Any) -> Console:
-        """Keep the log messages of all nodes from now on; the options are those of :class:`Console`."""
+        """Collect the log messages of all nodes from now on; the options are those of :class:`Console`."""
         return Console(self, **options)
 
 
@@ -441,9 +441,9 @@ def default_graph() -> Graph:
 
 
 def set_default_graph(graph: Graph | None) -> Graph | None:
-    """Make ``graph`` the default one and return the one before.
+    """Make ``graph`` the default one and return the previous one.
 
-    None: :func:`default_graph` makes a new one when asked.
+    If None, :func:`default_graph` makes a new one when it is called.
     """
     before = _default.pop("graph", None)
     if graph is not None:

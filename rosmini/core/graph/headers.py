@@ -1,4 +1,4 @@
-"""Connection headers as bytes: what two ends of TCPROS show each other (http://wiki.ros.org/ROS/Connection%20Header)."""
+"""Connection headers as bytes, which both ends of TCPROS exchange (http://wiki.ros.org/ROS/Connection%20Header)."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ if TYPE_CHECKING:
     from .transport import Header
 
 HEADER_LIMIT = 1024 * 1024
-"""The longest header that is read, in bytes: the longest definition of a message in ROS has less than a tenth."""
+"""Maximum length of a header [bytes]; the longest message definition in ROS takes less than a tenth of it."""
 
 
 def encode_header(fields: Header) -> bytes:
-    """Return a connection header: its length, and ``key=value`` fields, each with its length, sorted as in ROS."""
+    """Encode a connection header: its length, then ``key=value`` fields, each with its length, sorted as in ROS."""
     parts = [f"{key}={value}".encode() for key, value in sorted(fields.items())]
     body = b"".join(struct.pack("<I", len(part)) + part for part in parts)
     return struct.pack("<I", len(body)) + body
 
 
 def decode_header(data: bytes) -> Header:
-    """Return the fields of a connection header. Raises ``DeserializationError`` when the bytes are none."""
+    """Return the fields of a connection header. Raises ``DeserializationError`` if the bytes are invalid."""
     if len(data) < 4 or struct.unpack_from("<I", data)[0] != len(data) - 4:
         msg = f"these {len(data)} bytes are not a connection header: the total length at the start is wrong"
         raise DeserializationError(msg)
@@ -30,9 +30,9 @@ def decode_header(data: bytes) -> Header:
 
 
 def decode_fields(data: bytes) -> Header:
-    """Return the fields of a connection header without its total length.
+    """Return the fields of a connection header that comes without its total length.
 
-    Raises ``DeserializationError`` when the bytes are none.
+    Raises ``DeserializationError`` if the bytes are invalid.
     """
     if len(data) > HEADER_LIMIT:
         msg = f"a connection header of {len(data)} bytes is too long: at most {HEADER_LIMIT} are read"

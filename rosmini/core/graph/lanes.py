@@ -1,7 +1,7 @@
 """Lanes: the threads of control of a graph, run one at a time by the scheduler.
 
 A lane is a queue of tasks that run first in, first out. Two lanes interleave only where one of them blocks
-(``rate.sleep``, a service call, ``spin``): the blocked one is parked, a greenlet, and the queue goes on. Code that
+(``rate.sleep``, a service call, ``spin``): it is parked as a greenlet, and the queue continues. Code that
 blocks therefore reads like a threaded ROS node, and runs in the same order each time.
 """
 
@@ -25,41 +25,41 @@ if TYPE_CHECKING:
 
 
 PATIENCE_S = 2.0
-"""How long a call waits in another thread before it asks why."""
+"""Time for which a call waits in another thread before it asks why."""
 
 LOOK_S = 0.05
-"""How often in wall time it looks whether whoever drove the queue has stopped, and drives it itself then."""
+"""Interval at which a waiting thread checks, in wall time, whether the driver has stopped and it must take over [s]."""
 
 
 TURNS = 1_000
-"""How many tasks a lane runs before the others get their turn."""
+"""Number of tasks that a lane runs before the others get their turn."""
 
 
 class LaneExit(BaseException):
-    """Thrown into a lane that is asked to end, at the place where it blocks."""
+    """Thrown into a lane that is asked to end, at the point where it blocks."""
 
 
 class LaneContext(Protocol):
-    """What is swapped in and out when a lane runs: a script's ``sys.argv``, its modules, its random state."""
+    """The state that is swapped when a lane runs: a script's ``sys.argv``, its modules, its random state."""
 
     def enter(self) -> None:
         """Make this context the one that Python code sees."""
 
     def leave(self) -> None:
-        """Restore what was there before."""
+        """Restore the previous state."""
 
     def cut_short(self) -> None:
-        """Learn that a second Ctrl-C ended what one of its lanes was running."""
+        """Called when a second Ctrl-C has ended the code that one of its lanes was running."""
 
     def keeps_polling(self) -> None:
-        """Learn, in a lane that runs, that its loop has gone on for long without a blocking call."""
+        """Called in a running lane whose loop has continued for long without a blocking call."""
 
 
 class Lane:
     """A first-in, first-out queue of tasks with one blocking point.
 
-    ``node`` is the ROS node that the lane works for, ``context`` the script it belongs to; both are inherited by lanes
-    that are created from it. ``on_error`` gets an exception that a task lets out; without it the exception is raised at
+    ``node`` is the ROS node that the lane works for, ``context`` the script it belongs to; lanes that are created from
+    it inherit both. ``on_error`` gets an exception that a task raises; without it the exception is raised at
     the call that drives the graph.
     """
 
@@ -99,11 +99,11 @@ class Lane:
         self._tasks: deque[Callable[[], object]] = deque()
         self._busy = False
         self.waiter: Waiter | None = None
-        """What the lane is parked for. Set by the scheduler only."""
+        """The waiter for which the lane is parked. Set by the scheduler only."""
         self.parks = 0
         """The number of times that the lane has blocked. Set by the scheduler only."""
         self.cause: int | None = None
-        """The number of the event that its task acts on, where the graph records what happens."""
+        """Number of the event that its task acts on, if the graph is recording."""
         self.woken: tuple[int, int] | None = None
         """The time at which an event woke the lane, and the number of that event."""
         self._activate_ref = self._activate
@@ -114,17 +114,17 @@ class Lane:
 
     @property
     def idle(self) -> bool:
-        """True when the lane has nothing to run and is not parked in a task."""
+        """True if the lane has nothing to run and is not parked in a task."""
         return not self._busy
 
     @property
     def waiting_for(self) -> str | None:
-        """What the lane is parked for, in words, or None."""
+        """The reason why the lane is parked, in words, or None."""
         waiter = self.waiter
         return None if waiter is None else waiter.reason
 
     def submit(self, task: Callable[[], object]) -> None:
-        """Queue ``task``; it runs after the ones before it. From any thread. A dead lane ignores it."""
+        """Queue ``task`` after the earlier ones. Safe in any thread. A dead lane ignores it."""
         scheduler = self._scheduler
         if get_ident() != scheduler.thread:
             scheduler.call_soon_threadsafe(lambda: self.submit(task))
@@ -134,7 +134,7 @@ class Lane:
         self.post(task)
 
     def _on_behalf(self, cause: int | None, task: Callable[[], object]) -> None:
-        """Run a task, which acts on the same event as who submitted it."""
+        """Run a task that acts on the same event as the code that submitted it."""
         self.cause = cause
         try:
             task()
@@ -142,7 +142,7 @@ class Lane:
             self.cause = None
 
     def post(self, task: Callable[[], object]) -> None:
-        """Do as :meth:`submit` does, in the hub's thread only."""
+        """Like :meth:`submit`, but in the scheduler's thread only."""
         if self.dead:
             return
         self._tasks.append(task)
@@ -151,7 +151,7 @@ class Lane:
             self._scheduler.ready.append(self._activate_ref)
 
     def post_if_idle(self, task: Callable[[], object]) -> bool:
-        """Queue ``task`` if nothing else is queued or running; return whether it was. In the hub's thread only."""
+        """Queue ``task`` if nothing is queued or running; return True if so. In the scheduler's thread only."""
         if self._busy or self.dead:
             return False
         self._busy = True
@@ -177,7 +177,7 @@ class Lane:
         tasks = self._tasks
         turns = TURNS
         while tasks:
-            if not turns:  # a lane that keeps giving itself work starves nobody
+            if not turns:  # a lane that keeps giving itself work must not starve the others
                 scheduler.count_rounds(TURNS)
                 scheduler.ready.append(self._activate_ref)
                 return
@@ -188,7 +188,7 @@ class Lane:
             except LaneExit:
                 self.dead = True
                 tasks.clear()
-            except GreenletExit:  # nobody holds the graph any more: it must not go on while it is swept away
+            except GreenletExit:  # the graph is being garbage-collected: its code must not continue
                 self.dead = True
                 raise
             except BaseException as error:
@@ -204,11 +204,11 @@ class Lane:
 
 
 class Waiter:
-    """One thing that somebody blocks for: woken once, with a value or an error, from any thread.
+    """A wait of one piece of code: woken once, with a value or an error, from any thread.
 
-    ``wait`` works from a lane (which is parked), from the main program or a notebook cell (which drives the queue
-    meanwhile), and from another thread: it sleeps while somebody drives. In wall time, if nobody does, it drives the
-    queue itself until it is woken.
+    ``wait`` works in a lane, which is parked; in the main program or a notebook cell, which drives the queue meanwhile;
+    and in another thread, which sleeps while the queue is driven. In wall time, if nothing drives the queue, that
+    thread drives it until it is woken.
     """
 
     __slots__ = ("_error", "_event", "_hub", "cause", "done", "greenlet", "queued", "reason", "value")
@@ -221,14 +221,14 @@ class Waiter:
         self._error: BaseException | None = None
         self._event: threading.Event | None = None
         self.greenlet: greenlet | None = None
-        """The parked code. For the scheduler only, as is the next one."""
+        """The parked code. For the scheduler only, as is :attr:`cause`."""
         self.cause: int | None = None
-        """The number of the event that woke it, where the graph records what happens."""
+        """Number of the event that woke it, if the graph is recording."""
         self.queued = False
-        """True when :meth:`resume` is among the events that are due."""
+        """True if :meth:`resume` is among the events that are due."""
 
     def wake(self, value: Any = None) -> None:
-        """Let the waiting code go on; ``value`` is kept in :attr:`value`. Later calls do nothing."""
+        """Let the waiting code continue; ``value`` is stored in :attr:`value`. Later calls have no effect."""
         self._finish(value, None)
 
     def fail(self, error: BaseException) -> None:
@@ -256,20 +256,20 @@ class Waiter:
 
     @property
     def settled(self) -> bool:
-        """True when a thread that waited goes on: woken, failed or timed out."""
+        """True if a thread that waited can continue: it was woken, has failed or has timed out."""
         event = self._event
         return self.done or event is None or event.is_set()
 
     def resume(self) -> greenlet | None:
-        """Return the code to go on with; the loop switches to it, and then holds nothing of this waiter."""
+        """Return the code to resume; the loop switches to it without keeping a reference to this waiter."""
         self.queued = False
         return self.greenlet
 
     def wait(self, timeout_ns: int | None = None) -> bool:
         """Block until woken (True) or until ``timeout_ns`` of graph time have passed (False).
 
-        Raises what :meth:`fail` was given, and :class:`~rosmini.core.errors.GraphEnded` when the main program waits in
-        simulated time and nothing is left that could wake it.
+        Raises the error given to :meth:`fail`, and :class:`~rosmini.core.errors.GraphEnded` if the main program waits
+        in simulated time and nothing is left that could wake it.
         """
         hub = self._hub
         end = None if timeout_ns is None else hub.now_ns() + timeout_ns
@@ -297,7 +297,7 @@ class Waiter:
             self._go_on()
 
     def _wait_in_thread(self, end_ns: int | None) -> bool:
-        """Sleep while somebody else drives; return True if nobody does any more and this thread has taken the hub."""
+        """Sleep while another thread drives; return True if none does any longer and this thread now drives."""
         hub = self._hub
         event = self._event = threading.Event()
         try:
@@ -326,16 +326,16 @@ class Waiter:
 
 
 class RemoteWaiter(Waiter):
-    """Waits for an answer from outside this process; whoever is to wake it has a time-out on the wall.
+    """Waits for an answer from outside this process; the code that wakes it has a wall-clock timeout.
 
-    Simulated time goes on meanwhile, for the other end may need it; only where nothing else is left to do the queue
-    waits for the answer instead of ending.
+    Simulated time continues meanwhile, because the other end may need it; only if nothing else is left to do does the
+    queue wait for the answer instead of ending.
     """
 
     __slots__ = ()
 
     def wait(self, timeout_ns: int | None = None) -> bool:
-        """Block as :meth:`Waiter.wait`."""
+        """Block like :meth:`Waiter.wait`."""
         self._hub.count_remote(1)
         try:
             return super().wait(timeout_ns)

@@ -1,7 +1,7 @@
-"""A graph that is driven from a Jupyter kernel's own event loop, in small slices.
+"""A graph that the event loop of a Jupyter kernel drives, in small slices.
 
-Between two slices the kernel answers widgets and runs cells; a cell that blocks drives the graph itself meanwhile.
-Everything runs in the kernel's main thread: what other threads want (JupyterLab handles widgets in one) comes through
+Between two slices the kernel serves widgets and runs cells; a cell that blocks drives the graph itself meanwhile.
+Everything runs in the kernel's main thread: calls from other threads (JupyterLab handles widgets in one) come through
 the inbox.
 """
 
@@ -27,19 +27,19 @@ if TYPE_CHECKING:
     from .lanes import Waiter
 
 SLICE_S = 0.01
-"""How often the graph gets its turn: twice as often as a view is drawn at 50 frames a second."""
+"""Interval between slices: half that between the frames of a view at 50 frames per second."""
 
 BUDGET_S = 0.02
-"""How long one turn may take; a single callback that takes longer is not cut."""
+"""Maximum length of a slice; a single callback that takes longer is not interrupted."""
 
 LAG_S = 0.5
-"""How far a live graph runs after wall time to make up for a delay: that of a large scene being drawn, for instance.
+"""Maximum delay behind wall time that a live graph makes up for, such as that of drawing a large scene.
 
-After a longer one it goes on from where it stood.
+After a longer delay it continues without making up for the rest.
 """
 
 SLEEP = re.compile(r"\btime\s*\.\s*sleep\s*\(")
-"""What holds up the kernel, in a cell's text."""
+"""Finds the call in a cell's text that would block the kernel."""
 
 STOPPED = (
     "The live graph was stopped. Call live() to go on; with Graph(strict=False) such errors are logged instead, "
@@ -48,7 +48,7 @@ STOPPED = (
 
 
 class LoopDrive(ABC):
-    """Gives ``graph`` its turns in ``loop`` until :meth:`stop`, or until :meth:`over` holds."""
+    """Drives ``graph`` in slices in ``loop`` until :meth:`stop`, or until :meth:`over` returns True."""
 
     def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop) -> None:
         self.graph = graph
@@ -59,13 +59,13 @@ class LoopDrive(ABC):
         loop.call_soon_threadsafe(self._step)
 
     def stop(self) -> None:
-        """Let the graph stand still again. From any thread; harmless when repeated."""
+        """Stop driving the graph. Safe in any thread; harmless when repeated."""
         if self.running:
             self.running = False
             self._loop.call_soon_threadsafe(self._let_go)
 
     def over(self) -> bool:
-        """Tell whether there is nothing more to drive for."""
+        """Return True if there is no reason to drive any longer."""
         return not self.running
 
     def _step(self) -> None:
@@ -76,10 +76,10 @@ class LoopDrive(ABC):
         delay = SLICE_S
         try:
             if self._noted:
-                raise KeyboardInterrupt  # as one that comes during a slice does
+                raise KeyboardInterrupt  # as an interrupt during a slice would
             if not self.graph.scheduler.driven:
                 delay = self._slice()
-        except BaseException as error:  # there is no call to raise it at
+        except BaseException as error:  # there is no call at which to raise it
             self.stop()
             self._failed(error)
         if self.running:
@@ -87,14 +87,14 @@ class LoopDrive(ABC):
 
     @abstractmethod
     def _slice(self) -> float:
-        """Drive for a moment; return after how many seconds to go on."""
+        """Drive for a moment; return the delay before the next slice [s]."""
 
     @abstractmethod
     def _failed(self, error: BaseException) -> None:
-        """Tell whom it concerns why the drive ended."""
+        """Report why the drive ended."""
 
     def _drive(self, until_ns: int | None = None, until: Callable[[], bool] | None = None) -> str:
-        """Run until then, but not longer than the budget; return why it ended."""
+        """Run until the given time or condition, but not longer than the budget; return why the run ended."""
         deadline = time.perf_counter() + BUDGET_S
         scheduler = self.graph.scheduler
         if not scheduler.simulated:
@@ -103,14 +103,14 @@ class LoopDrive(ABC):
             until_ns, lambda: time.perf_counter() > deadline or (until is not None and until())
         ).reason
 
-    # Between cells ipykernel ignores an interrupt: it is for the live graph then.
+    # Between cells ipykernel ignores an interrupt, so it is meant for the live graph.
 
     def _catch_interrupts(self) -> None:
         if self._kernel is None:
             return
         handler = signal.getsignal(signal.SIGINT)
         owner = getattr(handler, "__self__", None)
-        # The kernel may have put back the handler of a drive that has ended.
+        # The kernel may have restored the handler of a drive that has ended.
         if handler is signal.SIG_IGN or (isinstance(owner, LoopDrive) and not owner.running):
             signal.signal(signal.SIGINT, self._interrupted)
 
@@ -123,11 +123,11 @@ class LoopDrive(ABC):
 
 
 class LiveDrive(LoopDrive):
-    """Lets ``graph`` go on at ``rate`` seconds of graph time a second until :meth:`stop`; made by :meth:`Graph.live`.
+    """Drives ``graph`` at ``rate`` seconds of graph time per second until :meth:`stop`; made by :meth:`Graph.live`.
 
-    A graph in simulated time is let go on to where wall time has got to, one in wall time keeps its own rate. What
-    callbacks write appears in the cell that drives, and while none does in the one that called ``live``. An error that
-    would end a ``graph.run()`` is shown there and stops the drive, and so does an interrupt while no cell runs.
+    A graph in simulated time follows wall time at this rate; one in wall time keeps its own rate. The output of
+    callbacks appears in the cell that drives, or else in the one that called ``live``. An error that
+    would end a ``graph.run()`` is shown there and stops the drive, as does an interrupt while no cell runs.
     """
 
     def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop, *, rate: float = 1.0) -> None:
@@ -150,7 +150,7 @@ class LiveDrive(LoopDrive):
             self._kernel.events.unregister("pre_run_cell", self._warn_of_sleep)
 
     def _warn_of_sleep(self, info: Any) -> None:
-        """Say before a cell runs that sleeps with Python's own sleep that the graph stands still meanwhile."""
+        """Warn, before a cell runs that calls Python's own sleep, that the graph stands still meanwhile."""
         if self.running and SLEEP.search(info.raw_cell or ""):
             sys.stderr.write(
                 "time.sleep() keeps the kernel busy, so the live graph stands still meanwhile. "
@@ -172,7 +172,7 @@ class LiveDrive(LoopDrive):
         latest = now + int(LAG_S * self.rate * 1e9)
         if now <= target <= latest:
             return target
-        # A cell drove the graph ahead, or kept the kernel busy: go on from here.
+        # A cell drove the graph ahead, or kept the kernel busy: continue from here.
         self._graph_start, self._start = max(now, min(target, latest)), wall
         return self._graph_start
 
@@ -202,11 +202,11 @@ class Errand(LoopDrive):
         super().__init__(graph, kernel_loop())
 
     def over(self) -> bool:
-        """Tell whether the other thread's call has what it waits for."""
+        """Return True if the other thread's call no longer waits."""
         return self._waiter.settled
 
     def complain(self) -> None:
-        """Say which cell is in the way, if one is. Called in the other thread."""
+        """Warn if a running cell keeps the graph from being driven. Called in the other thread."""
         if not self._begun and not self.graph.scheduler.driven:
             sys.stderr.write(
                 "A call in another thread is waiting, and the graph stands still because the cell that runs does not "

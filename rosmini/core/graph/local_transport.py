@@ -1,4 +1,4 @@
-"""The transport between nodes of one process, which hands frozen messages over."""
+"""The transport between nodes of one process, which passes frozen messages directly."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class LocalServiceLink:
-    """Hands requests to a session in the same process."""
+    """Passes requests to a session in the same process."""
 
     is_remote = False
     __slots__ = ("_session", "header")
@@ -32,7 +32,7 @@ class LocalServiceLink:
         self.header = session.header
 
     def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
-        """Hand over a request."""
+        """Pass a request to the session."""
         self._session.handle(request, reply)
 
     def close(self) -> None:
@@ -41,7 +41,7 @@ class LocalServiceLink:
 
 
 class LocalTransport:
-    """Nodes of one process, connected by handing frozen messages over."""
+    """Connects the nodes of one process by passing frozen messages directly."""
 
     protocol = LOCAL
 
@@ -67,11 +67,11 @@ class LocalTransport:
         return uri.replace("http://", "rosrpc://").rstrip("/")
 
     def reaches(self, uri: str) -> bool:
-        """Return whether the node, or the one with these services, is in this process."""
+        """Return True if the node with this slave API, or with these services, is in this process."""
         return slave_uri(uri) in self._endpoints
 
     def offer(self, caller: str) -> list[Any] | None:
-        """Return what a subscriber offers in ``requestTopic``: in which process, and in which graph there, it is."""
+        """Return a subscriber's offer in ``requestTopic``, which contains its process and its graph."""
         return [self.protocol, self._place] if caller in self._endpoints else None
 
     def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
@@ -80,7 +80,7 @@ class LocalTransport:
         return [self.protocol, uri] if is_here else None
 
     def endpoint(self, uri: str) -> Node:
-        """Return the node at ``uri``, of its slave API or its services."""
+        """Return the node with this address of its slave API or its services."""
         found = self._endpoints.get(slave_uri(uri))
         if found is None:
             raise TransportTerminated(f"no node answers at {uri}: it has been shut down")
@@ -91,11 +91,11 @@ class LocalTransport:
         return self.endpoint(uri).slave_call(method, *arguments)
 
     def retry(self, seconds: float, function: Callable[[], object]) -> bool:  # noqa: ARG002 - the seam's
-        """Tell that who has gone stays away."""
+        """Return False: a node that has gone does not come back."""
         return False
 
     def close(self) -> None:
-        """Do nothing: there is nothing open."""
+        """Do nothing: no connection stays open."""
 
     def connect_topic(
         self,

@@ -1,4 +1,4 @@
-"""A node's log file: a line for each message, as rospy writes it (http://wiki.ros.org/rospy/Overview/Logging)."""
+"""A node's log file: a line for each message, as in rospy (http://wiki.ros.org/rospy/Overview/Logging)."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ __all__ = ["LogFile", "log_folder"]
 
 VARIABLE = "ROS_LOG_DIR"
 LEVEL_NAMES = {1: "DEBUG", 2: "INFO", 4: "WARNING", 8: "ERROR", 16: "CRITICAL"}
-"""Python's names of the levels, which rospy writes into files."""
+"""Python's names of the levels, which rospy writes to files."""
 
 
 def log_folder(asked: str | Path | None, run_id: str) -> Path | None:
-    """Make and return the folder for log files: ``<asked or ROS_LOG_DIR>/<run_id>``; None if nobody asks for one.
+    """Make and return the folder for log files: ``<asked or ROS_LOG_DIR>/<run_id>``; None if neither is given.
 
     Raises ``RosminiError`` if it cannot be made.
     """
@@ -43,12 +43,12 @@ def log_folder(asked: str | Path | None, run_id: str) -> Path | None:
 
 
 class LogFile:
-    """One file, written line by line; a disk that fails ends it, and the node goes on.
+    """A log file, written line by line; an error of the disk ends it, and the node continues.
 
     Args:
-        path: of the file.
-        simulated: times are those of the graph, shown in UTC, and the file is replaced; else they are in local time,
-            and a file that is there is continued, as rospy does.
+        path: the file's path.
+        simulated: write graph time, shown in UTC, and replace the file; otherwise write local time, and append to an
+            existing file, as rospy does.
 
     """
 
@@ -88,5 +88,5 @@ class LogFile:
             sys.stderr.write(f"[WARN] the log file {self.path} ends here: {error.strerror}\n")
             file, self._file = self._file, None
             if file is not None:
-                with suppress(OSError):  # it has just been said
+                with suppress(OSError):  # the error has just been reported
                     file.close()

@@ -1,14 +1,14 @@
-"""The ROS Master: who publishes, who subscribes, who offers which service, and the Parameter Server.
+"""The ROS Master: which nodes publish, subscribe and offer services, and the Parameter Server.
 
 The Master introduces nodes to each other and then steps aside: no message goes through it. Each method is one call of
 the Master API (http://wiki.ros.org/ROS/Master_API) or of the Parameter Server API
 (http://wiki.ros.org/ROS/Parameter%20Server%20API): the same name and arguments, and the same answer, a list of
 
 - a code: 1 success, 0 failure (the call had a bad effect), -1 error (the call had no effect);
-- a status, for people to read;
+a status text that people can read;
 - a value, or a dummy of its type if the call failed.
 
-A call never raises: wrong arguments give the code -1. What other nodes must hear goes to the :class:`Notifier`.
+A call never raises: wrong arguments give the code -1. Notices to other nodes go to the :class:`Notifier`.
 """
 
 # ruff: noqa: ARG002 - every call has a caller_id, whether it needs one or not
@@ -38,26 +38,26 @@ P = ParamSpec("P")
 
 
 class Notifier(Protocol):
-    """How the Master reaches nodes. It is called in the middle of the Master's work, so it only posts events."""
+    """Sends the Master's notices to nodes. It is called during the Master's own work, so it only posts events."""
 
     def publisher_update(self, caller_api: str, topic: str, uris: list[str]) -> None:
-        """Tell the node at ``caller_api`` the slave URIs of all present publishers of ``topic``."""
+        """Send the node at ``caller_api`` the slave URIs of all current publishers of ``topic``."""
 
     def param_update(self, caller_api: str, key: str, value: Any) -> None:
-        """Tell the node at ``caller_api`` that a parameter changed; ``{}`` stands for deleted."""
+        """Tell the node at ``caller_api`` that a parameter has changed; ``{}`` means that it was deleted."""
 
     def shutdown(self, caller_api: str, reason: str) -> None:
         """Ask the node at ``caller_api`` to shut down."""
 
     def registrations_changed(self) -> None:
-        """Learn that a node registered or unregistered something."""
+        """Called when a node has registered or unregistered something."""
 
 
 # ---- the checks that arguments go through; each returns the argument, resolved if it is a name ----
 
 
 class _Invalid(Exception):
-    """An argument breaks the API's rules; the text is the status that the caller gets."""
+    """An argument breaks the API's rules; the text becomes the status of the answer."""
 
 
 def _text(argument: str) -> Check:
@@ -166,14 +166,14 @@ def _api(
 
 @dataclass
 class _Registered:
-    """A node, and what keeps it known: pairs of a registry's name and a key. A node without any is forgotten."""
+    """A node and its registrations: pairs of a registry's name and a key. A node without registrations is forgotten."""
 
     api: str
     holds: set[tuple[str, str]] = field(default_factory=set)
 
 
 class _Registry:
-    """Who registered for which key: ``{key: [(caller_id, caller_api), ...]}``, in the order of registration."""
+    """The registrations for each key: ``{key: [(caller_id, caller_api), ...]}``, in the order of registration."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -212,7 +212,7 @@ class Master(MasterPort):
 
     Args:
         uri: the address that ``getUri`` returns.
-        notifier: told what other nodes must hear.
+        notifier: sends notices to other nodes.
         parameters: the Parameter Server's tree; an empty one if not given.
 
     """
@@ -222,7 +222,7 @@ class Master(MasterPort):
     def __init__(self, uri: str, notifier: Notifier, parameters: ParameterTree | None = None) -> None:
         self.uri = uri
         self.shutdown_reason: str | None = None
-        self._lock = threading.RLock()  # nodes in real threads call too
+        self._lock = threading.RLock()  # nodes in real threads call it too
         self._notifier = notifier
         self._parameters = ParameterTree() if parameters is None else parameters
         self._nodes: dict[str, _Registered] = {}
@@ -235,14 +235,14 @@ class Master(MasterPort):
         self._service_apis: dict[str, tuple[str, str]] | None = None
 
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
-        """Answer a call by the method's name; an unknown one gives code -1."""
+        """Call an API method by its name; an unknown name gives code -1."""
         if method not in METHODS:
             return [-1, f'method "{method}" is not supported', 0]
         answer: Triple = getattr(self, method)(caller_id, *arguments)
         return answer
 
     def move(self, addresses: Mapping[str, str]) -> None:
-        """Take up new addresses of nodes and of their services, by the old ones; nobody else is told."""
+        """Replace old addresses of nodes and of their services by new ones, without notifying other nodes."""
 
         def now(entry: tuple[str, str]) -> tuple[str, str]:
             return entry[0], addresses.get(entry[1], entry[1])
@@ -258,7 +258,7 @@ class Master(MasterPort):
                 self._service_apis = {key: now(entry) for key, entry in self._service_apis.items()}
 
     def forget_nodes(self) -> None:
-        """Forget all nodes and what they registered; parameters stay, and nobody is told."""
+        """Forget all nodes and their registrations without notifying any; parameters stay."""
         with self._lock:
             self._nodes.clear()
             self._service_apis = None
@@ -269,7 +269,7 @@ class Master(MasterPort):
 
     @_api(0, _anything)
     def shutdown(self, caller_id: str, msg: str) -> Triple:
-        """Stop the Master; whoever serves it looks at ``shutdown_reason``."""
+        """Stop the Master: set ``shutdown_reason``, which the code that serves it checks."""
         self.shutdown_reason = f"external shutdown request from [{caller_id}]: {msg}"
         return [1, "shutdown", 0]
 
@@ -287,7 +287,7 @@ class Master(MasterPort):
 
     @_api([], _name("topic"), _type, _uri("caller_api"))
     def registerPublisher(self, caller_id: str, topic: str, topic_type: str, caller_api: str) -> Triple:
-        """Register a publisher; its topic's subscribers hear of it. Returns their addresses."""
+        """Register a publisher and notify its topic's subscribers. Returns their addresses."""
         self._register(self._publishers, topic, caller_id, caller_api)
         if topic_type != "*" or topic not in self._topic_types:
             self._topic_types[topic] = topic_type
@@ -296,7 +296,7 @@ class Master(MasterPort):
 
     @_api(0, _name("topic"), _uri("caller_api"))
     def unregisterPublisher(self, caller_id: str, topic: str, caller_api: str) -> Triple:
-        """Take a publisher out; its topic's subscribers hear of it. Returns how many were taken out (0 or 1)."""
+        """Remove a publisher and notify its topic's subscribers. Returns how many were removed (0 or 1)."""
         answer = self._unregister(self._publishers, topic, caller_id, caller_api)
         if answer[2]:
             self._tell_subscribers(topic)
@@ -312,14 +312,14 @@ class Master(MasterPort):
 
     @_api(0, _name("topic"), _uri("caller_api"))
     def unregisterSubscriber(self, caller_id: str, topic: str, caller_api: str) -> Triple:
-        """Take a subscriber out. Returns how many were taken out (0 or 1)."""
+        """Remove a subscriber. Returns how many were removed (0 or 1)."""
         return self._unregister(self._subscribers, topic, caller_id, caller_api)
 
     # ---- services ----
 
     @_api(0, _name("service"), _uri("service_api"), _uri("caller_api"))
     def registerService(self, caller_id: str, service: str, service_api: str, caller_api: str) -> Triple:
-        """Register a service at ``service_api``; one of the same name is replaced."""
+        """Register a service at ``service_api``, replacing one of the same name."""
         self._register(self._services, service, caller_id, caller_api)
         self._services.entries[service] = [(caller_id, caller_api)]
         self._service_apis = {**(self._service_apis or {}), service: (caller_id, service_api)}
@@ -327,7 +327,7 @@ class Master(MasterPort):
 
     @_api(0, _name("service"), _uri("service_api"))
     def unregisterService(self, caller_id: str, service: str, service_api: str) -> Triple:
-        """Take a service out, if it still is at ``service_api``. Returns how many were taken out (0 or 1)."""
+        """Remove a service if it is still at ``service_api``. Returns how many were removed (0 or 1)."""
         if caller_id not in self._nodes:
             return [1, f"[{caller_id}] is not a registered node", 0]
         if self._service_apis is None:
@@ -366,7 +366,7 @@ class Master(MasterPort):
 
     @_api([])
     def getTopicTypes(self, caller_id: str) -> Triple:
-        """Return ``[topic, type]`` for each topic that anyone ever registered with a type."""
+        """Return ``[topic, type]`` for each topic that was ever registered with a type."""
         return [1, "current system state", [list(pair) for pair in self._topic_types.items()]]
 
     @_api([[], [], []])
@@ -394,7 +394,7 @@ class Master(MasterPort):
 
     @_api(False, _key)
     def hasParam(self, caller_id: str, key: str) -> Triple:
-        """Return whether a parameter is set, or anything under ``key``."""
+        """Return True if a parameter, or anything under ``key``, is set."""
         return [1, key, key in self._parameters]
 
     @_api(0, _key)
@@ -422,14 +422,14 @@ class Master(MasterPort):
 
     @_api(0, _uri("caller_api"), _key)
     def subscribeParam(self, caller_id: str, caller_api: str, key: str) -> Triple:
-        """Return a parameter (``{}`` if it is not set), and tell the caller from now on when it changes."""
+        """Return a parameter (``{}`` if it is not set), and notify the caller of its changes from now on."""
         value = self._parameters.get(key) if key in self._parameters else {}
         self._register(self._param_subscribers, closed(key), caller_id, caller_api)
         return [1, f"Subscribed to parameter [{key}]", value]
 
     @_api(0, _uri("caller_api"), _key)
     def unsubscribeParam(self, caller_id: str, caller_api: str, key: str) -> Triple:
-        """Stop telling the caller about a parameter. ROS returns 1 even if there was nothing to stop."""
+        """Stop notifying the caller of a parameter. ROS returns 1 even if there was no subscription."""
         self._unregister(self._param_subscribers, closed(key), caller_id, caller_api)
         return [1, f"Unsubscribe to parameter [{key}]", 1]
 
@@ -480,7 +480,7 @@ class Master(MasterPort):
     def _tell_param_subscribers(self, key: str, value: Any, setter: str | None = None) -> None:
         subscribed = self._param_subscribers.entries
         for name, changed, part in updates(list(subscribed), key, value):
-            # ROS spares the setter an echo of what it set, but not of the parts of a dictionary.
+            # ROS does not notify the setter of the value that it set, but does notify it of the parts of a dictionary.
             spared = setter if changed == closed(key) else None
             for caller, api in subscribed[name]:
                 if caller != spared:

@@ -1,8 +1,8 @@
-"""How anything asks the Master: through one port, which may take time, may fail and may park the caller's lane.
+"""Access to the Master: all calls go through one port, which may take time, may fail and may park the caller's lane.
 
 In process the :class:`~rosmini.core.graph.master.Master` is the port itself and answers at once. A Master elsewhere is
-another :class:`MasterPort`. Nodes and tools do not call a port themselves: each has a :class:`MasterProxy`, which keeps
-its calls in order and tries again where ROS does.
+another :class:`MasterPort`. Nodes and tools do not call a port directly: each has a :class:`MasterProxy`, which keeps
+its calls in order and retries where ROS does.
 """
 
 from __future__ import annotations
@@ -52,32 +52,32 @@ METHODS = frozenset(
 """The Master API and the Parameter Server API (http://wiki.ros.org/ROS/Master_API)."""
 
 MASTER_TICKS = 300
-"""Ticks of a call in a loop that does not sleep: XML-RPC takes about 0.3 ms (see ``Scheduler.charge``)."""
+"""Ticks that a call costs in a loop without a sleep: XML-RPC takes about 0.3 ms (see ``Scheduler.charge``)."""
 
 RETRY_NS = 200_000_000
-"""How long a node waits before it tries again to register, as rospy does."""
+"""Delay before a node retries a registration, as in rospy [ns]."""
 
 LEAVE_NS = 2_000_000_000
-"""How long a node that ends keeps trying to unregister at a Master that does not answer."""
+"""Time for which a node that ends tries to unregister at a Master that does not answer [ns]."""
 
 
 class MasterPort(ABC):
-    """A way to the Master. ``port.lookupNode(caller_id, name)`` is ``port.call("lookupNode", caller_id, name)``."""
+    """Access to the Master. ``port.lookupNode(caller_id, name)`` is ``port.call("lookupNode", caller_id, name)``."""
 
     uri: str
     """The Master's address."""
     is_local = False
-    """True for a Master in this process: it answers at once, in any thread, and its notifier tells of every change."""
+    """True for a Master in this process: it answers at once, in any thread, and its notifier reports every change."""
     keeps_trying = True
-    """False where a registration that is not answered fails, and is not tried again."""
+    """False if a registration that gets no answer fails instead of being tried again."""
     leave_by: int | None = None
-    """Until when nodes that end keep trying to unregister, in graph time; None while the Master answers."""
+    """Graph time until which nodes that end try to unregister; None while the Master answers."""
 
     @abstractmethod
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
         """Return the Master's answer: [code, status, value]. May park the calling lane.
 
-        Raises ``MasterUnreachable`` when there is no answer; the call may have had its effect all the same.
+        Raises ``MasterUnreachable`` if there is no answer; the call may still have had its effect.
         """
 
     def __getattr__(self, name: str) -> Callable[..., Triple]:
@@ -87,10 +87,10 @@ class MasterPort(ABC):
 
 
 class MasterProxy:
-    """The Master as one caller sees it.
+    """The Master as seen by one caller.
 
-    Its calls reach the Master one after another, in the order in which they were made. ``caller_id`` is the node's or
-    the tool's name. ``why_over`` says why a registration need not be tried again.
+    Its calls reach the Master one after another, in the order in which they were made. ``caller_id`` is the name of the
+    node or the tool. ``why_over`` returns the reason not to retry a registration, or None.
     """
 
     def __init__(
@@ -100,7 +100,7 @@ class MasterProxy:
         self._caller_id = caller_id
         self._why_over = why_over
         self.is_mute = False
-        """Whether registrations are not taken back: the caller is dead."""
+        """True if registrations are not taken back, because the caller is dead."""
         self._has_registered = False
         self._lock = threading.Lock()
         self._busy = False
@@ -108,9 +108,9 @@ class MasterProxy:
         self._moved: dict[str, str] = {}
 
     def moved(self, addresses: Mapping[str, str]) -> None:
-        """Learn new addresses by the old ones: what still waits for the Master is registered under the new ones.
+        """Take new addresses, by the old ones: calls that still wait for the Master register the new addresses.
 
-        Else it would look to the Master like another node of the same name, and it would end this one.
+        Otherwise the Master would see another node of the same name and would shut this one down.
         """
         self._moved = {old: addresses.get(new, new) for old, new in self._moved.items()} | dict(addresses)
 
@@ -120,11 +120,11 @@ class MasterProxy:
         if port.is_local:
             self._graph.scheduler.charge(MASTER_TICKS)
             return self._reach(port, method, arguments)
-        with self._turn():  # the graph may have another Master when the turn comes
+        with self._turn():  # by then the graph may have another Master
             return self._reach(self._graph.master, method, arguments)
 
     def _reach(self, port: MasterPort, method: str, arguments: tuple[Any, ...]) -> Triple:
-        """Return a port's answer, and have it recorded where the graph records what happens."""
+        """Return a port's answer, and record the call if the graph is recording."""
         answer: Triple
         if port.is_local:
             answer = getattr(port, method)(self._caller_id, *arguments)
@@ -138,7 +138,7 @@ class MasterProxy:
     def ask(self, method: str, *arguments: Any) -> Any:
         """Return the value of the Master's answer.
 
-        Raises ``ROSException`` with its status for any code but 1, and ``MasterUnreachable``.
+        Raises ``ROSException`` with the Master's status if the code is not 1, and ``MasterUnreachable``.
         """
         return self._value(method, self.call(method, *arguments))
 
@@ -154,9 +154,9 @@ class MasterProxy:
         return value if code == 1 else None
 
     def insist(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Triple:
-        """Do as :meth:`call`, but keep trying while the Master does not answer; ``warn`` once.
+        """Like :meth:`call`, but keep trying while the Master does not answer; ``warn`` once.
 
-        Raises ``ROSInterruptException`` when the caller ends meanwhile.
+        Raises ``ROSInterruptException`` if the caller ends meanwhile.
         """
         port = self._graph.master
         if port.is_local:
@@ -186,13 +186,13 @@ class MasterProxy:
         return tuple(self._moved.get(each, each) if isinstance(each, str) else each for each in arguments)
 
     def register(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Any:
-        """Do as :meth:`ask`, but keep trying as :meth:`insist` does."""
+        """Like :meth:`ask`, but keep trying like :meth:`insist`."""
         return self._value(method, self.insist(method, *arguments, warn=warn))
 
     def unregister(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> None:
-        """Take a registration back; after some vain attempts only ``warn``, once for all that end then.
+        """Take a registration back; after failed attempts only ``warn``, once for all nodes that end at that time.
 
-        What the Master has forgotten is no error.
+        It is not an error if the Master has forgotten the registration.
         """
         if self.is_mute:
             return
@@ -210,7 +210,7 @@ class MasterProxy:
                     self._reach(self._graph.master, method, arguments)
                 except MasterUnreachable as error:
                     if not self._has_registered:
-                        return  # nothing stays there
+                        return  # nothing is registered there
                     port.leave_by = port.leave_by or started + LEAVE_NS
                     if not port.keeps_trying or scheduler.now_ns() + RETRY_NS >= port.leave_by:
                         port.leave_by = started
@@ -249,7 +249,7 @@ class MasterProxy:
 
     @contextmanager
     def _turn(self) -> Iterator[None]:
-        """Let this caller's calls that came before this one end first."""
+        """Wait until this caller's earlier calls have ended."""
         with self._lock:
             waiter = None
             if self._busy:

@@ -1,6 +1,6 @@
-"""Two ends of a topic or service with two types: what differs.
+"""Compare the types at both ends of a topic or service.
 
-Or, if their md5 sums are equal, one message as the other.
+If their md5 sums are equal, convert a message from one type to the other.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def _fields(definition: str) -> list[str]:
 def describe_mismatch(topic: str, publisher: Header, subscriber: Header) -> str:
     """Return the message of a ``TypeMismatch``: both nodes, both types, the fields that differ, and what to do.
 
-    The two connection headers have ``callerid``, ``type``, ``md5sum`` and, if the fields are to be compared,
+    The two connection headers contain ``callerid``, ``type``, ``md5sum`` and, to compare the fields,
     ``message_definition``.
     """
     mine, theirs = publisher["type"], subscriber["type"]
@@ -60,8 +60,8 @@ def describe_mismatch(topic: str, publisher: Header, subscriber: Header) -> str:
 
 
 def recast(message: Any, message_class: Any) -> Any:
-    """Return ``message`` as a frozen one of another type with the same md5 sum, as it would come over the wire.
+    """Return ``message`` as a frozen one of another type with the same md5 sum, as if it had come over the wire.
 
-    Raises ``DeserializationError`` where the types are not alike after all.
+    Raises ``DeserializationError`` if the types do not match after all.
     """
     return message_class._decode(type(message)._encode(message))

@@ -1,4 +1,4 @@
-"""What a graph has to know of the Jupyter kernel that it runs in. Nothing of this is used elsewhere."""
+"""Access to the Jupyter kernel in which a graph runs. Not used outside notebooks."""
 
 from __future__ import annotations
 
@@ -48,13 +48,13 @@ def kernel_loop() -> asyncio.AbstractEventLoop:
 
 
 _cell: contextvars.ContextVar[Any] = contextvars.ContextVar("rosmini_cell", default=None)
-"""The header of the cell to which the output in this context goes, as far as we have set it."""
+"""The header of the cell that receives the output of this context, if we have set it."""
 
 
 class CellOutput:
-    """Sends what lanes write, show and raise to the cell that drives the graph.
+    """Sends the output and the errors of lanes to the cell that drives the graph.
 
-    The kernel finds a print's cell in context variables, and each greenlet has a context of its own. A worker starts
+    The kernel finds a print's cell in context variables, and each greenlet has its own context. A worker starts
     with a copy of the driver's; a lane that was parked in an earlier cell keeps its own, because callbacks keep
     settings there too (``numpy.errstate``), and only changes the cell.
     """
@@ -66,19 +66,19 @@ class CellOutput:
         self._outlets: tuple[Any, ...] = ()
 
     def begin(self) -> None:
-        """Note the cell that drives from now on: the caller."""
+        """Store the calling cell as the one that drives from now on."""
         self._parent = self._shell.get_parent()
-        # Noted now: when a lane goes on, sys.stdout may be its script's own.
+        # Stored now: when a lane continues, sys.stdout may be its script's own.
         self._outlets = (sys.stdout, sys.stderr, self._shell.displayhook, self._shell.display_pub)
         self._context = contextvars.copy_context()
         self._context.run(_cell.set, self._parent)
 
     def lend(self, worker: greenlet) -> None:
-        """Give the driver's context to a greenlet that runs no user's code at the moment, before it goes on."""
+        """Give the driver's context to a greenlet that is running no user code, before it continues."""
         worker.gr_context = self._context.copy()
 
     def arrive(self) -> None:
-        """Go on in a lane that was parked: its output belongs to the driving cell now."""
+        """Continue in a lane that was parked: its output now belongs to the driving cell."""
         if _cell.get() is not self._parent:
             _cell.set(self._parent)
             for outlet in self._outlets:
@@ -87,6 +87,6 @@ class CellOutput:
                     assign(self._parent)
 
     def shorten(self, error: BaseException) -> None:
-        """Let IPython show ``error`` without rosmini's frames, as it does errors of our own."""
+        """Let IPython show ``error`` without rosmini's frames, as it shows rosmini's own errors."""
         if not isinstance(error, RosminiError):
             vars(error)["_render_traceback_"] = partial(short_traceback, error)

@@ -1,4 +1,4 @@
-"""What the Master asks of nodes: calls of their slave API, for each node one after another, in a lane of its own."""
+"""The Master's notices to nodes: calls of their slave API, one after another for each node, in a separate lane."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Changes:
-    """The conditions that somebody waits for; each is evaluated whenever something changes."""
+    """Conditions that waiters wait for; each is evaluated whenever something changes."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
@@ -30,9 +30,9 @@ class Changes:
         self._check_queued = False
 
     def watch(self, condition: Callable[[], bool], waiter: Waiter) -> None:
-        """Wake ``waiter`` as soon as ``condition()`` holds.
+        """Wake ``waiter`` as soon as ``condition()`` is true.
 
-        The condition must not block: it asks only what is the node's own.
+        The condition must not block: it may use only the node's own data.
         """
         if condition():
             waiter.wake()
@@ -44,7 +44,7 @@ class Changes:
         self._watched.append((_always, waiter))
 
     def notify(self) -> None:
-        """Evaluate the conditions soon: something has changed. From any thread."""
+        """Evaluate the conditions soon, because something has changed. Safe in any thread."""
         if self._watched and not self._check_queued:
             self._check_queued = True
             self._scheduler.call_soon(self._check)
@@ -66,14 +66,14 @@ def _always() -> bool:
 
 
 LIMIT = 1_000
-"""How many notices wait for a node that hangs; then only the latest about each topic and parameter is kept."""
+"""Maximum number of notices waiting for a node that hangs; beyond it, only the latest per topic and parameter stay."""
 
 
 class Notices:
-    """Carries the Master's notices to the nodes, after the registration that caused them.
+    """Delivers the Master's notices to the nodes, after the registration that caused them.
 
-    Each node gets its own in their order; one that does not answer delays nobody else. ``call(uri, method, caller_id,
-    *arguments)`` reaches a node's slave API; ``on_error`` gets what else goes wrong. Any thread may post.
+    Each node gets its notices in order; a node that does not answer delays no other. ``call(uri, method, caller_id,
+    *arguments)`` calls a node's slave API; ``on_error`` gets all other errors. Any thread may post.
     """
 
     def __init__(
@@ -91,7 +91,7 @@ class Notices:
         self._waiting: dict[str, deque[Notice]] = {}
 
     def publisher_update(self, caller_api: str, topic: str, uris: list[str]) -> None:
-        """Tell a subscriber who publishes its topic now."""
+        """Send a subscriber the current publishers of its topic."""
         self._post(caller_api, "publisherUpdate", topic, uris)
 
     def param_update(self, caller_api: str, key: str, value: Any) -> None:
@@ -103,7 +103,7 @@ class Notices:
         self._post(caller_api, "shutdown", reason)
 
     def registrations_changed(self) -> None:
-        """Let those ask again who wait for a registration."""
+        """Evaluate the conditions that wait for a registration."""
         self._changes.notify()
 
     def _post(self, caller_api: str, method: str, *arguments: Any) -> None:
@@ -130,18 +130,18 @@ class Notices:
             try:
                 self._call(caller_api, method, "/master", *arguments)
             except TransportException:
-                pass  # the node has gone meanwhile: its registrations go with it
+                pass  # the node has gone, and its registrations with it
             except Exception as error:
                 self._on_error(error)
 
     def clear(self) -> None:
-        """Forget what waits: the graph was closed, and its lanes with it."""
+        """Drop the waiting notices: the graph was closed with its lanes."""
         with self._lock:
             self._waiting.clear()
 
 
 def _keep_latest(waiting: deque[Notice]) -> None:
-    """Drop the notices that later ones about the same thing make worthless."""
+    """Drop the notices that later ones about the same thing replace."""
     latest = {(method, arguments[0]): arguments for method, arguments in reversed(waiting)}
     waiting.clear()
     waiting.extend((method, arguments) for (method, _), arguments in reversed(latest.items()))

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class Waiting(NamedTuple):
-    """A lane that was still parked when a run ended, and what for."""
+    """A lane that was still parked when a run ended, and the reason why."""
 
     lane: str
     reason: str
@@ -23,7 +23,7 @@ class Waiting(NamedTuple):
 class RunReport(NamedTuple):
     """How a run ended: ``reason`` is "time", "condition", "drained" or "stopped"; ``now`` is the graph time in seconds.
 
-    Its text tells what was waited for only when nothing is left to happen: after a run of some seconds nodes always
+    Its text lists the parked lanes only if nothing is left to happen: after a run of some seconds nodes always
     wait.
     """
 
@@ -47,13 +47,13 @@ class RunReport(NamedTuple):
         return str(self)
 
     def _ipython_display_(self) -> None:
-        """Say nothing at the end of a notebook cell about a run that went on for as long as it was asked to."""
+        """Print the report at the end of a notebook cell, unless the run lasted as long as requested."""
         if self.reason != "time":
             print(self)
 
 
 def ended(reason: str, waiting: Iterable[Waiting]) -> GraphEnded:
-    """Return the error of who waited for ``reason`` when nothing is left to happen."""
+    """Return the error for code that waited for ``reason`` when nothing was left to happen."""
     lines = [f"waited for {reason}, but nothing is left to happen in simulated time"]
     lines += [f"  {lane}" for lane in waiting]
     lines.append("Start the node that should answer before waiting for it, or give a timeout.")

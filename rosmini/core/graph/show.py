@@ -1,7 +1,7 @@
-"""How a thing shows itself without knowing who draws: a renderer is found by name when it is needed.
+"""Displays objects without a dependency on renderers: a renderer is found by name when it is needed.
 
 Renderers are entry points of the group `rosmini.renderers` (`"computation_graph" = "rosmini.viz.rqt:rqt_graph"`), as
-executables are of `rosmini.nodes`. So no floor below `rosmini.viz` imports it, and another package can bring its own.
+executables are of `rosmini.nodes`. So no part below `rosmini.viz` imports it, and other packages can add renderers.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ GROUP = "rosmini.renderers"
 
 
 class UnknownExtension(RosminiError):
-    """No installed package says that it has what was asked for."""
+    """No installed package has registered the requested extension."""
 
 
 def find_extension(group: str, name: str) -> Any:
-    """Return what an installed package registered under a name in a group of entry points.
+    """Return the object that an installed package registered under a name in a group of entry points.
 
-    Raises `UnknownExtension` if none has.
+    Raises `UnknownExtension` if no package has.
     """
     found = entry_points(group=group)
     if name not in found.names:
@@ -37,7 +37,7 @@ def find_extension(group: str, name: str) -> Any:
 
 
 def show(kind: str, thing: object, **options: Any) -> Any:
-    """The view of a thing, made by the renderer that is registered for its kind; `options` go to that renderer.
+    """Return the view of an object from the renderer that is registered for its kind; `options` go to that renderer.
 
     Raises `UnknownExtension` if no installed package has one.
     """
@@ -45,5 +45,5 @@ def show(kind: str, thing: object, **options: Any) -> Any:
 
 
 def has_own_process(graph: Graph) -> bool:
-    """Return whether this process is but one of a graph's, in wall time, and no notebook that goes on by itself."""
+    """Return True if this process is one of several of a graph, in wall time, and not a notebook with a live graph."""
     return not (graph.simulated or graph.master.is_local or graph.is_live)
