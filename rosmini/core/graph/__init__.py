@@ -7,7 +7,7 @@ The kernel, in the order in which it is best read:
 3. who knows whom: ``master``, ``parameters``, ``master_port``, ``transport``, ``local_transport``;
 4. what users hold: ``service``, ``node``, ``graph``.
 
-The other modules serve these: the clock, log messages, the slave API, threads, Jupyter. ``observers`` watch it.
+The other modules support these: clock, log messages, slave API, threads, Jupyter. ``observers`` watch the graph.
 """
 
 from __future__ import annotations

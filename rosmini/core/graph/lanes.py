@@ -204,7 +204,7 @@ class Lane:
 
 
 class Waiter:
-    """A wait of one piece of code: woken once, with a value or an error, from any thread.
+    """One blocking wait, which any thread can end once, with a value or an error.
 
     ``wait`` works in a lane, which is parked; in the main program or a notebook cell, which drives the queue meanwhile;
     and in another thread, which sleeps while the queue is driven. In wall time, if nothing drives the queue, that

@@ -103,7 +103,7 @@ class LoopDrive(ABC):
             until_ns, lambda: time.perf_counter() > deadline or (until is not None and until())
         ).reason
 
-    # Between cells ipykernel ignores an interrupt, so it is meant for the live graph.
+    # Between cells ipykernel ignores interrupts, so they are meant for the live graph.
 
     def _catch_interrupts(self) -> None:
         if self._kernel is None:

@@ -208,7 +208,7 @@ class _Registry:
 
 
 class Master(MasterPort):
-    """A ROS Master with its Parameter Server: a pure object, to be served in process or over XML-RPC.
+    """A ROS Master with its Parameter Server: a plain object that can be served in process or over XML-RPC.
 
     Args:
         uri: the address that ``getUri`` returns.
@@ -231,7 +231,7 @@ class Master(MasterPort):
         self._subscribers = _Registry("subscriber")
         self._services = _Registry("service")
         self._param_subscribers = _Registry("parameter")
-        # The service's own address beside its node's; None until the first service is registered, as the status shows.
+        # Node and address of each service; None until the first service is registered, which shows in a status text.
         self._service_apis: dict[str, tuple[str, str]] | None = None
 
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
@@ -355,7 +355,7 @@ class Master(MasterPort):
 
     @_api(0, _subgraph)
     def getPublishedTopics(self, caller_id: str, subgraph: str) -> Triple:
-        """Return ``[topic, type]`` for each published topic in the namespace ``subgraph`` (``""``: in any)."""
+        """Return ``[topic, type]`` for each published topic in the namespace ``subgraph`` (``""``: in all)."""
         within = subgraph if subgraph.endswith("/") or not subgraph else subgraph + "/"
         topics = [
             [topic, self._topic_types[topic]]
@@ -438,7 +438,7 @@ class Master(MasterPort):
     def _register(self, registry: _Registry, key: str, caller_id: str, caller_api: str) -> None:
         known = self._nodes.get(caller_id)
         if known is None or known.api != caller_api:
-            # A node of this name at another address is a new node: the old one has to go.
+            # A node of this name at another address is a new node: the old one must shut down.
             self._nodes[caller_id] = _Registered(caller_api)
             if known is not None:
                 self._forget(caller_id)

@@ -56,10 +56,10 @@ if TYPE_CHECKING:
 
 
 TICKS_PER_REFUSAL = 100
-"""What a blocking call of a node that was shut down weighs in a loop that never blocks: raising is dear."""
+"""Ticks of a refused blocking call of a node that was shut down, in a loop that never blocks: raising is expensive."""
 
 POLL_NS = 100_000_000
-"""How often a Master in another process is asked for what may have changed there."""
+"""Interval at which a Master in another process is asked for changes [ns]."""
 
 
 class Node:
@@ -68,17 +68,17 @@ class Node:
     Args:
         name: the node's base name (``talker``), resolved in ``namespace``.
         graph: the graph; the process's default graph if not given.
-        namespace: where relative names of this node start (``__ns:=``).
+        namespace: the namespace in which relative names of this node are resolved (``__ns:=``).
         remappings: ``{"chatter": "/robot1/chatter"}``, or a :class:`~rosmini.core.names.Remappings`.
         anonymous: append a number that makes the name unique.
-        has_rosout: publish its log on ``/rosout``.
+        has_rosout: publish the node's log on ``/rosout``.
 
-    A node of the same name that already runs is shut down, as in ROS. Raises ``IllegalName``.
+    A running node of the same name is shut down, as in ROS. Raises ``IllegalName``.
 
     """
 
     default_graph: ClassVar[Callable[..., Graph]]
-    """Returns the graph of a node that is given none."""
+    """Function that returns the graph of a node for which none is given."""
 
     def __init__(
         self,
@@ -105,19 +105,19 @@ class Node:
         self.master = MasterProxy(graph, self.name, self._why_over)
         self.shutdown_reason: str | None = None
         self.is_registered = False
-        """True once the Master has heard of the node."""
+        """True once the node has registered at the Master."""
         self.on_exit: Callable[[], object] | None = None
+        """Called once, when the node has been shut down and the Master has forgotten it."""
         self.process: Any = None
-        """What runs the node and can ``kill()`` it, if anything does."""
+        """The object that runs the node and can ``kill()`` it, or None."""
         self.program: Any = None
         """The object behind a built-in node, such as a `Simulator`, once it is set up."""
-        """Called once, when the node has been shut down and the Master has forgotten it."""
         self.publications: dict[str, Publication] = {}
         self.subscriptions: dict[str, Subscription] = {}
         self.services = Services(self)
         self._hooks: list[Callable[[], object]] = []
         self.timers: dict[Timer, None] = {}
-        """The timers that run."""
+        """The running timers."""
         self._waiters: dict[Waiter, None] = {}
         self._connections = 0
         self.parameters = ParameterClient(self)
@@ -129,7 +129,7 @@ class Node:
         self.scheduler.on_hub(lambda: self._start(has_rosout=has_rosout))
 
     def _start(self, *, has_rosout: bool) -> None:
-        """Register: the Master hears of the node by its first registration, that of ``/rosout`` if it has that."""
+        """Register: the Master learns of the node by its first registration, that of ``/rosout`` if the node has it."""
         graph = self.graph
         self.uri = graph.transport.attach(self)
         log_file = graph.add_node(self)
@@ -140,7 +140,7 @@ class Node:
             self.master.insist("setParam", name, value, warn=self.logerr)
         if has_rosout:
             publication = Publication(self, "/rosout", graph.log_class)
-            publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
+            publication.latch = True  # as in rospy: later listeners also get the last message
             self._publish(publication)
         for service, service_class, handler in logger_services(self.logger):
             self.service(service, service_class, handler)
@@ -172,10 +172,10 @@ class Node:
     ) -> Publisher:
         """Publish ``message_class`` on ``topic``.
 
-        ``queue_size`` bounds what waits for one subscriber between two turns of the queue (None: no bound); ``latch``
-        gives late subscribers the last message. ``on_connect``/``on_disconnect`` are called with the other node's name.
-        ``headers`` are further fields of the connection header, for subscribers that connect from now on.
-        Raises ``TypeMismatch`` when this node publishes the topic with a type of another md5 sum.
+        ``queue_size`` limits the messages that wait for one subscriber between two turns of the queue (None: no limit);
+        ``latch`` gives late subscribers the last message. ``on_connect``/``on_disconnect`` get the other node's name.
+        ``headers`` are additional fields of the connection header for subscribers that connect from now on.
+        Raises ``TypeMismatch`` if this node publishes the topic with a type of another md5 sum.
         """
         return self.scheduler.on_hub(
             lambda: self._publisher(
@@ -211,7 +211,7 @@ class Node:
     def _publish(self, publication: Publication) -> None:
         topic = publication.topic
         self.publications[topic] = publication
-        self.slave.topics_changed()  # subscribers may ask before the Master's answer is here
+        self.slave.topics_changed()  # subscribers may ask before the Master has answered
         try:
             self.master.register(
                 "registerPublisher", topic, publication.message_class._type, self.uri, warn=self.logerr
@@ -238,19 +238,19 @@ class Node:
     ) -> Subscriber:
         """Call ``callback(message, *arguments)`` for each message on ``topic``.
 
-        ``queue_size`` bounds what waits while a callback blocks (None: no bound; the oldest are dropped). ``numpy``
-        gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both: see
-        ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once.
-        ``skip_own_mismatch``: that this node itself publishes the topic with another type is meant to be so, as it is
-        for roscpp. All subscribers of this node to one topic get the same object, of the kind that the first asked for.
-        Raises ``TypeMismatch`` for a type with another md5 sum than that of the first.
+        ``queue_size`` limits the messages that wait while a callback blocks (None: no limit; the oldest are dropped).
+        ``numpy`` gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both:
+        see ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once.
+        ``skip_own_mismatch`` allows this node itself to publish the topic with another type, as roscpp
+        does. All subscribers of this node to one topic get the same object, in the form that the first one asked for.
+        Raises ``TypeMismatch`` for a type whose md5 sum differs from that of the first subscriber.
         """
 
         def make() -> Subscriber:
             name = self.resolve(topic)
             self.require_running(f"subscribe to {name}")
             statistics = TopicStatistics(self, name) if are_wanted(self, name) else None
-            if self._stopped:  # while it waited for the Master
+            if self._stopped:  # shut down while it waited for the Master
                 raise ROSInterruptException(self._shutdown_message())
             subscription = self.subscriptions.get(name)
             fresh = subscription is None
@@ -292,12 +292,12 @@ class Node:
             del self.subscriptions[topic]
             self.slave.topics_changed()
             raise
-        # What the Master has told since is newer than its answer, and by now the topic may have been left.
+        # Updates from the Master since then are newer than this answer, and the node may have left the topic by now.
         if subscription.updates == before and self.subscriptions.get(topic) is subscription:
             subscription.update_publishers(uris)
 
     def publishers_changed(self, topic: str, uris: list[str]) -> None:
-        """Learn from the Master who publishes a topic now."""
+        """Called when the Master reports the current publishers of a topic."""
         subscription = self.subscriptions.get(topic)
         if subscription is not None:
             subscription.update_publishers(uris)
@@ -353,9 +353,9 @@ class Node:
         numpy: bool = True,
         headers: Header | None = None,
     ) -> ServiceClient:
-        """Return what calls a service, whether it is there yet or not.
+        """Return a client that calls a service; the service need not exist yet.
 
-        ``headers`` are further fields of the connection header.
+        ``headers`` are additional fields of the connection header.
         """
         return ServiceClient(
             self,
@@ -367,7 +367,7 @@ class Node:
         )
 
     def wait_for_service(self, name: str, timeout: float | None = None) -> None:
-        """Block until a node offers the service, and answers. Raises ``ROSException`` after ``timeout`` seconds."""
+        """Block until a node offers the service and answers. Raises ``ROSException`` after ``timeout`` seconds."""
         self.services.wait_for(name, timeout)
 
     # -- parameters ----------------------------------------------------------------------------------------------
@@ -383,7 +383,7 @@ class Node:
         return self.parameters.get(name, default, expect=expect)
 
     def set_param(self, name: str, value: Any) -> None:
-        """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
+        """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` if ROS cannot store the value."""
         self.parameters.set(name, value)
 
     def has_param(self, name: str) -> bool:
@@ -395,7 +395,7 @@ class Node:
         self.parameters.delete(name)
 
     def search_param(self, name: str) -> str | None:
-        """Return the full name of the nearest parameter upwards from the node's own namespace, or None."""
+        """Return the full name of the nearest parameter, searching upwards from the node's namespace, or None."""
         return self.parameters.search(name)
 
     def param_names(self) -> list[str]:
@@ -403,21 +403,21 @@ class Node:
         return self.parameters.names()
 
     def on_param(self, name: str, callback: Callable[[Any], object]) -> Any:
-        """Call ``callback(value)`` when a parameter changes, and return its present value: `ParameterClient.watch`."""
+        """Call ``callback(value)`` when a parameter changes; return its current value. See `ParameterClient.watch`."""
         return self.parameters.watch(name, callback)
 
     def off_param(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
-        """Undo :meth:`on_param`, for one callback or for all. Raises ``ParameterError`` if there is none."""
+        """Undo :meth:`on_param`, for one callback or all. Raises ``ParameterError`` if no such callback exists."""
         self.parameters.unwatch(name, callback)
 
     # -- names ---------------------------------------------------------------------------------------------------
 
     def resolve(self, name: str) -> str:
-        """Return the global name that ``name`` means here: namespace, private names and remappings applied."""
+        """Return the global name of ``name``, resolved by the node's namespace, private names and remappings."""
         return resolve(name, self.namespace, self.name, self.remappings)
 
     def resolve_parameter(self, name: str) -> str:
-        """Return the global name that a parameter's ``name`` means here; as in rospy its characters are not checked."""
+        """Return the global name of a parameter's ``name``; as in rospy its characters are not checked."""
         return resolve(name, self.namespace, self.name, self.remappings, what="parameter name", check=False)
 
     # -- log messages --------------------------------------------------------------------------------------------
@@ -449,9 +449,9 @@ class Node:
         return Time.from_nsec(self.clock.now_ns())
 
     def sleep(self, duration: float | Duration) -> None:
-        """Block for seconds of the node's time; for zero or less, only let the others have their turn.
+        """Block for seconds of the node's time; for zero or less, only let other lanes run.
 
-        Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when its
+        Raises ``ROSInterruptException`` if the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` if its
         clock jumps back.
         """
         self.sleep_ns(duration.to_nsec() if isinstance(duration, Duration) else int(duration * 1e9))
@@ -459,7 +459,7 @@ class Node:
     def sleep_ns(self, span: int) -> None:
         """Block for nanoseconds of the node's time; see :meth:`sleep`."""
         if span <= 0 and not self._stopped:
-            self.scheduler.give_way()  # a loop that cannot keep its rate must not keep the others waiting
+            self.scheduler.give_way()  # a loop that cannot keep its rate must not block the other lanes
         if self._stopped:
             self._refuse_to_block()
         if span <= 0:
@@ -492,9 +492,9 @@ class Node:
     # -- blocking ------------------------------------------------------------------------------------------------
 
     def waiter(self, reason: str, *, remote: bool = False) -> Waiter:
-        """Return something to wait for; ``reason`` completes "... was waiting for".
+        """Return a new waiter; ``reason`` completes "... was waiting for".
 
-        ``remote``: what wakes it comes from another process.
+        ``remote``: True if another process will wake it.
         """
         return self.scheduler.waiter(reason, remote=remote)
 
@@ -507,7 +507,7 @@ class Node:
     ) -> bool:
         """Block until ``waiter`` is woken (True) or ``timeout`` seconds have passed (False).
 
-        Raises ``ROSInterruptException`` when the node shuts down meanwhile.
+        Raises ``ROSInterruptException`` if the node shuts down meanwhile.
         """
         if self._stopped:
             self._refuse_to_block()
@@ -520,14 +520,14 @@ class Node:
             self._waiters.pop(waiter, None)
 
     def _refuse_to_block(self) -> NoReturn:
-        """Raise ``ROSInterruptException``; a loop that takes no notice of it lets the others have their turn."""
+        """Raise ``ROSInterruptException``; a loop that ignores it still lets other lanes run."""
         self.scheduler.tick(TICKS_PER_REFUSAL)
         raise ROSInterruptException(self._shutdown_message())
 
     def wait_until(
         self, condition: Callable[[], bool], timeout: float | None, reason: str, failure: Callable[[], str]
     ) -> None:
-        """Block until ``condition()`` holds: something of this node's own, such as its connections. It must not block.
+        """Block until ``condition()`` is true. It may use only this node's own data, and must not block.
 
         Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
         """
@@ -550,9 +550,9 @@ class Node:
         failure: Callable[[], str],
         look_again: Callable[[], bool] = lambda: False,
     ) -> None:
-        """Block until ``is_so()``, which asks the Master, returns True: it is called again and again.
+        """Block until ``is_so()``, which asks the Master, returns True.
 
-        After each change at the Master, and now and then if the Master is in another process or while ``look_again()``.
+        It is called after each change there, and periodically if the Master is elsewhere or while ``look_again()``.
 
         Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
         """
@@ -562,7 +562,7 @@ class Node:
             waiter = self.waiter(reason)
             scheduler.on_hub(
                 partial(self.graph.changes.next, waiter)
-            )  # before the question: no change is missed
+            )  # before the call, so that no change is missed
             try:
                 if self._is_answered(is_so):
                     return
@@ -579,10 +579,10 @@ class Node:
         try:
             return is_so()
         except MasterUnreachable:
-            return False  # it may come back: rospy keeps trying, too
+            return False  # it may come back; rospy also keeps trying
 
     def spin(self) -> None:
-        """Block until the node is shut down; callbacks go on meanwhile."""
+        """Block until the node is shut down; callbacks continue to run."""
         if not self._stopped:
             waiter = self.waiter("spin")
             self._waiters[waiter] = None
@@ -603,11 +603,11 @@ class Node:
         return lane
 
     def run(self, task: Callable[[], object], name: str | None = None) -> Lane:
-        """Run ``task`` as this node's main program: it may sleep, wait and call services while the graph goes on."""
+        """Run ``task`` as this node's main program: it may sleep, wait and call services while the graph continues."""
         return self.spawn(name or f"{self.name} {getattr(task, '__name__', 'task')}", task)
 
     def guarded(self, callback: Callable[..., object], *arguments: Any, what: str) -> None:
-        """Call a user's callback; an error is reported and goes no further."""
+        """Call a user's callback; report an exception and do not pass it on."""
         try:
             callback(*arguments)
         except Exception as error:
@@ -622,7 +622,7 @@ class Node:
         *,
         service: bool = False,
     ) -> None:
-        """Report what a callback raised, with the user's own frame, where it came from, and the message."""
+        """Report an exception of a callback, with the user's own frame, its place, and the message."""
         if self._is_by_shutdown(error):
             return
         problem = describe_failure(error, callback, where, message, self.name)
@@ -633,7 +633,7 @@ class Node:
             self.graph.report(error, self)
 
     def _is_by_shutdown(self, error: BaseException) -> bool:
-        """Return whether an error only says that the node, or the whole graph with the servers in it, ends."""
+        """Return True if an error only means that the node, or the whole graph with its servers, is shutting down."""
         if isinstance(error, ServiceException):
             return self.graph.closing
         return self._stopped and isinstance(error, ROSInterruptException)
@@ -641,7 +641,7 @@ class Node:
     # -- what runs by itself -------------------------------------------------------------------------------------
 
     def rate(self, hz: float, *, reset: bool = False) -> Rate:
-        """Return what keeps a loop at ``hz`` turns a second."""
+        """Return a ``Rate``, which keeps a loop at ``hz`` cycles per second."""
         return Rate(self, hz, reset=reset)
 
     def timer(
@@ -665,21 +665,21 @@ class Node:
     def shutdown(self, reason: str = "", *, hooks: bool = True) -> None:
         """Shut the node down: hooks, then blocked calls, then connections and registrations. Harmless when repeated.
 
-        Without ``hooks`` none is called, and one that is running is not waited for.
+        Without ``hooks``, none is called, and a running hook is not waited for.
         """
         self.scheduler.on_hub(lambda: self._shutdown(reason, hooks=hooks))
 
     def vanish(self) -> None:
-        """End as a process does that is killed: no hook runs, and the Master is told nothing."""
+        """End like a killed process: no hook runs, and the Master is not notified."""
         self.master.is_mute = True
         if self.process is not None:
             self.scheduler.on_hub(self.process.kill)
         self.shutdown("it was killed", hooks=False)
 
     def shutdown_requested(self, caller: str, reason: str) -> None:
-        """Learn by the slave API that the node is to end; it does so in a lane of its own.
+        """Shut down in a separate lane, as requested through the slave API.
 
-        The Master's word for the older of two nodes with another name was sent to one that had this address before.
+        A notice about two nodes with another name is ignored: it was meant for a node that had this address before.
         """
         is_replaced = caller == "/master" and "same name" in reason
         if is_replaced and reason.startswith("[/") and not reason.startswith(f"[{self.name}]"):
@@ -698,7 +698,7 @@ class Node:
             return
         self.shutdown_reason = self.shutdown_reason or reason
         problem = self._run_hooks() if hooks else None
-        if self._stopped:  # it was ended while a hook was running
+        if self._stopped:  # it was shut down while a hook was running
             return
         self._stopped = True
         graph = self.graph
@@ -715,7 +715,7 @@ class Node:
         self.slave.end()
         for publication in publications:
             publication.end()
-        for server in servers:  # the Master last: it may take its time
+        for server in servers:  # the Master last, because it may take time
             server.shutdown(reason)
         for subscription in subscriptions:
             self.master.unregister("unregisterSubscriber", subscription.topic, self.uri, warn=self.logwarn)
@@ -732,7 +732,7 @@ class Node:
             raise problem
 
     def _run_hooks(self) -> CallbackError | None:
-        """Run the shutdown hooks, all of them; return the first error that is to be raised here."""
+        """Run all shutdown hooks; return the first error that must be raised here."""
         problem = None
         for hook in self._hooks:
             try:
@@ -742,7 +742,7 @@ class Node:
         return problem
 
     def is_shutdown(self) -> bool:
-        """Tell whether the node has been shut down."""
+        """Return True if the node has been shut down."""
         return self._stopped
 
     def _why_over(self) -> str | None:
@@ -754,7 +754,7 @@ class Node:
         )
 
     def require_running(self, what: str) -> None:
-        """Raise ``ROSException`` if the node has been shut down: it cannot do ``what`` any more."""
+        """Raise ``ROSException`` if the node has been shut down and can no longer do ``what``."""
         if self.shutdown_reason is not None:
             msg = f"{self._shutdown_message()}; it cannot {what} any more. Make a new node."
             raise ROSException(msg)
@@ -762,11 +762,11 @@ class Node:
     # -- called across the transport seam ------------------------------------------------------------------------
 
     def slave_call(self, method: str, *arguments: Any) -> Triple:
-        """Answer the slave API."""
+        """Answer a call of the slave API."""
         return self.slave.call(method, *arguments)
 
     def accept_subscriber(self, header: Header, sender: Sender) -> Header:
-        """Take a subscriber's connection."""
+        """Accept a subscriber's connection."""
         publication = None if self._stopped else self.publications.get(header.get("topic", ""))
         if publication is None:
             raise TransportInitError(
@@ -776,7 +776,7 @@ class Node:
         return publication.accept(header, sender)
 
     def accept_client(self, header: Header) -> Session:
-        """Take a service client's connection."""
+        """Accept a service client's connection."""
         return self.services.accept(header)
 
     def next_connection_id(self) -> int:
@@ -785,6 +785,6 @@ class Node:
         return self._connections
 
     def connections_changed(self) -> None:
-        """Learn that a connection opened or closed."""
+        """Called when a connection has opened or closed."""
         self.slave.connections_changed()
         self.graph.changes.notify()

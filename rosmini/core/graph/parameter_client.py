@@ -1,4 +1,4 @@
-"""Parameters as a node sees them (http://wiki.ros.org/Parameter%20Server)."""
+"""A node's view of parameters (http://wiki.ros.org/Parameter%20Server)."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     from .node import Node
 
 UNSET: Any = object()
-"""Stands for a default that was not given."""
+"""Marks a default that was not given."""
 
 
 def check_value(name: str, value: Any) -> Any:
-    """Return ``value`` as the Parameter Server can hold it.
+    """Return ``value`` in a form that the Parameter Server can store.
 
     Raises ``ParameterError``, which says where the value is wrong.
     """
@@ -77,9 +77,9 @@ def check_value(name: str, value: Any) -> Any:
 
 
 def expected(name: str, value: Any, kinds: tuple[type, ...], wanted: str = "") -> Any:
-    """Return a parameter's ``value`` if it is of one of these types; an int is welcome where a float is expected.
+    """Return a parameter's ``value`` if it has one of these types; an int is accepted for a float.
 
-    Raises ``ParameterError``, which says what is ``wanted`` (the types by default).
+    Raises ``ParameterError``, which names the ``wanted`` value (by default the types).
     """
     if float in kinds and isinstance(value, int) and not isinstance(value, bool):
         return float(value)
@@ -98,7 +98,7 @@ def expected(name: str, value: Any, kinds: tuple[type, ...], wanted: str = "") -
 
 
 def _is_in(name: str, tree: str) -> bool:
-    """Return whether a canonical name is ``tree`` or is inside it."""
+    """Return True if a canonical name is ``tree`` or is inside it."""
     return name == tree or name.startswith(tree.rstrip("/") + "/")
 
 
@@ -117,8 +117,8 @@ class ParameterClient:
     def get(self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
         """Return a parameter's value, or ``default`` if it is not set.
 
-        With ``expect`` a value of another type is an error (an int is welcome where a float is expected). Raises
-        ``ParameterNotSet``, which names parameters with a similar name and other namespaces that have this one.
+        With ``expect`` a value of another type is an error (an int is accepted for a float). Raises
+        ``ParameterNotSet``, which names similar parameters and other namespaces that contain this one.
         """
         resolved = self._node.resolve_parameter(name)
         code, _, value = self._node.master.call("getParam", resolved)
@@ -143,7 +143,7 @@ class ParameterClient:
         return f"{text}. {hint or 'Set it first, or give a default.'}"
 
     def set(self, name: str, value: Any) -> None:
-        """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
+        """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` if ROS cannot store the value."""
         resolved = self._node.resolve_parameter(name)
         code, status, _ = self._node.master.call("setParam", resolved, check_value(resolved, value))
         if code != 1:
@@ -151,7 +151,7 @@ class ParameterClient:
         self._note()
 
     def has(self, name: str) -> bool:
-        """Tell whether a parameter, or a tree of them, is set."""
+        """Return True if a parameter, or a tree of them, is set."""
         return bool(self._node.master.ask("hasParam", self._node.resolve_parameter(name)))
 
     def delete(self, name: str) -> None:
@@ -162,7 +162,7 @@ class ParameterClient:
         self._note()
 
     def search(self, name: str) -> str | None:
-        """Return the full name of the nearest parameter upwards from the node's own namespace, or None."""
+        """Return the full name of the nearest parameter, searching upwards from the node's namespace, or None."""
         found: str | None = self._node.master.find("searchParam", name)
         return found
 
@@ -171,10 +171,10 @@ class ParameterClient:
         return sorted(self._node.master.ask("getParamNames"))
 
     def watch(self, name: str, callback: Callable[[Any], object]) -> Any:
-        """Call ``callback(value)`` when a parameter, or anything in a tree of them, changes; return its value now.
+        """Call ``callback(value)`` when a parameter, or anything in a tree of them, changes; return its current value.
 
-        ``{}`` stands for a parameter that is not set, or not any more, as in ROS. The node does not hear of what it
-        sets itself, and to set a parameter to the value that it has is no change.
+        ``{}`` means that the parameter is not set, as in ROS. The node is not notified of values that it sets
+        itself, and setting a parameter to its current value is not a change.
         Raises ``ROSException`` if the Master refuses.
         """
         resolved = self._node.resolve_parameter(name)
@@ -196,7 +196,7 @@ class ParameterClient:
     def unwatch(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
         """Undo :meth:`watch`: for one callback, or for all of a parameter.
 
-        Raises ``ParameterError`` if there is none.
+        Raises ``ParameterError`` if no such callback exists.
         """
         resolved = canonicalize(self._node.resolve_parameter(name))
         callbacks = self._callbacks.get(resolved, [])
@@ -220,14 +220,14 @@ class ParameterClient:
         return list(self._callbacks)
 
     def watches(self, key: str) -> bool:
-        """Return whether :meth:`watch` was called for this parameter or for a namespace that contains it."""
+        """Return True if :meth:`watch` was called for this parameter or for a namespace that contains it."""
         return any(_is_in(canonicalize(key), name) for name in self.watched)
 
     def changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - what the Master says
-        """Learn from the Master that a parameter has changed to which this node subscribes.
+        """Called when the Master reports a change of a parameter to which this node subscribes.
 
-        The Master calls once for each subscription, so that one change may be told several times; and by now the value
-        may be another.
+        The Master calls once for each subscription, so one change may be reported several times, and the value may have
+        changed again since then.
         """
         if self._lane is None:
             self._lane = self._node.spawn(f"{self._node.name} parameters")
@@ -250,7 +250,7 @@ class ParameterClient:
         return value if code == 1 else {}
 
     def _note(self) -> None:
-        """Take what this node has just set as told: the Master spares it an echo."""
+        """Treat the values that this node has just set as reported, because the Master does not report them to it."""
         for name in list(self._callbacks):
             self._told[name] = self._value_now(name)
 
@@ -261,6 +261,6 @@ class ParameterClient:
         )
 
     def _leave(self) -> None:
-        """Leave no subscription at the Master when the node ends."""
+        """Take back all subscriptions at the Master when the node ends."""
         for name in list(self._callbacks):
             self.unwatch(name)

@@ -12,20 +12,20 @@ __all__ = ["ParameterTree", "Update", "wire_copy"]
 
 Tree = dict[str, Any]
 Update = tuple[str, str, Any]
-"""Whose subscription is concerned, and the key and value to send to the subscribers."""
+"""The subscribed key, and the key and value to send to its subscribers."""
 
 
 class ParameterTree:
-    """Parameters by global name; a namespace is a dictionary.
+    """The parameters by global name; a namespace is a dictionary.
 
-    Keys must be resolved names. Values go in and come out as copies.
+    Keys must be resolved names. Values are copied when they are set and when they are returned.
     """
 
     def __init__(self) -> None:
         self._root: Tree = {}
 
     def set(self, key: str, value: Any) -> None:
-        """Set a value; a dictionary replaces the whole namespace. Raises ``ParameterError`` if ROS cannot hold it."""
+        """Set a value; a dictionary replaces the whole namespace. Raises ``ParameterError`` if ROS cannot store it."""
         value = wire_copy(value, key)
         if not _parts(key):
             if type(value) is not dict:
@@ -35,18 +35,18 @@ class ParameterTree:
         *path, last = _parts(key)
         tree = self._root
         for part in path:
-            # A value in the way gives place to a namespace.
+            # A namespace replaces a value that is in its place.
             if type(tree.get(part)) is not dict:
                 tree[part] = {}
             tree = tree[part]
         tree[last] = value
 
     def get(self, key: str) -> Any:
-        """Return a value, or a namespace as a dictionary. Raises ``KeyError`` if there is none."""
+        """Return a value, or a namespace as a dictionary. Raises ``KeyError`` if the key is not set."""
         return wire_copy(self._find(_parts(key)), key)
 
     def delete(self, key: str) -> None:
-        """Delete a value or a namespace. Raises ``KeyError`` if there is none, and for the root."""
+        """Delete a value or a namespace. Raises ``KeyError`` if the key is not set or is the root."""
         if not _parts(key):
             raise KeyError(key)
         *path, last = _parts(key)
@@ -69,8 +69,8 @@ class ParameterTree:
     def search(self, ns: str, key: str) -> str | None:
         """Return the nearest match for ``key``, going up from the namespace ``ns``, or None.
 
-        Only the first part of ``key`` is looked for. Raises ``ValueError`` for a private key or a namespace that is not
-        global.
+        Only the first part of ``key`` is searched for. Raises ``ValueError`` for a private key or a namespace that is
+        not global.
         """
         if is_private(key):
             raise ValueError("invalid key")
@@ -98,10 +98,10 @@ class ParameterTree:
 
 
 def updates(subscribed: list[str], key: str, value: Any) -> list[Update]:
-    """Return which of the ``subscribed`` keys (all with a closing slash) concern a change of ``key`` to ``value``.
+    """Return the updates for those of the ``subscribed`` keys that a change of ``key`` to ``value`` affects.
 
-    A subscription to a namespace hears of every change within it. A subscription below ``key`` hears its own part of
-    the new value, or ``{}`` (ROS's "deleted") if that has none.
+    A subscription to a namespace gets every change within it. A subscription below ``key`` gets its own part of
+    the new value, or ``{}`` (ROS's "deleted") if the value does not contain that part.
     """
     changed = closed(key)
     parts = _subtrees(changed, value) if type(value) is dict else None
@@ -117,7 +117,7 @@ def updates(subscribed: list[str], key: str, value: Any) -> list[Update]:
 
 
 def closed(key: str) -> str:
-    """Return ``key`` with a closing slash, so that ``/a/`` begins ``/a/b/`` and does not begin ``/ab/``."""
+    """Return ``key`` with a closing slash, so that ``/a/`` is a prefix of ``/a/b/`` but not of ``/ab/``."""
     return key if key == "/" else canonicalize(key) + "/"
 
 
@@ -125,7 +125,7 @@ def wire_copy(value: Any, key: str = "") -> Any:
     """Return a copy of ``value`` as XML-RPC would deliver it: tuples become lists.
 
     ROS parameters are bool, int (32 bits), float, str, bytes, datetime, lists, and dictionaries with str keys. Raises
-    ``ParameterError``, which names the place (``/robot/sizes[2]``), for anything else.
+    ``ParameterError``, which names the place (``/robot/sizes[2]``), on other types.
     """
     kind = type(value)
     if kind in (bool, float, str, bytes, datetime):
@@ -165,7 +165,7 @@ def _leaves(key: str, tree: Tree) -> list[str]:
 
 
 def _subtrees(key: str, tree: Tree) -> Tree:
-    """Everything below ``key``, by names with a closing slash."""
+    """Return everything below ``key``, by names with a closing slash."""
     found: Tree = {}
     for name, value in tree.items():
         full = join(key, name) + "/"

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from .transport import Header, Sender
 
 _NOTHING: Any = object()
-"""Stands for an argument that was not given."""
+"""Marks an argument that was not given."""
 
 
 def _packet(frozen: Any) -> bytes:
@@ -35,12 +35,12 @@ def _packet(frozen: Any) -> bytes:
 
 
 class MessageFactory:
-    """A message that is made only when somebody gets it: ``publish(MessageFactory(make))`` sends ``make()``.
+    """A message that is made only if it has a receiver: ``publish(MessageFactory(make))`` sends ``make()``.
 
-    For large or frequent messages that mostly nobody hears: a latching publisher makes its last one when a subscriber
-    comes. What ``make`` uses must not change afterwards. With ``is_frozen`` the result comes from a
-    :func:`rosmini.msgs.template`: nobody else holds it, and no snapshot of it is taken. With ``keeps_number`` its
-    header keeps the sequence number, as is right for what another node published first.
+    For large or frequent messages that usually have no subscriber: a latching publisher makes its last one when a
+    subscriber connects. The data that ``make`` uses must not change afterwards. With ``is_frozen`` the result comes
+    from a :func:`rosmini.msgs.template`: no other code holds it, and it is not copied. With ``keeps_number`` its
+    header keeps the sequence number, as is right for a message that another node published first.
     """
 
     __slots__ = ("is_frozen", "keeps_number", "make")
@@ -73,13 +73,13 @@ class Publication:
         self._wires: tuple[Sender, ...] = ()
         self._header: Header | None = None
         self._only: QueuedSender | None = None
-        """The only connection, if it is in this process and there is nothing to do but to send: the usual case."""
+        """The only connection, if it is in this process and there is nothing to do but send: the usual case."""
         self._latched: Any = None
-        """The last message, frozen, or a `MessageFactory` that has not been asked for it yet."""
+        """The last message, frozen, or a `MessageFactory` that has not made it yet."""
         self.warns_unheard = True
-        """True until it has warned that it publishes while nobody is connected."""
+        """True until the warning about publishing without connections has been logged."""
         self.how_to_wait = "call wait_for_subscribers() first"
-        """What that warning advises."""
+        """The advice in that warning."""
         self._has_header = bool(message_class._has_header)
         header: Any = message_class._nested.get("std_msgs/Header") if self._has_header else None
         self._header_class = header
@@ -129,18 +129,18 @@ class Publication:
         return message if factory.is_frozen else self._freeze(message)
 
     def _number(self, message: Any) -> None:
-        """Fill in the number of a header, and the frame if it was never set, as rospy does."""
+        """Set the number of a header, and the frame if it was never set, as rospy does."""
         header = message.header
         if header.frame_id is None:
             header.frame_id = "0"
-        if self.senders:  # rospy numbers only messages that somebody gets
+        if self.senders:  # rospy numbers only messages that have a receiver
             if type(header) is self._header_class:
                 self._set_number(header, self._next_number())
             else:
                 header.seq = self._next_number()
 
     def connections_changed(self) -> None:
-        """Learn of a new or closed connection, or that a recording has begun or ended."""
+        """Called when a connection was added or closed, or when a recording has begun or ended."""
         senders = self.senders.values()
         self._local = tuple(sender for sender in senders if isinstance(sender, QueuedSender))
         self._wires = tuple(sender for sender in senders if not isinstance(sender, QueuedSender))
@@ -151,7 +151,7 @@ class Publication:
         self._header = None if self._only is None else self._only.header
 
     def _hand_out(self, frozen: Any, to: str) -> None:
-        """Give a frozen message to the connections. In the scheduler's thread."""
+        """Give a frozen message to the connections. Runs in the scheduler's thread."""
         history = self._scheduler.history
         if history is not None:
             history.published(self.node.name, self.topic, frozen)
@@ -163,7 +163,7 @@ class Publication:
             self._latched = self._copy(frozen)
         size = self.queue_size
         if self._wires:
-            packet = _packet(frozen)  # encoded once for all of them
+            packet = _packet(frozen)  # encoded once for all wires
             for wire in self._wires:
                 wire.send(packet, size)
         local = self._local
@@ -183,7 +183,7 @@ class Publication:
             sender.send(_packet(frozen), size)
 
     def _copy(self, frozen: Any) -> Any:
-        """Return a copy of a frozen message for one receiver, who may write into its arrays."""
+        """Return a copy of a frozen message for one receiver, which may write to its arrays."""
         if self._thaw_numpy is None:
             return frozen
         copy = self._thaw_numpy(frozen)
@@ -201,7 +201,7 @@ class Publication:
         )
 
     def _warn_dropped(self, sender: Sender) -> None:
-        """Say, once for each connection, that messages are dropped."""
+        """Warn, once for each connection, that messages are dropped."""
         if self.topic in ("/rosout", "/rosout_agg"):
             return
         size = self.queue_size
@@ -212,9 +212,9 @@ class Publication:
         )
 
     def accept(self, header: Header, sender: Sender) -> Header:
-        """Take a subscriber's connection.
+        """Accept a subscriber's connection.
 
-        Raises ``TransportInitError`` for another md5 sum: the type's name does not matter, as in ROS.
+        Raises ``TransportInitError`` if the md5 sums differ: the type's name does not matter, as in ROS.
         """
         cls = self.message_class
         wanted = header.get("md5sum")
@@ -248,7 +248,7 @@ class Publication:
         return mine
 
     def add(self, sender: Sender) -> None:
-        """Add a connection and send it what is latched."""
+        """Add a connection and send it the latched message."""
         if type(self._latched) is MessageFactory:
             self._latched = self._made(self._latched)
         number = self.node.next_connection_id()
@@ -269,7 +269,7 @@ class Publication:
             handle.connected(sender.destination)
 
     def remove(self, number: int) -> None:
-        """Forget a connection that its subscriber closed."""
+        """Remove a connection that its subscriber has closed."""
         sender = self.senders.pop(number, None)
         if sender is not None:
             self.connections_changed()
@@ -278,7 +278,7 @@ class Publication:
                 handle.disconnected(sender.destination)
 
     def end(self) -> None:
-        """Close because the node shuts down: the handles publish no more."""
+        """Close because the node shuts down: the handles publish no more messages."""
         for handle in self.handles:
             handle.detach()
         self.close()
@@ -321,7 +321,7 @@ class Publisher(TopicHandle):
         """Publish a message, or the message made from the given field values.
 
         Later changes to the message do not change what was sent. A :class:`MessageFactory` makes its message only if
-        somebody gets it. Raises ``ROSException`` after :meth:`unregister` or the node's shutdown, ``TypeError`` for a
+        it has a receiver. Raises ``ROSException`` after :meth:`unregister` or the node's shutdown, ``TypeError`` for a
         message of another type, and ``SerializationError`` for a field of the wrong type.
         """
         publication = self._publication
@@ -333,19 +333,19 @@ class Publisher(TopicHandle):
             publication.send(self._build(() if message is _NOTHING else (message, *args), fields))
 
     def expect_nobody(self) -> None:
-        """Do not warn of messages that are published while nobody is connected."""
+        """Do not warn of messages that are published without connections."""
         if self._publication is not None:
             self._publication.warns_unheard = False
 
     def advise(self, how_to_wait: str) -> None:
-        """Say so, in the words of another API, in the warning of a message that nobody gets."""
+        """Set the advice, in terms of another API, for the warning about a message without receivers."""
         if self._publication is not None:
             self._publication.how_to_wait = how_to_wait
 
     def publish_to(self, destination: str, message: Any) -> None:
-        """Publish ``message`` to one connected node only; harmless when that has gone.
+        """Publish ``message`` to one connected node only; harmless if that node has gone.
 
-        Raises as :meth:`publish` does.
+        Raises the same exceptions as :meth:`publish`.
         """
         publication = self._publication
         if publication is None:
@@ -379,7 +379,7 @@ class Publisher(TopicHandle):
 
     @property
     def queue_size(self) -> int | None:
-        """How many messages wait for a slow connection before the oldest is dropped; None or 0: no bound."""
+        """Maximum number of messages waiting for a slow connection before one is dropped; None or 0: no limit."""
         publication = self._publication
         return None if publication is None else publication.queue_size
 
@@ -405,5 +405,5 @@ class Publisher(TopicHandle):
                 self.node.drop_publication(publication)
 
     def detach(self) -> None:
-        """Learn that the node has shut down."""
+        """Called when the node has shut down."""
         self._publication = None

@@ -26,23 +26,23 @@ LEVELS = {"DEBUG": 1, "INFO": 2, "WARN": 4, "ERROR": 8, "FATAL": 16}
 NAMES = {value: name for name, value in LEVELS.items()}
 
 INTERNAL = ("rospy", "rospy.client", "rospy.core", "rospy.init", "rospy.internal")
-"""The loggers of the client library itself, by rospy's names: they write to log files only."""
+"""The loggers of the client library itself, by rospy's names; they write only to log files."""
 
 OWN = str(Path(__file__).resolve().parents[2]) + os.sep
-"""How the names of rosmini's own source files begin."""
+"""Common prefix of the names of rosmini's own source files."""
 LOGGING = (str(Path(__file__).parent) + os.sep, str(Path(OWN, "ros", "rospy")) + os.sep)
-"""The same of those that log on behalf of others; built-in nodes are elsewhere."""
+"""Prefixes of those files that log on behalf of others; built-in nodes are elsewhere."""
 
 
 def source_of(filename: str) -> str:
-    """Return what to call a source file in a log message; a notebook's cells have random file names."""
+    """Return the name of a source file for log messages; a notebook's cells have random file names."""
     if "ipykernel" in filename or filename.startswith("<"):
         return "notebook"
     return filename
 
 
 def logger_services(logger: Logger) -> list[tuple[str, Any, Callable[[Any], Any]]]:
-    """Return name, class and handler of every node's services ``~get_loggers`` and ``~set_logger_level``."""
+    """Return name, class and handler of each node's services ``~get_loggers`` and ``~set_logger_level``."""
     logger_class = message_class("roscpp/Logger")
 
     def listing(_: Any) -> Any:
@@ -64,8 +64,8 @@ def logger_services(logger: Logger) -> list[tuple[str, Any, Callable[[Any], Any]
 class LoggerTree:
     """The loggers of a node and their levels.
 
-    ``rosout.camera.driver`` is below ``rosout.camera``, and that below ``rosout``. A logger without a level of its own
-    has that of the nearest above it; above all is a root at INFO.
+    ``rosout.camera.driver`` is below ``rosout.camera``, which is below ``rosout``. A logger whose level was not set
+    has the level of the nearest logger above it; the root above all has the level INFO.
     """
 
     def __init__(self) -> None:
@@ -73,7 +73,7 @@ class LoggerTree:
         self._known: dict[str, None] = dict.fromkeys(("rosout", *INTERNAL))
 
     def level(self, name: str) -> int:
-        """Return the level from which ``name`` logs; it is known from now on."""
+        """Return the lowest level that ``name`` logs; the logger is listed from now on."""
         if name not in self._known:
             parts = name.split(".")
             self._known.update(dict.fromkeys(".".join(parts[: n + 1]) for n in range(len(parts))))
@@ -82,30 +82,30 @@ class LoggerTree:
         return self._own.get(name, LEVELS["INFO"])
 
     def set(self, name: str, level: int) -> None:
-        """Give a logger a level of its own."""
+        """Set the level of a logger."""
         self._own[name] = level
         self.level(name)
 
     def listing(self) -> list[tuple[str, int]]:
-        """Return the name and the level of each logger that is known."""
+        """Return the name and the level of each known logger."""
         return [(name, self.level(name)) for name in self._known]
 
 
 class LogOptions(TypedDict, total=False):
-    """What a log call may be given beside its text."""
+    """The options of a log call."""
 
     throttle: float | None
-    """Log at most once in so many seconds of the node's time from this place of the program."""
+    """Log at most once in this number of seconds of the node's time from this place in the program."""
     identical: bool
-    """Log only a text that has changed; with ``throttle``, the same text again when it is due."""
+    """Log only a text that has changed; with ``throttle``, repeat the same text when it is due."""
     once: bool
-    """Log only the first time that this place of the program is reached."""
+    """Log only the first time that this place in the program is reached."""
     logger: str
-    """The logger ``rosout.<logger>``, which has a level of its own once that is set."""
+    """The logger ``rosout.<logger>``, which may have its own level."""
 
 
 class LogGates:
-    """What was logged before, by the place of the program that logs."""
+    """The earlier log calls, by their place in the program."""
 
     def __init__(self) -> None:
         self._times: dict[Hashable, int] = {}
@@ -113,7 +113,7 @@ class LogGates:
         self._seen: set[Hashable] = set()
 
     def is_due(self, where: Hashable, now_ns: int, period_ns: int) -> bool:
-        """Tell whether more than ``period_ns`` have passed since this place was due; also when time has jumped back."""
+        """Return True if more than ``period_ns`` have passed since this place was due, or if time has jumped back."""
         last = self._times.get(where)
         if last is not None and last <= now_ns <= last + period_ns:
             return False
@@ -121,23 +121,23 @@ class LogGates:
         return True
 
     def is_new(self, where: Hashable, text: str) -> bool:
-        """Tell whether this place logs another text than last time."""
+        """Return True if this place logs a different text from last time."""
         changed = self._texts.get(where) != text
         self._texts[where] = text
         return changed
 
     def is_first(self, where: Hashable) -> bool:
-        """Tell whether this place logs for the first time."""
+        """Return True if this place logs for the first time."""
         fresh = where not in self._seen
         self._seen.add(where)
         return fresh
 
 
 class Logger:
-    """One node's loggers. ``rosout`` and what is below it go to the console, to ``/rosout`` and to the log file.
+    """One node's loggers. ``rosout`` and those below it write to the console, to ``/rosout`` and to the log file.
 
-    All others go to the log file only. Before the node is on a topic its messages go to the console only. ``set_level``
-    is what the service ``~set_logger_level`` calls.
+    All others write to the log file only. Until the node publishes ``/rosout``, messages go only to the console. The
+    service ``~set_logger_level`` calls ``set_level``.
     """
 
     def __init__(self, node: Node) -> None:
@@ -145,11 +145,11 @@ class Logger:
         self.tree = LoggerTree()
         self.gates = LogGates()
         self.streams: Any = None
-        """What has the standard output and error of a built-in node, if they are its own."""
+        """The holder of a built-in node's own standard output and error, if it has them."""
         self._file: LogFile | None = None
 
     def is_enabled(self, level: int, logger: str = "rosout") -> bool:
-        """Tell whether a message of this level is logged."""
+        """Return True if a message of this level is logged."""
         return level >= self.tree.level(logger)
 
     def log(
@@ -157,7 +157,7 @@ class Logger:
     ) -> None:
         """Log ``text``; ``depth`` is the number of frames from this call up to the user's code.
 
-        Without ``is_shown`` it goes to ``/rosout`` and to the log file, and not to the console.
+        Without ``is_shown`` the text goes to ``/rosout`` and to the log file, but not to the console.
         """
         logger = logger or "rosout"
         if not self.is_enabled(level, logger):
@@ -171,7 +171,7 @@ class Logger:
         shown = _shown(now)
         if isinstance(node.clock, TopicClock):
             shown = (
-                f"{_shown(node.graph.now())}, {shown}"  # rospy's way: the wall's time, then that of /clock
+                f"{_shown(node.graph.now())}, {shown}"  # as in rospy: the wall time, then the time of /clock
             )
         if is_shown:
             self.console(level, f"[{NAMES[level]}] [{shown}]: {text}")
@@ -188,7 +188,7 @@ class Logger:
         once: bool = False,
         logger: str = "",
     ) -> None:
-        """Log for a user's call, unless one of its options holds the message back: see :class:`LogOptions`."""
+        """Log for a user's call, unless one of its options suppresses the message: see :class:`LogOptions`."""
         shown = str(text)
         is_always_logged = throttle is None and not identical and not once
         if is_always_logged or self._is_let_through(shown, throttle, identical=identical, once=once):
@@ -207,7 +207,7 @@ class Logger:
 
     @property
     def path(self) -> Path | None:
-        """The log file, if there is one."""
+        """The path of the log file, or None."""
         return None if self._file is None else self._file.path
 
     def open_file(self, path: Path) -> None:
@@ -218,7 +218,7 @@ class Logger:
         self.log(LEVELS["INFO"], f"ROS Slave URI: [{node.uri}]", logger="rospy.init")
 
     def close_file(self) -> None:
-        """Write the last line of the log file, and close it. Harmless when repeated."""
+        """Write the last line of the log file and close it. Harmless when repeated."""
         if self._file is not None:
             self.log(
                 LEVELS["INFO"], f"signal_shutdown [{self._node.shutdown_reason or ''}]", logger="rospy.core"
@@ -229,12 +229,12 @@ class Logger:
     # -- where messages go ---------------------------------------------------------------------------------------
 
     def console(self, level: int, line: str) -> None:
-        """Write a line: from WARN on to standard error, as rospy does.
+        """Write a line, to standard error for WARN and above, as rospy does.
 
-        In a notebook every line goes to standard output, unless that goes to a log.
+        In a notebook every line goes to standard output, unless that is redirected to a log.
         """
-        # A script's real thread does not see the script's streams in `sys`, which belong to whoever the graph is
-        # running; nor does a simulator's step, which is in no lane, see those of a built-in node.
+        # In a script's real thread, `sys` does not have the script's streams but those of the code that the graph is
+        # running; nor does a simulator's step, which runs in no lane, see those of a built-in node.
         own = getattr(self.streams or self._node.scheduler.current().context, "get_own", None)
         to_log = own is not None and getattr(own("stdout"), "to_log", False)
         name = "stdout" if level <= LEVELS["INFO"] or (self._node.graph.notebook and not to_log) else "stderr"
@@ -255,7 +255,7 @@ class Logger:
         return message
 
     def set_level(self, logger: str, level: str) -> None:
-        """Log only what is at ``level`` and above. Raises ``KeyError`` for an unknown level."""
+        """Log only messages at ``level`` and above. Raises ``KeyError`` for an unknown level."""
         self.tree.set(logger.removeprefix("ros."), LEVELS[level.upper()])
 
     def listing(self) -> list[tuple[str, str]]:
@@ -268,9 +268,9 @@ def _shown(when: Time) -> str:
 
 
 def function_of(frame: FrameType) -> str:
-    """Return what rospy calls the function of a frame: ``Class.method`` where there is a ``self``."""
+    """Return rospy's name of the function of a frame: ``Class.method`` if there is a ``self``."""
     code = frame.f_code
-    # Before Python 3.13 a frame whose locals were looked at holds what they were until it ends.
+    # Before Python 3.13 a frame whose locals were read keeps references to them until it ends.
     if (
         "self" not in (*code.co_varnames, *code.co_cellvars, *code.co_freevars)
         or "self" not in frame.f_locals
@@ -280,7 +280,7 @@ def function_of(frame: FrameType) -> str:
 
 
 def caller(depth: int, own: str | tuple[str, ...] = OWN) -> FrameType:
-    """Return the frame ``depth`` calls up; frames of files that begin with ``own`` only if there are no others."""
+    """Return the frame ``depth`` calls up; skip frames of files that begin with ``own``, unless there are no others."""
     nearest = frame = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
     while frame.f_code.co_filename.startswith(own):
         if frame.f_back is None:

@@ -2,12 +2,12 @@
 
 Everything that happens in a graph is an event in one queue ordered by (time, sequence number). In simulated time the
 queue jumps from event to event, as fast as the machine allows and in the same order on each run; in wall time events
-wait until they are due. Code that blocks is parked (see :mod:`rosmini.core.graph.lanes`) and the queue goes on.
+wait until they are due. Code that blocks is parked (see :mod:`rosmini.core.graph.lanes`), and the queue continues.
 
-The loop has no thread or greenlet of its own: whoever blocks hands it to a worker greenlet, which runs the events,
-calls the callbacks in place, and is itself left behind when one of them blocks. A callback that does not block
-therefore costs a function call, not a switch. The garbage collector does not see what the frames of a suspended
-greenlet refer to, so an idle worker's refer to nothing of the scheduler.
+The loop has neither a thread nor a greenlet for itself: code that blocks hands the loop to a worker greenlet, which
+runs the events, calls the callbacks directly, and is itself left parked when one of them blocks. A callback that does
+not block therefore costs a function call, not a switch. The garbage collector does not see the references in the
+frames of a suspended greenlet, so an idle worker holds no reference to the scheduler.
 """
 
 from __future__ import annotations
@@ -36,27 +36,27 @@ T = TypeVar("T")
 E = TypeVar("E", bound=BaseException)
 
 ROUNDS_PER_LOOK = 16
-"""How many rounds lanes that only wake one another may take before timers and other threads are looked after."""
+"""Number of rounds that lanes that only wake one another run before timers and other threads are checked."""
 
 TICKS_PER_YIELD = 1_000
 """Ticks, about a microsecond each, that a polling loop uses before the other lanes run."""
 
 FREE_TURNS = 100
-"""Consecutive turns of a loop, without a blocking call, in which calls of ROS cost no ticks."""
+"""Number of consecutive turns of a loop, without a blocking call, in which calls of ROS cost no ticks."""
 
 CALL_TICKS = 49
-"""Ticks of a publish, a printed line or a lookup: with the turn itself 50 us. In rospy a publish takes 85 us."""
+"""Ticks of a publish, a printed line or a lookup: 50 us with the turn itself. In rospy a publish takes 85 us."""
 
 POLLING_TICKS = 3_000_000
 """Ticks that calls of ROS use without a blocking call before the script is warned that it keeps polling."""
 
 
 class Scheduler(EventQueue):
-    """Runs lanes and timed events; see the module's text.
+    """Runs lanes and timed events; see the module's docstring.
 
     Args:
-        simulated: jump from event to event instead of waiting for the clock on the wall.
-        rate: in wall time, how many seconds of graph time pass in one second.
+        simulated: jump from event to event instead of waiting for the wall clock.
+        rate: in wall time, the seconds of graph time that pass in one second.
 
     """
 
@@ -65,11 +65,11 @@ class Scheduler(EventQueue):
         self.trace: Callable[[int, str], None] | None = None
         self.on_error: Callable[[Lane, BaseException], None] | None = None
         self.ask_driver: Callable[[Waiter], Callable[[], None]] = partial(threads.complaint, self)
-        """Finds who drives while another thread waits; what it returns is called when that takes long."""
+        """Finds a driver while another thread waits; the function that it returns is called if the wait takes long."""
         self.graph: Any = None
         """The graph that this scheduler runs, if any."""
         self.history: Any = None
-        """What records what happens in the graph, if it was asked to: a ``History``."""
+        """The ``History`` that records the events of the graph, or None."""
         self._reference = weakref.ref(self)
         self._home = self.thread
         self._owner_lock = threading.Lock()
@@ -93,19 +93,19 @@ class Scheduler(EventQueue):
     # -- who is running ------------------------------------------------------------------------------------------
 
     def current(self) -> Lane:
-        """Return the caller's lane: the main program's own when it is in none."""
+        """Return the caller's lane, or the main program's if it is in none."""
         ident = get_ident()
         return self._current if ident == self.thread else self._thread_lanes.get(ident, self.root)
 
     def adopt_thread(self, name: str, *, node: Any = None, context: LaneContext | None = None) -> Lane:
-        """Note which node and script the calling thread works for. Undo with :meth:`release_thread`."""
+        """Set the node and the script for which the calling thread works. Undo with :meth:`release_thread`."""
         lane = Lane(self, name, node=node, context=context)
         self._thread_lanes[get_ident()] = lane
         adopt_thread(self._reference)
         return lane
 
     def release_thread(self) -> None:
-        """Forget what :meth:`adopt_thread` noted for the calling thread."""
+        """Undo :meth:`adopt_thread` for the calling thread."""
         self._thread_lanes.pop(get_ident(), None)
         adopt_thread(None)
 
@@ -118,7 +118,7 @@ class Scheduler(EventQueue):
         context: LaneContext | None = None,
         on_error: Callable[[BaseException], None] | None = None,
     ) -> Lane:
-        """Make a lane, running ``task`` if given; node and context are the caller's where they are not given."""
+        """Make a lane, running ``task`` if given; by default node and context are the caller's."""
         parent = self.current()
         lane = Lane(
             self,
@@ -134,15 +134,15 @@ class Scheduler(EventQueue):
     def waiter(self, reason: str, *, remote: bool = False) -> Waiter:
         """Return a new :class:`Waiter`; ``reason`` completes "... was waiting for".
 
-        ``remote``: what wakes it comes from outside this process (see :class:`~rosmini.core.graph.lanes.RemoteWaiter`).
+        ``remote``: True if it is woken from outside this process (see :class:`~rosmini.core.graph.lanes.RemoteWaiter`).
         """
         return RemoteWaiter(self, reason) if remote else Waiter(self, reason)
 
     def on_hub(self, function: Callable[..., T], *arguments: Any) -> T:
-        """Return ``function(*arguments)``, run in the hub's thread, in a lane with the caller's node and context.
+        """Return ``function(*arguments)``, run in the scheduler's thread, in a lane with the caller's node and context.
 
-        A call from another thread goes through the inbox and waits for the answer. When nobody drives, that thread says
-        after a moment what it waits for; in wall time it borrows the hub for the length of the call instead.
+        A call from another thread goes through the inbox and waits for the answer. If no thread drives, it soon warns
+        about the wait; in wall time it instead takes over the scheduler for the duration of the call.
         """
         if get_ident() == self.thread:
             return function(*arguments)
@@ -168,7 +168,7 @@ class Scheduler(EventQueue):
         self.tick()
 
     def tick(self, weight: int = 1) -> None:
-        """Use ``weight`` ticks; now and then let the other lanes run and time go on."""
+        """Use ``weight`` ticks; from time to time, let the other lanes run and time advance."""
         self._ticks -= weight
         if self._ticks <= 0:
             self._ticks = TICKS_PER_YIELD
@@ -176,16 +176,16 @@ class Scheduler(EventQueue):
                 self._yield()
 
     def charge(self, ticks: int) -> None:
-        """Charge a loop that does not block for a call: ``ticks`` is what it takes on a real computer [us].
+        """Charge a loop that does not block for a call: ``ticks`` is its duration on a real computer [us].
 
-        Nothing yields here: the loop's next turn does.
+        This does not yield: the loop's next turn does.
         """
         if self._turns > FREE_TURNS:
             self._ticks -= ticks
             self._charged += ticks
 
     def _yield(self) -> None:
-        """Let the other lanes run. The lane goes on as one that has not blocked."""
+        """Let the other lanes run. The lane continues as one that has not blocked."""
         context, turns, charged = self._current.context, self._turns, self._charged
         if self.simulated:
             self.sleep_until(self._now + TICK_QUANTUM_NS, "its turn in a polling loop")
@@ -196,7 +196,7 @@ class Scheduler(EventQueue):
             context.keeps_polling()
 
     def give_way(self) -> None:
-        """Let everything else that is due run before the caller goes on. Does nothing in another thread."""
+        """Let everything else that is due run before the caller continues. Does nothing in another thread."""
         if self.is_hub_thread():
             waiter = Waiter(self, "its turn")
             waiter.done = waiter.queued = True
@@ -210,14 +210,14 @@ class Scheduler(EventQueue):
         return threads.in_thread(self, function) if self.is_hub_thread() else function()
 
     def take_hub(self, *, to_wait: bool = False) -> bool:
-        """Move the hub to the calling thread, which is about to drive; return False if something binds it to another.
+        """Move the scheduler to the calling thread, which is about to drive; return False if it is bound to another.
 
         ``to_wait``: the caller would drive only because it waits. In simulated time only the thread that made the graph
-        lets time pass so, while it lives: the order of events must not depend on who was faster. After such a drive
-        the hub goes back to that thread.
+        advances time in this way, while it lives: the order of events must not depend on a race. After such a drive
+        the scheduler returns to that thread.
         """
         if self._output is not None and self.is_in_main_thread():
-            return False  # the kernel's main thread may be in the middle of something, and will drive when asked to
+            return False  # the kernel's main thread may be busy, and will drive when asked to
         with self._owner_lock:
             if not self._lives(self.thread):
                 self._abandon()
@@ -241,7 +241,7 @@ class Scheduler(EventQueue):
         self.thread = ident
 
     def _abandon(self) -> None:
-        """Give up what was parked in a thread that has ended: nobody can go on with it."""
+        """Drop the code that was parked in a thread that has ended: it cannot be resumed."""
         for waiter, lane in self._parked.items():
             waiter.greenlet = None
             lane.dead = True
@@ -249,9 +249,9 @@ class Scheduler(EventQueue):
         self._root_waiter = None
 
     def park(self, waiter: Waiter) -> bool:
-        """Leave the caller parked until ``waiter`` resumes it, and run the queue meanwhile. For waiters only.
+        """Park the caller until ``waiter`` resumes it, and run the queue meanwhile. For waiters only.
 
-        Return False at once if another thread has begun to drive in this moment.
+        Return False at once if another thread has just begun to drive.
         """
         lane = self.current()
         if lane is self.root and not self._start_drive(waiter):
@@ -280,9 +280,9 @@ class Scheduler(EventQueue):
         return True
 
     def _new_worker(self) -> greenlet:
-        """Return a worker started at the call depth of the first: a greenlet counts its depth from there.
+        """Return a worker started at the call depth of the first one: a greenlet counts its depth from there.
 
-        Else each of many that block would begin where the last one stopped, and reach the limit of recursion together.
+        Otherwise each blocked worker would start where the last one stopped, and many would reach the recursion limit.
         """
         worker = Worker(work)
         worker.scheduler = self._reference
@@ -292,14 +292,14 @@ class Scheduler(EventQueue):
         return worker
 
     def _start_drive(self, waiter: Waiter) -> bool:
-        """Begin to drive for a waiter, unless that has been done; return False if another thread drives."""
+        """Start to drive for a waiter, unless already done; return False if another thread drives."""
         if self._root_waiter is waiter:
             return True
         with self._owner_lock:
             if not self.is_hub_thread():
                 if self.driven or self._parked:
                     return False
-                self._move_hub(get_ident())  # the other one only looked at something
+                self._move_hub(get_ident())  # the other thread was not driving
             self._root_waiter = waiter
         self._left = len(self.ready)
         self._interrupts.arm()
@@ -315,7 +315,7 @@ class Scheduler(EventQueue):
             self._return_hub()
 
     def _return_hub(self) -> None:
-        """Give the hub back to the thread that made the graph, unless something is parked in this one."""
+        """Give the scheduler back to the thread that made the graph, unless code is parked in this thread."""
         with self._owner_lock:
             if self.thread != self._home and not self._parked and self._lives(self._home):
                 self._move_hub(self._home)
@@ -340,7 +340,7 @@ class Scheduler(EventQueue):
             context.enter()
 
     def lane_failed(self, lane: Lane, error: BaseException) -> None:
-        """Report that a task of ``lane`` raised. For lanes only."""
+        """Report an exception of a task of ``lane``. For lanes only."""
         if isinstance(error, KeyboardInterrupt) and self._interrupts.noted:
             if lane.context is not None:
                 lane.context.cut_short()
@@ -353,7 +353,7 @@ class Scheduler(EventQueue):
             self.raise_in_driver(error)
 
     def raise_in_driver(self, error: BaseException) -> bool:
-        """Raise ``error`` at the call that drives the queue; return False when that already ends for another reason."""
+        """Raise ``error`` at the call that drives the queue; return False if that already ends for another reason."""
         waiter = self._root_waiter
         if waiter is None:
             raise self._shortened(error)
@@ -366,13 +366,13 @@ class Scheduler(EventQueue):
 
     @property
     def driven(self) -> bool:
-        """True while somebody drives the queue."""
+        """True while a thread drives the queue."""
         return self._root_waiter is not None
 
     def run(self, until_ns: int | None = None, until: Callable[[], bool] | None = None) -> RunReport:
-        """Drive the queue until graph time ``until_ns``, ``until()``, or (in simulated time) until it is empty.
+        """Drive the queue until graph time ``until_ns``, until ``until()``, or (in simulated time) until it is empty.
 
-        Only from the main program, a notebook cell, or a thread while nobody else drives.
+        Only from the main program, a notebook cell, or a thread while no other thread drives.
         """
         is_free = self.is_hub_thread() or self.take_hub()
         if is_free and self.current() is self.root and until is not None and until():
@@ -394,7 +394,7 @@ class Scheduler(EventQueue):
         return self.report(waiter.value)
 
     def _run_beside(self, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
-        """Run while another thread drives, which may be in wall time only."""
+        """Run while another thread drives, which is allowed in wall time only."""
         if not self.simulated and self.current() is self.root:
             return threads.run_beside(self, until_ns, until)
         msg = (
@@ -409,11 +409,11 @@ class Scheduler(EventQueue):
             self._root_waiter.wake("stopped")
 
     def report(self, reason: str) -> RunReport:
-        """Return how things stand at the end of a run."""
+        """Return a report of the state at the end of a run."""
         return RunReport(reason, self.now_ns() / 1e9, self.waiting())
 
     def waiting(self) -> tuple[Waiting, ...]:
-        """Return the parked lanes and what each waits for, without the driver."""
+        """Return the parked lanes, without the driver, and the reason why each waits."""
         return tuple(
             Waiting(lane.name, waiter.reason)
             for waiter, lane in self._parked.items()
@@ -437,13 +437,13 @@ class Scheduler(EventQueue):
         self._last.clear()
 
     def _end_workers(self) -> None:
-        """End the idle greenlets: the garbage collector does not see what a suspended one refers to."""
+        """End the idle greenlets: the garbage collector does not see the references of a suspended one."""
         if self._starter is not None:
             self._idle.append(self._starter)
             self._starter = None
         while self._idle:
             worker = self._idle.pop()
-            worker.parent = getcurrent()  # where it returns to when it has ended
+            worker.parent = getcurrent()  # a greenlet returns to its parent when it ends
             worker.throw()
 
     def _interruption(self) -> KeyboardInterrupt:
@@ -457,10 +457,10 @@ class Scheduler(EventQueue):
     # -- the loop ------------------------------------------------------------------------------------------------
 
     def _run_events(self) -> greenlet:
-        """Run events until parked code is to go on; return that."""
+        """Run events until parked code must continue; return that code."""
         ready, heap, simulated = self.ready, self._timed.heap, self.simulated
         nothing_came, interrupts = self._inbox.empty, self._interrupts
-        if not self._left and (self._rounds + 1) % ROUNDS_PER_LOOK:  # most who park only wait for what is due
+        if not self._left and (self._rounds + 1) % ROUNDS_PER_LOOK:  # most waiters need only due events
             self._rounds += 1
             self._left = len(ready)
         while True:
@@ -504,7 +504,7 @@ class Scheduler(EventQueue):
         self._empty_inbox()
 
     def _advance(self) -> None:
-        """Nothing is due: go on to the next event, or wait for it, or end."""
+        """Nothing is due: advance to the next event, wait for it, or end the run."""
         if self._last:
             self._take_last()
             return
@@ -513,7 +513,7 @@ class Scheduler(EventQueue):
             if due is not None:
                 self._now = due
                 self._rounds = 0
-                if self._until is None:  # else it is asked before anything happens then
+                if self._until is None:  # otherwise it is checked before any event of that time runs
                     self._timed.take_due(due, self.ready)
             elif self._remote_waits:
                 self._wait_for_event(None)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _OTHER = "service of another type"
 NO_TEXT = "b''"
-"""What rospy shows of an error whose text is empty, as a refusal of a node in C++ is."""
+"""The text that rospy shows for an error whose text is empty, such as a refusal by a C++ node."""
 
 
 class Services(dict[str, "ServiceServer"]):
@@ -78,7 +78,7 @@ class Services(dict[str, "ServiceServer"]):
         self._node.master.unregister("unregisterService", server.name, uri, warn=self._node.logwarn)
 
     def wait_for(self, name: str, timeout: float | None = None) -> None:
-        """Block until somebody offers the service, and answers there: a node that was killed is still listed.
+        """Block until a node offers the service and answers; a killed node is still listed but does not answer.
 
         Raises ``ROSException`` after ``timeout`` seconds.
         """
@@ -107,7 +107,7 @@ class Services(dict[str, "ServiceServer"]):
         return True
 
     def accept(self, header: Header) -> Session:
-        """Take a service client's connection."""
+        """Accept a service client's connection."""
         server = None if self._node.is_shutdown() else self.get(header.get("service", ""))
         if server is None:
             raise TransportInitError(f"[{self._node.name}] is not a provider of [{header.get('service')}]")
@@ -117,9 +117,9 @@ class Services(dict[str, "ServiceServer"]):
 class ServiceServer:
     """Answers calls of one service. Made by :meth:`Node.service <rosmini.core.graph.node.Node.service>`.
 
-    The handler gets the request and returns a response, or what makes one: a tuple or list of its fields in order, a
-    dictionary of fields by name, or the value of its only field. None is refused, also for a response without fields,
-    as in rospy. Each client connection has a lane of its own, so a handler may block.
+    The handler gets the request and returns a response or its fields: a tuple or list of its fields in order, a
+    dictionary of fields by name, or the value of its only field. None is refused, even for a response without fields,
+    as in rospy. Each client connection has a separate lane, so a handler may block.
     """
 
     def __init__(
@@ -138,14 +138,14 @@ class ServiceServer:
         self.sessions: list[Session] = []
         self._receive = receiver(service_class._request_class, numpy=numpy)
         self.error_handler: Callable[[Exception], object] | None = None
-        """Called instead of the report when the handler raises."""
+        """Called instead of the report if the handler raises an exception."""
         self._open = True
 
     def __repr__(self) -> str:
         return f"<ServiceServer {self.name} [{self.service_class._type}] of {self.node.name}>"
 
     def accept(self, header: Header) -> Session:
-        """Take a client's connection. Raises ``TransportInitError`` for another type."""
+        """Accept a client's connection. Raises ``TransportInitError`` for another type."""
         wanted, mine = header.get("md5sum"), self.service_class._md5sum
         if wanted not in ("*", mine):
             msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{wanted}] vs. [{mine}]"
@@ -155,7 +155,7 @@ class ServiceServer:
         return session
 
     def respond(self, request: Any, header: Header) -> Any:
-        """Return the frozen response to a frozen request that came over a connection with this header of the client's.
+        """Return the frozen response to a frozen request; ``header`` is the client's connection header.
 
         Raises ``ServiceException`` with the text that the client gets.
         """
@@ -167,7 +167,7 @@ class ServiceServer:
             raise ServiceException(msg) from error
         try:
             answer = self.handler(received)
-        except ServiceException as error:  # how a handler refuses a request
+        except ServiceException as error:  # the way in which a handler refuses a request
             silent = isinstance(error, ServiceRefused)
             msg = str(error) if silent else f"service cannot process request: {error}"
             raise ServiceException(msg) from error
@@ -191,20 +191,20 @@ class ServiceServer:
         return ". For a response without fields return [] or the response itself, as rospy wants it"
 
     def shutdown(self, reason: str = "") -> None:
-        """Stop answering; callers that wait get an error. Harmless when repeated."""
+        """Stop answering; waiting callers get an error. Harmless when repeated."""
         if self._open:
             self._open = False
             self.close_sessions(reason)
             self.node.services.drop(self)
 
     def close_sessions(self, reason: str) -> None:
-        """Refuse what is queued and fail what is being answered."""
+        """Refuse queued requests and fail those that are being answered."""
         for session in list(self.sessions):
             session.abort(reason)
 
 
 def receiver(message_class: Any, *, numpy: bool) -> Callable[[Any, Header], Any]:
-    """Return what makes a frozen request or response its receiver's own, which says from which connection it came."""
+    """Return a function that makes a frozen request or response the receiver's own and sets its connection header."""
     thaw = message_class._thawer(numpy=numpy)
 
     def receive(frozen: Any, header: Header) -> Any:
@@ -218,7 +218,7 @@ def receiver(message_class: Any, *, numpy: bool) -> Callable[[Any, Header], Any]
 
 
 def _response_from(answer: Any, response_class: Any) -> Any:
-    """Make a response of what a handler returned, by rospy's rules."""
+    """Make a response from a handler's return value, by rospy's rules."""
     slots = response_class.__slots__
     if isinstance(answer, response_class):
         return answer
@@ -285,12 +285,12 @@ class Session:
             history.act_on(None)
 
     def close(self) -> None:
-        """Learn that the client has gone."""
+        """Called when the client has gone."""
         if self in self.server.sessions:
             self.server.sessions.remove(self)
 
     def abort(self, reason: str) -> None:
-        """Fail what is under way because the server goes away."""
+        """Fail all requests that are not yet answered, because the server is closing."""
         pending, self._pending = self._pending, []
         why = f" ({reason})" if reason else ""
         self._gone = f"transport error completing service call: the server was shut down{why}"
@@ -302,8 +302,8 @@ class Session:
 class ServiceClient:
     """Calls a service. Made by :meth:`Node.service_client <rosmini.core.graph.node.Node.service_client>`.
 
-    ``client(a=1, b=2)``, ``client(1, 2)`` and ``client.call(request)`` do the same. A persistent client keeps its
-    connection: it is faster, and does not notice when the server is replaced.
+    ``client(a=1, b=2)``, ``client(1, 2)`` and ``client.call(request)`` are equivalent. A persistent client keeps its
+    connection: it is faster, but does not notice when the server is replaced.
     """
 
     def __init__(
@@ -329,11 +329,11 @@ class ServiceClient:
         return f"<ServiceClient {self.name} [{self.service_class._type}] of {self.node.name}>"
 
     def call(self, *args: Any, **fields: Any) -> Any:
-        """Send a request and block until the response is there.
+        """Send a request and block until the response arrives.
 
-        Raises ``ServiceException`` when there is no server, when it offers another type, when its handler fails, or
-        when it goes away meanwhile; then ``SerializationError`` for a field of the wrong type;
-        ``ROSInterruptException`` when this node is shut down meanwhile.
+        Raises ``ServiceException`` if there is no server, if it offers another type, if its handler fails, or
+        if it goes away meanwhile; ``SerializationError`` for a field of the wrong type; and
+        ``ROSInterruptException`` if this node is shut down meanwhile.
         """
         request_class = self.service_class._request_class
         if len(args) == 1 and not fields and isinstance(args[0], request_class):
@@ -394,7 +394,7 @@ class ServiceClient:
             if theirs in (
                 cls._type,
                 _OTHER,
-            ):  # it was refused for something else, such as a header of the user's
+            ):  # it was refused for another reason, such as a header of the user's
                 msg = f"unable to connect to service [{self.name}]: {error}"
                 raise ServiceException(msg) from error
             msg = (
@@ -412,7 +412,7 @@ class ServiceClient:
     def _lookup(self) -> str:
         """Return the service's address.
 
-        Raises ``ServiceException`` if nobody offers it, or the Master does not answer.
+        Raises ``ServiceException`` if no node offers it, or if the Master does not answer.
         """
         master = self.node.master
         try:
@@ -428,7 +428,7 @@ class ServiceClient:
         raise ServiceException(msg)
 
     def _type_at(self, uri: str) -> str:
-        """Return the service's type, which its server tells to a probe, as it tells ``rosservice type``."""
+        """Return the service's type, which its server reports to a probe, as to ``rosservice type``."""
         node = self.node
         header = {"callerid": node.name, "md5sum": "*", "probe": "1", "service": self.name}
         try:
@@ -437,11 +437,11 @@ class ServiceClient:
             return _OTHER
 
     def wait_for_service(self, timeout: float | None = None) -> None:
-        """Block until the service is there. Raises ``ROSException`` after ``timeout`` seconds."""
+        """Block until the service is available. Raises ``ROSException`` after ``timeout`` seconds."""
         self.node.services.wait_for(self.name, timeout)
 
     def close(self) -> None:
-        """Close a persistent connection for good."""
+        """Close a persistent connection permanently."""
         link, self._link = self._link, None
         self._closed = self.persistent
         if link is not None:

@@ -1,7 +1,7 @@
-"""The slave API: what each node answers to the Master, to other nodes and to tools (http://wiki.ros.org/ROS/Slave_API).
+"""The slave API: a node's answers to the Master, to other nodes and to tools (http://wiki.ros.org/ROS/Slave_API).
 
-Any thread may call it, such as one that reads a wire: it answers at once from a snapshot, which the hub's thread
-renews, and posts what is to happen. So a callback that computes for long delays no answer.
+Any thread may call it, such as one that reads a wire: it answers at once from a snapshot, which the scheduler's
+thread updates, and posts the effects. A callback that computes for long therefore delays no answer.
 """
 
 # ruff: noqa: ARG002 - every call has a caller_id, whether it needs one or not
@@ -57,7 +57,7 @@ class SlaveApi:
     # -- the snapshot, renewed in the hub's thread ---------------------------------------------------------------
 
     def topics_changed(self) -> None:
-        """Take up which topics the node publishes and subscribes to."""
+        """Update the snapshot of the topics that the node publishes and subscribes to."""
         publications: dict[str, Publication] = self._node.publications
         subscriptions: dict[str, Subscription] = self._node.subscriptions
         self._published = {topic: item.message_class._type for topic, item in publications.items()}
@@ -65,11 +65,11 @@ class SlaveApi:
         self.connections_changed()
 
     def end(self) -> None:
-        """Offer no topic any more: a subscriber that is cut off asks again before the Master has told it."""
+        """Stop offering topics: a subscriber that is cut off asks again before the Master notifies it."""
         self._published = {}
 
     def connections_changed(self) -> None:
-        """Take up which connections there are, soon: many change at once when a graph starts."""
+        """Update the snapshot of the connections soon, because many change at once when a graph starts."""
         if not self._is_stale:
             self._is_stale = True
             self._node.scheduler.ready.append(self._renew)
@@ -89,7 +89,7 @@ class SlaveApi:
         return self._connections
 
     def _post(self, effect: Callable[[], None]) -> None:
-        """Have ``effect`` happen in the hub's thread: now if this is it."""
+        """Run ``effect`` in the scheduler's thread; immediately if this is that thread."""
         scheduler = self._node.scheduler
         if scheduler.is_hub_thread():
             effect()
@@ -99,7 +99,7 @@ class SlaveApi:
     # -- the calls -----------------------------------------------------------------------------------------------
 
     def call(self, method: str, *arguments: Any) -> Triple:
-        """Answer a call by method name; an unknown one or wrong arguments give code -1."""
+        """Answer a call by method name; an unknown name or wrong arguments give code -1."""
         if method not in METHODS:
             return [-1, f'method "{method}" is not supported', 0]
         if not arguments:
@@ -115,9 +115,9 @@ class SlaveApi:
             raise
 
     def getBusStats(self, caller_id: str) -> Triple:
-        """Return counts of what went over each connection: [publish stats, subscribe stats, service stats].
+        """Return statistics of each connection: [publish stats, subscribe stats, service stats].
 
-        A publisher's row has a fifth value that ROS has not: the number of dropped messages.
+        A publisher's row has a fifth value that ROS does not have: the number of dropped messages.
         """
         now = self._current()
         publish: dict[str, list[Any]] = {topic: [] for topic in self._published}
@@ -160,7 +160,7 @@ class SlaveApi:
         return [1, "", self._node.uri]
 
     def shutdown(self, caller_id: str, msg: str = "") -> Triple:
-        """Shut the node down: the Master asks it of the older of two nodes with one name, ``rosnode kill`` of any."""
+        """Shut the node down. The Master calls this on the older of two nodes of one name, ``rosnode kill`` on any."""
         self._post(lambda: self._node.shutdown_requested(caller_id, str(msg)))
         return [1, "shutdown", 0]
 
@@ -177,7 +177,7 @@ class SlaveApi:
         return [1, "publications", [list(pair) for pair in self._published.items()]]
 
     def paramUpdate(self, caller_id: str, parameter_key: str, parameter_value: Any) -> Triple:
-        """Learn that a parameter to which the node subscribes has changed."""
+        """Called when a parameter to which the node subscribes has changed."""
         problem = _name_problem("parameter_key", parameter_key)
         if problem:
             return [-1, problem, 0]
@@ -187,7 +187,7 @@ class SlaveApi:
         return [1, "", 0]
 
     def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:
-        """Learn who publishes a topic now."""
+        """Called when the publishers of a topic have changed."""
         problem = _name_problem("topic", topic)
         if not problem and not (isinstance(publishers, list) and all(map(_is_uri, publishers))):
             problem = "ERROR: parameter [publishers] must be a list of URIs"
@@ -208,7 +208,7 @@ class SlaveApi:
         node = self._node
         published = topic in self._published
         parameters = node.graph.transport.topic_parameters(node.uri, protocols) if published else None
-        if not published or (parameters is None and node.is_shutdown()):  # it may end while a thread asks
+        if not published or (parameters is None and node.is_shutdown()):  # the node may end during the call
             return [-1, f"Not a publisher of [{topic}]", []]
         if parameters is None:
             return [0, "no supported protocol implementations", []]
@@ -216,7 +216,7 @@ class SlaveApi:
 
 
 def _name_problem(argument: str, name: Any) -> str:
-    """Return what is wrong with the name of a topic or a parameter; the texts are rospy's."""
+    """Return the problem with the name of a topic or a parameter, or an empty text; the texts are rospy's."""
     if not isinstance(name, str) or not name:
         return f"ERROR: parameter [{argument}] must be a non-empty string"
     if ":" in name or " " in name:

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 RETRY_S = 0.5
 LONGEST_RETRY_S = 32.0
-"""After how many seconds a connection is tried again: twice as many each time, as in rospy."""
+"""Bounds of the delay before a connection is tried again [s]; it doubles each time, as in rospy."""
 
 
 def _assign_header(message: Any, header: Header) -> None:
-    """Set it on whatever a subscriber of its own kind makes of a message."""
+    """Set the header on an object that a subscriber with its own ``receipt`` made of a message."""
     message._connection_header = header
 
 
@@ -38,29 +38,29 @@ class Subscription:
         self.connections: dict[str, Connection] = {}
         self.queue_size: int | None = None
         self.tcp_nodelay = False
-        """Whether publishers elsewhere are asked to send each message at once."""
+        """True if publishers in other processes should send each message at once."""
         self.skips_own_mismatch = False
-        """Whether nothing is said if the node itself publishes the topic with another type."""
+        """True if there is no report when the node itself publishes the topic with another type."""
         self.statistics: TopicStatistics | None = None
-        """What publishes statistics of the connections, if that is enabled."""
+        """The statistics of the connections, if they are enabled."""
         self.updates = 0
-        """How many times the Master has told who publishes the topic."""
+        """Number of updates of the topic's publishers from the Master."""
         self._first: Subscriber | None = None
         self._wanted: dict[str, None] = {}
         self._is_closed = False
         self._attempts: dict[str, int] = {}
-        """How many times in a row a connection to a publisher came to nothing."""
+        """Number of consecutive failed connections to each publisher."""
 
     def disagrees_with(self, message_class: Any) -> bool:
-        """Tell whether a further subscriber of this node cannot be one with ``message_class``."""
+        """Return True if this node cannot also subscribe with ``message_class``."""
         sums = self.message_class._md5sum, message_class._md5sum
         return "*" not in sums and sums[0] != sums[1]
 
     def update_publishers(self, uris: Iterable[str]) -> None:
-        """Connect to new publishers: what ``publisherUpdate`` asks for.
+        """Connect to new publishers, as ``publisherUpdate`` asks.
 
-        As in rospy a connection outlives its registration: the publisher closes it after its last message, which may
-        still be on its way, and so may be its answer to who has just connected.
+        As in rospy, a connection outlives its registration: the publisher closes it after its last message, which may
+        still be on its way, as may its answer to a node that has just connected.
         """
         if self._is_closed:
             return
@@ -74,38 +74,38 @@ class Subscription:
                 self.connections[uri] = Connection(self, uri)
 
     def _is_skipped(self, uri: str) -> bool:
-        """Whether this is the node itself, which publishes another type, and that is meant to be so."""
+        """Return True if this is the node itself, which intentionally publishes another type."""
         if not self.skips_own_mismatch or uri != self.node.uri:
             return False
         own = self.node.publications.get(self.topic)
         return own is not None and self.disagrees_with(own.message_class)
 
     def publishers_moved(self, uris: Mapping[str, str]) -> None:
-        """Take up new addresses of publishers in this process, by the old ones; connections stay as they are."""
+        """Replace old addresses of publishers in this process by new ones; connections stay open."""
         for connection in self.connections.values():
             connection.uri = uris.get(connection.uri, connection.uri)
         self.connections = {connection.uri: connection for connection in self.connections.values()}
         self._wanted = {uris.get(uri, uri): None for uri in self._wanted}
 
     def forget(self, connection: Connection) -> None:
-        """Drop a connection that is closed or was refused."""
+        """Drop a connection that was closed or refused."""
         if self.connections.get(connection.uri) is connection:
             del self.connections[connection.uri]
 
     def abandon(self, connection: Connection) -> None:
-        """Drop a connection that came to nothing; if its publisher left meanwhile and is back, reconnect."""
+        """Drop a failed connection; reconnect if its publisher has left and come back meanwhile."""
         self.forget(connection)
         if connection.publisher_left:
             self._connect(connection.uri)
 
     def closed(self, connection: Connection) -> None:
-        """Learn that a publisher closed a connection; if it is on the topic again meanwhile, reconnect."""
+        """Called when a publisher has closed a connection; reconnect if it is on the topic again."""
         self.forget(connection)
         if not self._try_again(connection):
             self._connect(connection.uri)
 
     def lost(self, connection: Connection, error: Exception | None) -> None:
-        """Learn that a connection failed, or could not be made; say so once, and try again if the way allows it."""
+        """Called when a connection has failed or could not be made; warn once, and retry if the transport allows it."""
         self.abandon(connection)
         if connection.publisher_left:
             return
@@ -123,13 +123,13 @@ class Subscription:
             node.logwarn(f"{what}: {error}. It is {hope}.")
 
     def is_first_failure(self, connection: Connection) -> bool:
-        """Tell whether the attempts before this connection to its publisher, if there were any, had no success."""
+        """Return True if this is the first failure with its publisher since a successful connection."""
         return connection.had_success or connection.uri not in self._attempts
 
     def _try_again(self, connection: Connection) -> bool:
-        """Connect again later; each time without a message in between later still, as in rospy.
+        """Connect again later; the delay grows with each attempt that brings no message, as in rospy.
 
-        At once the first time only: a publisher that closes each connection after a message is not asked all the time.
+        Only the first attempt is immediate, so a publisher that closes after each message is not asked all the time.
         """
         uri = connection.uri
         if self._is_closed or not self.handles or uri not in self._wanted:
@@ -145,9 +145,9 @@ class Subscription:
             self.connections[uri] = Connection(self, uri)
 
     def add(self, handle: Subscriber) -> None:
-        """Add a subscriber of this node; it gets what connected publishers latched.
+        """Add a subscriber of this node; it gets the latched messages of connected publishers.
 
-        All subscribers of a node get the same object, of the kind that the first asked for, as in rospy.
+        All subscribers of a node get the same object, in the form that the first one asked for, as in rospy.
         """
         first = self._first = self._first or handle
         self.handles.append(handle)
@@ -163,7 +163,7 @@ class Subscription:
                 connection.replay(handle.callback)
 
     def remove(self, handle: Subscriber) -> None:
-        """Remove a subscriber; the last one leaves the topic."""
+        """Remove a subscriber; leave the topic with the last one."""
         self.handles.remove(handle)
         self._changed()
         if not self.handles:
@@ -182,12 +182,12 @@ class Subscription:
             connection.route = None
 
     def observers(self, connection: Connection) -> list[Observer]:
-        """Return who observes a connection: faults, the recording, and the statistics of the topic."""
+        """Return the observers of a connection: faults, the recording, and the statistics of the topic."""
         found = self.node.graph.observers(connection)
         return found if self.statistics is None else [*found, self.statistics.observer(connection)]
 
     def route(self, message_class: Any) -> Route:
-        """Return how messages of a class reach the callbacks."""
+        """Return the route of messages of a class to the callbacks."""
         first = self._first
         callbacks = [handle.callback for handle in self.handles if handle.callback is not None]
         return Route(
@@ -198,13 +198,13 @@ class Subscription:
         )
 
     def end(self) -> None:
-        """Close because the node shuts down: the handles receive no more."""
+        """Close because the node shuts down: the handles receive no more messages."""
         for handle in self.handles:
             handle.detach()
         self.close()
 
     def close(self) -> None:
-        """Close all connections; none is made again, whatever news of publishers is still on its way."""
+        """Close all connections; none is made again, even if further updates of publishers arrive."""
         self._is_closed = True
         for connection in list(self.connections.values()):
             connection.close()
@@ -214,8 +214,8 @@ class Subscription:
 class Subscriber(TopicHandle):
     """Receives messages of one type on one topic. Made by ``Node.subscriber``.
 
-    ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes. What the
-    first subscriber of a node to a topic chose holds for all of that node's.
+    ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes. The choice
+    of a node's first subscriber to a topic applies to all its subscribers to that topic.
     """
 
     def __init__(
@@ -247,7 +247,7 @@ class Subscriber(TopicHandle):
         return f"<Subscriber {self.topic} [{self.message_class._type}] of {self.node.name}>"
 
     def thaw_for(self, message_class: Any) -> Callable[[Any], Any] | None:
-        """Return how a frozen message becomes this subscriber's own; None: as it is."""
+        """Return a function that makes this subscriber's own object of a frozen message; None if it stays as it is."""
         if self.receipt is not None:
             return self.receipt(message_class)
         thaw: Callable[[Any], Any] | None = message_class._thawer(numpy=self._numpy)
@@ -255,14 +255,14 @@ class Subscriber(TopicHandle):
 
     @property
     def wish(self) -> str:
-        """What this subscriber asked for, in words."""
+        """The requested kind of messages, in words."""
         if self.message_class._type == "*":
             return "messages of any type"
         arrays = " with numpy arrays" if self._numpy or self.receipt is not None else ""
         return f"{self.message_class._type}{arrays}"
 
     def wants_other_than(self, other: Subscriber) -> bool:
-        """Tell whether this one would get another object than ``other`` does for the same message."""
+        """Return True if this subscriber would get a different object from ``other`` for the same message."""
         cls = other.message_class
         return self.message_class._type != cls._type or self.thaw_for(cls) != other.thaw_for(cls)
 
@@ -276,5 +276,5 @@ class Subscriber(TopicHandle):
             subscription.remove(self)
 
     def detach(self) -> None:
-        """Learn that the node has shut down."""
+        """Called when the node has shut down."""
         self._subscription = None

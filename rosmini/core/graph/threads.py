@@ -1,4 +1,4 @@
-"""How real threads have something done by the scheduler's thread, and the other way round."""
+"""Calls from real threads to the scheduler's thread, and the reverse."""
 
 from __future__ import annotations
 
@@ -35,59 +35,59 @@ _call: Any = operator.call  # mypy: any number of arguments
 DEEP = (_call,) * 11
 """Calls in C between the bottom of a worker's stack and the code that it runs.
 
-Where numpy reuses the memory of an intermediate result of 256 kB or more, it looks at its ten innermost callers in C.
-What lies below the bottom of a greenlet's stack is no stack of callers: who reads on there crashes the process.
+If numpy reuses the memory of an intermediate result of 256 kB or more, it inspects its ten innermost C callers.
+Below the bottom of a greenlet's stack there are no callers: inspecting that memory crashes the process.
 """
 
 _adopted = threading.local()
-"""The scheduler for which a real thread works, if one has adopted it."""
+"""The scheduler for which a real thread works, if one has adopted the thread."""
 
 
 def adopt_thread(scheduler: weakref.ref[Any] | None) -> None:
-    """Note for which scheduler the calling thread works."""
+    """Set the scheduler for which the calling thread works."""
     _adopted.scheduler = scheduler
 
 
 def running_scheduler() -> Any:
-    """Return the scheduler that runs the caller: a lane, or a thread that it adopted; None for anybody else."""
+    """Return the scheduler that runs the caller, in a lane or in a thread that it adopted; otherwise None."""
     found = getattr(getcurrent(), "scheduler", None) or getattr(_adopted, "scheduler", None)
     return None if found is None else found()
 
 
 def start_workers(worker: greenlet, creator: greenlet) -> None:
-    """Start each greenlet that is given. The body of a greenlet of its own."""
+    """Start each greenlet that is passed in. This is the body of a separate greenlet."""
     while True:
         worker, creator = worker.switch(creator)
 
 
 def work(creator: greenlet) -> None:
-    """Run events until some parked code is to go on, switch to that, and wait to be used again. A worker's body."""
+    """Run events until parked code must continue, switch to it, and wait to be used again. This is a worker's body."""
     run_events = creator.switch()
     del creator
     while True:
         resumed = _call(*DEEP, run_events)
-        del run_events  # what an idle worker refers to, nobody could collect
+        del run_events  # the garbage collector does not see the references of an idle worker
         run_events = resumed.switch()
         del resumed
 
 
 PATIENCE_S = 1.0
-"""After how long a Ctrl-C that has not ended anything yet says what it waits for."""
+"""Time after which a Ctrl-C that has not ended anything reports the code for which it waits [s]."""
 
 MAIN_THREAD = threading.main_thread().ident
 
-# The functions of ``signal`` itself turn numbers into enums and back: 5 us, each time that somebody blocks.
+# The functions of ``signal`` itself convert numbers to enums and back, which takes 5 us for each blocking call.
 _get_handler, _set_handler, _SIGINT = _signal.getsignal, _signal.signal, int(SIGINT)
 
 
 class InterruptGuard:
-    """Turns the first SIGINT during a drive into a note that the scheduler reads between two events.
+    """Turns the first SIGINT during a drive into a flag that the scheduler checks between two events.
 
-    A second SIGINT before the first was read is raised in place: the running callback does not come back. Until then a
-    thread says what is waited for, because nothing else can. Outside the main thread Python delivers no signals, and
-    the guard does nothing.
+    A second SIGINT before the scheduler has seen the first is raised in place, because the running callback does not
+    return. Until then a thread reports what it waits for, because nothing else can. Outside the main thread Python
+    delivers no signals, and the guard does nothing.
 
-    ``wake`` lets the scheduler look; ``running`` names what it runs.
+    ``wake`` makes the scheduler check the flag; ``running`` names the running code.
     """
 
     def __init__(self, wake: Callable[[], None], running: Callable[[], str]) -> None:
@@ -95,12 +95,12 @@ class InterruptGuard:
         self._running = running
         self._told: threading.Timer | None = None
         self.noted = False
-        """An interrupt came that nobody has taken yet."""
+        """True if an interrupt has arrived that has not been taken yet."""
         self._depth = 0
         self._previous: Any = None
 
     def arm(self) -> None:
-        """Catch SIGINT if this is the main thread and Python's handling is not switched off."""
+        """Catch SIGINT if this is the main thread and Python's handling is not disabled."""
         self._depth += 1
         if self._depth > 1 or threading.get_ident() != MAIN_THREAD:
             return
@@ -108,14 +108,14 @@ class InterruptGuard:
             self._previous = _set_handler(_SIGINT, self._handle)
 
     def disarm(self) -> None:
-        """Give SIGINT back."""
+        """Restore the previous handler of SIGINT."""
         self._depth -= 1
         if self._depth == 0 and self._previous is not None:
             _set_handler(_SIGINT, self._previous)
             self._previous = None
 
     def take(self) -> bool:
-        """Return whether an interrupt was noted, and forget it."""
+        """Return True if an interrupt was noted, and clear it."""
         noted, self.noted = self.noted, False
         if self._told is not None:
             self._told.cancel()
@@ -142,7 +142,7 @@ class InterruptGuard:
 
 
 def users_place(frame: FrameType | None) -> str:
-    """Return which function of the user's runs in ``frame``, the outermost one, and at which line.
+    """Return the name and line of the outermost user function that runs in ``frame``.
 
     Empty for rosmini's own code.
     """
@@ -152,7 +152,7 @@ def users_place(frame: FrameType | None) -> str:
         if not module.startswith("rosmini."):
             found = frame
         elif found is not None and module.startswith("rosmini.core.graph."):
-            break  # who called it
+            break  # its caller
         frame = frame.f_back
     if frame is None or found is None:
         return ""
@@ -163,7 +163,7 @@ def users_place(frame: FrameType | None) -> str:
 T = TypeVar("T")
 
 LOOK_S = 0.005
-"""How often a run beside another thread's checks whether it is over."""
+"""Interval at which a run beside another thread's checks whether it is over [s]."""
 
 
 def on_hub(scheduler: Scheduler, function: Callable[[], T]) -> T:
@@ -187,7 +187,7 @@ def on_hub(scheduler: Scheduler, function: Callable[[], T]) -> T:
 
 
 def complaint(scheduler: Scheduler, waiter: Waiter) -> Callable[[], None]:
-    """Return a function that warns on standard error if nobody drives the graph that the calling thread waits for."""
+    """Return a function that warns on standard error if no thread drives the graph that the caller waits for."""
     name = threading.current_thread().name
 
     def complain() -> None:
@@ -201,7 +201,7 @@ def complaint(scheduler: Scheduler, waiter: Waiter) -> Callable[[], None]:
 
 
 def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
-    """Wait for the time or the condition while another thread drives, as ``run`` does in wall time."""
+    """Wait for the time or the condition while another thread drives, like ``run`` in wall time."""
     waiter = Waiter(scheduler, "the end of the run")
 
     def look() -> None:

@@ -1,10 +1,10 @@
-"""The seam between nodes and the way in which bytes or objects travel between them.
+"""The interface between nodes and the transports that carry bytes or objects between them.
 
-A node knows only what is written here. Three things cross the seam: calls of another node's slave API, topic
-connections (from a publisher's :class:`Sender` to a subscriber's ``Connection``), and service connections. What
-travels is always a *frozen* message: a private copy, checked and rounded as the wire would round it.
+A node uses only this interface. Three things cross it: calls of another node's slave API, topic
+connections (from a publisher's :class:`Sender` to a subscriber's ``Connection``), and service connections. The
+messages that cross it are always *frozen*: private copies, checked and rounded as they would be on a wire.
 
-:mod:`~rosmini.core.graph.local_transport` hands frozen messages over inside one process; `rosmini.ros.net` has the
+:mod:`~rosmini.core.graph.local_transport` passes frozen messages directly within a process; `rosmini.ros.net` has the
 transport of real ROS. Header fields are those of TCPROS (http://wiki.ros.org/ROS/TCPROS).
 """
 
@@ -25,23 +25,23 @@ if TYPE_CHECKING:
 
 
 Triple = list[Any]
-"""What every call of the Master and slave APIs answers: [code, status message, value]."""
+"""The answer to each call of the Master and slave APIs: [code, status message, value]."""
 
 Header = dict[str, str]
-"""A connection header: the fields that two ends show each other before the first message."""
+"""A connection header: the fields that the two ends exchange before the first message."""
 
 
 LOCAL = "INPROC"
 """Name of the protocol between nodes of one process."""
 
 set_header: Callable[[Any, Header | None], None] = Message.__dict__["_connection_header"].__set__
-"""Sets a message's `_connection_header`, past the check of names that an assignment makes."""
+"""Sets a message's `_connection_header` without the check of names that an assignment makes."""
 
 
 def extra_fields(headers: Mapping[str, str] | None) -> Header:
     """Return a user's own fields of a connection header.
 
-    Raises ``ValueError`` for what the header's text cannot hold.
+    Raises ``ValueError`` for names or values that a header cannot contain.
     """
     if headers is not None and not isinstance(headers, Mapping):
         raise ValueError(f"headers are a dictionary of texts, such as {{'cookie': 'abc'}}, not {headers!r}")
@@ -66,7 +66,7 @@ class Sender(Protocol):
     on_dropped: Callable[[], None]
     """Set by the publisher; called in the scheduler's thread when the first message is dropped."""
     dropped: int
-    """Number of messages dropped because the subscriber takes them too slowly."""
+    """Number of messages dropped because the subscriber was too slow."""
 
     @property
     def sent(self) -> int:
@@ -75,12 +75,12 @@ class Sender(Protocol):
     def send(self, message: Any, size: int | None) -> None:
         """Send a message; ``size`` is the maximum length of the queue (None: no limit).
 
-        A :class:`~rosmini.core.graph.connection.QueuedSender` gets a frozen message that nobody else holds; one that
+        A :class:`~rosmini.core.graph.connection.QueuedSender` gets a frozen message that no other code holds; one that
         writes to a wire gets the message's bytes with their length in front, which are made once for all wires.
         """
 
     def close(self) -> None:
-        """Close the connection after what was sent."""
+        """Close the connection after all sent messages."""
 
 
 class ServiceLink(Protocol):
@@ -88,65 +88,65 @@ class ServiceLink(Protocol):
 
     header: Header
     is_remote: bool
-    """True where the server is in another process: waiting for it holds no simulated time."""
+    """True if the server is in another process: waiting for it does not stop simulated time."""
 
     def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
-        """Send a frozen request; ``reply`` is called in the hub's thread, as in :meth:`Session.handle`."""
+        """Send a frozen request; ``reply`` is called in the scheduler's thread, as in :meth:`Session.handle`."""
 
     def close(self) -> None:
         """Close the connection."""
 
 
 class Transport(Protocol):
-    """A way for nodes to reach one another."""
+    """Connects nodes to one another."""
 
     protocol: str
 
     def attach(self, endpoint: Node, uri: str | None = None) -> str:
         """Make a node reachable.
 
-        Return the URI of its slave API (its ``caller_api``): ``uri`` if it has one already.
+        Return the URI of its slave API (its ``caller_api``): ``uri`` if it already has one.
         """
 
     def detach(self, uri: str) -> None:
-        """Make a node unreachable; open connections are the node's to close."""
+        """Make a node unreachable; the node itself closes its open connections."""
 
     def service_uri(self, uri: str) -> str:
         """Return the URI under which the node with slave API ``uri`` serves its services."""
 
     def reaches(self, uri: str) -> bool:
-        """Return whether the node with this slave API, or these services, may be reached in this way."""
+        """Return True if the node with this slave API, or these services, may be reachable by this transport."""
 
     def offer(self, caller: str) -> list[Any] | None:
-        """Return what the node at ``caller`` offers in ``requestTopic``, [protocol, ...].
+        """Return the offer of the node at ``caller`` in ``requestTopic``, [protocol, ...].
 
-        None if it has no part here.
+        None if the node does not use this transport.
         """
 
     def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
-        """Return what ``requestTopic`` of the node at ``uri`` answers to an offer, [protocol, ...].
+        """Return the answer of ``requestTopic`` of the node at ``uri`` to an offer, [protocol, ...].
 
-        None: not in this way.
+        None if this transport does not suit the offer.
         """
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
+        """Call a method of a node's slave API; may block. Raises ``TransportException`` if there is no answer."""
 
     def retry(self, seconds: float, function: Callable[[], object]) -> bool:
-        """Call a function in the hub's thread after some seconds on the wall, to try a connection again.
+        """Call a function in the scheduler's thread after some seconds of wall time, to try a connection again.
 
-        Return False, and do nothing, where a node that has gone never comes back to its address.
+        Return False, and do nothing, if a node that has gone never comes back to its address.
         """
 
     def close(self) -> None:
-        """Give up what is open, for the graph has been shut down; it may be used again."""
+        """Close everything that is open, because the graph has been shut down; the transport may be used again."""
 
     def connect_topic(
         self, caller: str, parameters: list[Any], header: Header, receiver: Connection
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection of the node at ``caller``; may block.
 
-        Return the publisher's header and a function that closes the connection. Raises ``TransportInitError`` when it
+        Return the publisher's header and a function that closes the connection. Raises ``TransportInitError`` if it
         is refused.
         """
 
@@ -155,31 +155,31 @@ class Transport(Protocol):
     ) -> ServiceLink:
         """Open a service connection of the node at ``caller``; may block.
 
-        Raises ``TransportInitError`` when it is refused.
+        Raises ``TransportInitError`` if it is refused.
         """
 
 
 def slave_uri(uri: str) -> str:
-    """Return the address of a node's slave API, given that or the one of its services."""
+    """Return the address of a node's slave API, given that address or the one of its services."""
     return uri if uri.startswith("http://") else uri.replace("rosrpc://", "http://") + "/"
 
 
 class Transports:
-    """The ways in which nodes reach one another, the preferred one first.
+    """The transports by which nodes reach one another, the preferred one first.
 
-    A node has one address, which the last of them gives: the one that reaches farthest.
+    A node has one address, given by the last transport, which reaches farthest.
     """
 
     def __init__(self, scheduler: Scheduler, makers: Sequence[Callable[[Scheduler], Transport]]) -> None:
         self._scheduler = scheduler
         self.ways = [make(scheduler) for make in makers]
         self.cut: frozenset[str] = frozenset()
-        """Services to which no connection can be made: a fault that somebody asked for."""
+        """Services to which no connection can be made: an injected fault."""
         self._here: dict[str, str] = {}
-        """The nodes of this process: their URIs by those of their services."""
+        """The URIs of this process's nodes, by the URIs of their services."""
 
     def attach(self, endpoint: Node) -> str:
-        """Make a node reachable in every way; return the URI of its slave API."""
+        """Make a node reachable by every transport; return the URI of its slave API."""
         uri: str | None = None
         for way in reversed(self.ways):
             uri = way.attach(endpoint, uri)
@@ -195,15 +195,15 @@ class Transports:
             way.detach(uri)
 
     def add(self, way: Transport, here: Mapping[str, Node]) -> dict[str, str]:
-        """Take up a further way, which gives the addresses from now on.
+        """Add a transport, which gives the addresses from now on.
 
-        ``here`` has the nodes of this process by their URIs; return their new URIs, and those of their services, by the
-        old ones. Connections stay.
+        ``here`` contains the nodes of this process by their URIs; return their new URIs, and those of their services,
+        by the old ones. Connections stay open.
         """
         return self._change([*self.ways, way], here)
 
     def remove(self, way: Transport, here: Mapping[str, Node]) -> dict[str, str]:
-        """Do without a way again; what is open in it is closed. Returns addresses as :meth:`add` does."""
+        """Remove a transport and close its connections. Returns addresses like :meth:`add`."""
         moved = self._change([each for each in self.ways if each is not way], here)
         way.close()
         return moved
@@ -224,16 +224,16 @@ class Transports:
         return self.ways[-1].service_uri(uri)
 
     def offers(self, caller: str) -> list[list[Any]]:
-        """Return what the node at ``caller`` offers in ``requestTopic``."""
+        """Return the offers of the node at ``caller`` in ``requestTopic``."""
         return [offer for way in self.ways if (offer := way.offer(caller)) is not None]
 
     def topic_parameters(self, uri: str, offers: list[list[Any]]) -> list[Any] | None:
-        """Return what ``requestTopic`` of the node at ``uri`` answers: by the first of our ways that is offered."""
+        """Return the answer of ``requestTopic`` of the node at ``uri``, by the first of our transports in the offer."""
         answers = (way.topic_parameters(uri, offer) for way in self.ways for offer in offers)
         return next((answer for answer in answers if answer is not None), None)
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
+        """Call a method of a node's slave API; may block. Raises ``TransportException`` if there is no answer."""
         answer = self._way_to(uri).call(uri, method, *arguments)
         history = self._scheduler.history
         if history is not None:
@@ -244,7 +244,7 @@ class Transports:
     def connect_topic(
         self, caller: str, parameters: list[Any], header: Header, receiver: Connection
     ) -> tuple[Header, Callable[[], None]]:
-        """Open a topic connection in the way that was agreed on; see ``Transport``."""
+        """Open a topic connection by the transport that was agreed on; see ``Transport``."""
         for way in self.ways:
             if isinstance(parameters, list) and parameters and parameters[0] == way.protocol:
                 answer, close = way.connect_topic(caller, parameters, header, receiver)
@@ -268,20 +268,20 @@ class Transports:
         return self._way_to(service_uri).connect_service(caller, service_uri, header, service_class)
 
     def probe_service(self, uri: str, header: Header, caller: str = "") -> Header:
-        """Return the header with which a service's server answers. Raises as :meth:`connect_service`."""
+        """Return the header with which a service's server answers. Raises like :meth:`connect_service`."""
         link = self.connect_service(caller, uri, header, None)
         link.close()
         return link.header
 
     def retry(self, uri: str, seconds: float, function: Callable[[], object]) -> bool:
-        """Call a function later, to connect again to the node at ``uri``; False where it cannot have come back."""
+        """Call a function later, to connect again to the node at ``uri``; return False if it cannot have come back."""
         return self._way_to(uri).retry(seconds, function)
 
     def close(self) -> None:
-        """Give up what is open, for the graph has been shut down."""
+        """Close everything that is open, because the graph has been shut down."""
         for way in self.ways:
             way.close()
 
     def _way_to(self, uri: str) -> Transport:
-        """Return the first way to a node; the last one tells best why there is none."""
+        """Return the first transport that reaches a node, or the last one, which reports best why there is none."""
         return next((way for way in self.ways if way.reaches(uri)), self.ways[-1])

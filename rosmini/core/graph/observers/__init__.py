@@ -1,1 +1,1 @@
-"""Observers of a graph: recording, faults made on purpose, statistics of topics, console of log messages."""
+"""Observers of a graph: recording, injected faults, statistics of topics, console of log messages."""

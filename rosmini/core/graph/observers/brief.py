@@ -1,4 +1,4 @@
-"""The numbers and texts of small messages, cheap to keep and short to show: what a history keeps of a message."""
+"""The numbers and texts of small messages, as a history stores them: cheap to store and short to show."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 MOST_FIELDS = 6
-"""Messages with more numbers and texts than that are not small."""
+"""Maximum number of numbers and texts in a small message."""
 
 LONGEST_TEXT = 32
-"""How many characters of a text are shown."""
+"""Maximum number of characters of a text that are shown."""
 
 SCALARS = frozenset(["bool", "byte", "char", "float32", "float64", "string"])
 INTEGERS = frozenset(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64))
@@ -25,14 +25,14 @@ Values = tuple[tuple[str, ...], tuple[Any, ...]]
 
 
 def values(message: Any) -> Values | None:
-    """Return the values of a small message, its header left out; None for any other."""
+    """Return the values of a small message without its header; None for any other message."""
     cls: Any = type(message)
     names, take = _reader(cls)
     return None if take is None else (names, take(message))
 
 
 def brief(kept: Values | None) -> str:
-    """Return what was kept of a message, in a line; fields that are 0 or empty are left out."""
+    """Return the stored values of a message as one line; fields that are 0 or empty are left out."""
     if kept is None:
         return ""
     names, found = kept
@@ -63,7 +63,7 @@ def _reader(cls: Any) -> tuple[tuple[str, ...], Callable[[Any], tuple[Any, ...]]
 
 
 class _NotSmall(Exception):
-    """The message has an array, or something else that is not shown in a line."""
+    """The message has an array, or something else that cannot be shown in one line."""
 
 
 def _fields(cls: Any) -> Iterator[str]:

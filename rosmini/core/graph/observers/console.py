@@ -1,4 +1,4 @@
-"""The log of a graph, as the window of ``rqt_console`` gathers it (http://wiki.ros.org/rqt_console)."""
+"""The log of a graph, as the window of ``rqt_console`` collects it (http://wiki.ros.org/rqt_console)."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ __all__ = ["Console"]
 
 
 class Console:
-    """Keeps what comes on ``/rosout_agg`` from now on; made by ``graph.console()``.
+    """Collects the messages on ``/rosout_agg`` from now on; made by ``graph.console()``.
 
     Args:
-        graph: whose log.
-        limit: how many messages to keep, the newest; rqt_console's own limit if not given.
-        name: of the node that listens.
-        node: listens instead of one of its own, and goes on when the console is closed.
+        graph: the graph whose log is collected.
+        limit: maximum number of messages to keep, the newest; by default rqt_console's own limit.
+        name: name of the node that listens.
+        node: an existing node to use as the listener; it continues when the console is closed.
 
     """
 
@@ -30,7 +30,7 @@ class Console:
     ) -> None:
         self._messages: deque[Any] = deque(maxlen=limit)
         self.total = 0
-        """How many messages came; those over the limit are gone."""
+        """Number of messages received, including those dropped because of the limit."""
         listener = graph.node(name) if node is None else node
         self._own = listener if node is None else None
         self._subscriber = listener.subscriber("/rosout_agg", graph.log_class, self._take)
@@ -41,16 +41,16 @@ class Console:
 
     @property
     def messages(self) -> list[Any]:
-        """The messages (``rosgraph_msgs/Log``), in the order in which they came."""
+        """The messages (``rosgraph_msgs/Log``), in the order in which they arrived."""
         return list(self._messages)
 
     def clear(self) -> None:
-        """Forget all messages."""
+        """Remove all messages."""
         self._messages.clear()
         self.total = 0
 
     def close(self) -> None:
-        """Listen no more. What came is kept."""
+        """Stop listening. The collected messages are kept."""
         self._subscriber.unregister()
         if self._own is not None:
             self._own.shutdown("the console was closed")
@@ -59,21 +59,21 @@ class Console:
         return f"<Console with {len(self._messages)} messages>"
 
     def show(self, **filters: Any) -> Any:
-        """Return a table of the messages, as the tool ``rqt_console`` shows them, the oldest first.
+        """Return a table of the messages, as the tool ``rqt_console`` shows them, oldest first.
 
-        Options, with what they are unless given:
-            level='DEBUG': the lowest level that is shown, or a collection of the levels that are
-            node='/': only these nodes: names or regular expressions with commas between, - excludes
-            text='': only messages that contain this
-            exclude='': no messages that contain this
-            highlight='': mark messages that contain this
-            regex=False: these three are regular expressions; else upper and lower case are alike
-            topic='/': only messages of nodes that publish these topics, in the form of `node`
-            location='': only messages whose `file:line function` contains this
-            start=None: nothing earlier [s], or a `rosmini.Time`
-            end=None: nothing later
-            columns=('stamp', 'severity', 'node', 'message', 'location'): which columns, in which order
-            limit=None: the newest so many of what passes the filters; None: all
-            title=None: a caption under the table, and the first words of its text form
+        Options, with their defaults:
+            level='DEBUG': the lowest level that is shown, or a collection of the levels that are shown
+            node='/': only these nodes: names or regular expressions separated by commas; - excludes
+            text='': only messages that contain this text
+            exclude='': no messages that contain this text
+            highlight='': mark messages that contain this text
+            regex=False: True if these three are regular expressions; otherwise they ignore case
+            topic='/': only messages of nodes that publish these topics, in the same form as `node`
+            location='': only messages whose `file:line function` contains this text
+            start=None: no earlier messages [s], or a `rosmini.Time`
+            end=None: no later messages
+            columns=('stamp', 'severity', 'node', 'message', 'location'): the columns, in order
+            limit=None: maximum number of messages after filtering, the newest; None for all
+            title=None: a caption under the table, and the beginning of its text form
         """
         return show("log_console", self, **filters)

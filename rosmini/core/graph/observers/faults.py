@@ -1,8 +1,8 @@
-"""Faults made on purpose: lost, late and doubled messages, killed nodes, jumping clocks, services that are cut off.
+"""Injected faults: lost, late and duplicated messages, killed nodes, clock jumps, services that are cut off.
 
-They act where a node meets its transport, its Master and its clock, so no node's code knows of them, and a graph
-without faults spends nothing on them. What is random comes from a seed, for each connection by itself: the same
-messages are lost on each run, whoever else listens.
+They act between a node and its transport, its Master and its clock, so no node's code knows of them, and a graph
+without faults has no overhead. Random numbers come from a seed, separately for each connection: the same
+messages are lost in each run, whichever other nodes listen.
 """
 
 from __future__ import annotations
@@ -27,27 +27,27 @@ if TYPE_CHECKING:
 
 
 class FaultError(RosminiError):
-    """A fault cannot be made as it was asked for."""
+    """A requested fault is not possible."""
 
 
 @dataclass
 class TopicFault:
-    """What happens to the messages of a topic on their way to one subscriber, or to all in this process."""
+    """A fault in the messages of a topic on their way to one subscriber, or to all in this process."""
 
     topic: str
     to: str = ""
-    """The subscribing node; empty: every one."""
+    """The subscribing node; empty for all of them."""
     lose: float = 0.0
-    """With which probability a message is lost."""
+    """Probability that a message is lost."""
     double: float = 0.0
-    """With which probability it arrives twice."""
+    """Probability that a message arrives twice."""
     delay: float = 0.0
-    """How late it arrives [s]."""
+    """Delay of each message [s]."""
     jitter: float = 0.0
-    """Up to how much later still, evenly spread [s]: messages may overtake one another."""
+    """Maximum additional delay, uniformly distributed [s]; messages may overtake one another."""
     seed: int = 0
     messages: int = 0
-    """How many messages came this way."""
+    """Number of messages that reached the fault."""
     lost: int = 0
     doubled: int = 0
 
@@ -75,12 +75,12 @@ class TopicFault:
 
     @property
     def done(self) -> str:
-        """What it has done so far, in words."""
+        """A summary of its effect so far, in words."""
         return f"{self.messages} messages, {self.lost} lost, {self.doubled} doubled"
 
 
 class Gate(Observer):
-    """A fault of a topic as it acts on one connection, before the subscriber's queue."""
+    """The fault of a topic on one connection, before the subscriber's queue."""
 
     holds_back = True
 
@@ -91,13 +91,13 @@ class Gate(Observer):
         self._rng: np.random.Generator | None = None
 
     def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[Iterable[Any]], None]) -> None:
-        """Let ``accept`` have what is not lost of the messages from ``peer``, when it is its time."""
+        """Pass those messages from ``peer`` that are not lost to ``accept``, each at its time."""
         fault = self._fault
         if self._rng is None:
             self._rng = _rng(fault, self._node, peer)
         for message in messages:
             fault.messages += 1
-            lost, doubled, *late = self._rng.random(4)  # as many for each, whatever the fault does
+            lost, doubled, *late = self._rng.random(4)  # the same count for each, whatever the fault does
             if lost < fault.lose:
                 fault.lost += 1
                 if self._scheduler.history is not None:
@@ -116,7 +116,7 @@ class Gate(Observer):
             accept([message])
 
     def _copy(self, message: Any) -> Any:
-        """Return a message of which another callback may become the owner."""
+        """Return a copy of a message that another callback may own."""
         if not message._plain_numpy:
             return message
         copy = message._thaw_numpy(message)
@@ -128,20 +128,20 @@ class Gate(Observer):
 def _rng(fault: TopicFault, node: str, peer: str) -> np.random.Generator:
     import numpy as np
 
-    own = [1] if fault.to else []  # not by the chance of the topic's own fault, which may come before it
+    own = [1] if fault.to else []  # independent of the topic's own fault, which may precede it
     return np.random.default_rng([fault.seed, zlib.crc32(f"{fault.topic} {peer} {node}".encode()), *own])
 
 
 class Gates:
-    """The faults of topics: for one subscriber, and for every one of them; they add up."""
+    """The faults of topics, for one subscriber or for all of them; their effects add up."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
         self.faults: dict[tuple[str, str], TopicFault] = {}
-        """By topic and subscriber; the subscriber is empty where it is every one."""
+        """By topic and subscriber; an empty subscriber means all of them."""
 
     def of(self, topic: str, node: str) -> list[Gate]:
-        """Return the gates on a connection of a node: that for every subscriber of the topic, then its own."""
+        """Return the gates on a connection of a node: the one for all subscribers of the topic, then the node's own."""
         faults = [self.faults[key] for key in ((topic, ""), (topic, node)) if key in self.faults]
         return [Gate(fault, self._scheduler, node) for fault in faults]
 
@@ -150,7 +150,7 @@ CALLER_ID = "/fault"
 
 
 class Faults:
-    """The faults of a graph. Names are global; a name that nobody knows raises ``FaultError`` with the nearest."""
+    """The faults of a graph. Names are global; an unknown name raises ``FaultError``, which suggests a similar one."""
 
     def __init__(self, host: Graph) -> None:
         self._host = host
@@ -168,9 +168,9 @@ class Faults:
         jitter: float = 0.0,
         seed: int | None = None,
     ) -> TopicFault:
-        """Disturb the messages of a topic on their way to the node ``to``, or to every subscriber in this process.
+        """Disturb the messages of a topic on their way to the node ``to``, or to all subscribers in this process.
 
-        A topic has one fault for each ``to``, and a later one replaces it; one for a node adds to that of all.
+        A topic has one fault for each ``to``, and a later one replaces it; a node's fault adds to the one for all.
         ``lose`` and ``double`` are probabilities, ``delay`` and ``jitter`` seconds; ``seed`` is the graph's by default.
         """
         publishers, subscribers, _ = self._host.ask_as(CALLER_ID).ask("getSystemState")
@@ -184,7 +184,7 @@ class Faults:
         return fault
 
     def cut(self, service: str) -> None:
-        """Cut a service off: who calls it is told that the connection failed; so are those whose call is under way."""
+        """Cut a service off: new calls fail to connect, and calls that are being answered fail too."""
         services = self._host.ask_as(CALLER_ID).ask("getSystemState")[2]
         self._check("service", service, dict(services))
         self._host.transport.cut |= {service}
@@ -193,13 +193,13 @@ class Faults:
                 node.services[service].close_sessions("cut off on purpose")
 
     def kill(self, name: str) -> None:
-        """Kill a node of this process as ``kill -9`` does: no hook runs, and the Master goes on listing it."""
+        """Kill a node of this process like ``kill -9``: no hook runs, and the Master still lists it."""
         self._node(name).vanish()
 
     def jump(self, seconds: float, name: str = "") -> None:
-        """Let the clock of a node, or of every node of this process, jump. Simulators of this process keep theirs.
+        """Make the clock of a node, or of all nodes of this process, jump. Simulators of this process are not affected.
 
-        Raises ``FaultError`` for a node whose clock is the topic ``/clock``.
+        Raises ``FaultError`` for a node that uses the topic ``/clock``.
         """
         if not isinstance(seconds, (int, float)) or not abs(seconds) < 1e9:
             raise FaultError(f"a clock jumps by a number of seconds, forwards or back, not {seconds!r}")
@@ -218,7 +218,7 @@ class Faults:
         node.clock = WrongClock(self._host.scheduler, int(seconds * 1e9))
 
     def clear(self, name: str = "") -> int:
-        """End the faults of a topic, service or node, or all, and return how many. Nobody rises from the dead."""
+        """End the faults of a topic, service or node, or all faults; return their number. Killed nodes stay dead."""
         topics = [key for key in self._topics if name in ("", *key)]
         services = {service for service in self._host.transport.cut if name in ("", service)}
         jumps = [node for node in self._jumps if name in ("", node)]
@@ -236,7 +236,7 @@ class Faults:
         return len(topics) + len(services) + len(jumps)
 
     def lines(self) -> list[str]:
-        """Return a line for each fault that acts."""
+        """Return a line for each active fault."""
         found = [f"{fault}: {fault.done}" for _, fault in sorted(self._topics.items())]
         found += [f"{service}: cut off" for service in sorted(self._host.transport.cut)]
         found += [f"{node}: its clock is {jump:+g} s off" for node, jump in sorted(self._jumps.items())]

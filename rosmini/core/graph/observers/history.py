@@ -1,8 +1,8 @@
-"""What happened in a graph: who called whom, who sent what to whom, when, and what each of it was caused by.
+"""A record of a graph: the calls and messages between nodes, with their times and causes.
 
 A graph that records (:meth:`Graph.record <rosmini.core.graph.graph.Graph.record>`) has one history. The last
-:data:`KEPT_EVENTS` events are kept; an event refers to its cause by number, so that what is forgotten is forgotten.
-Nothing is recorded, and nothing is spent, in a graph that was not asked to record.
+:data:`KEPT_EVENTS` events are kept; an event refers to its cause by number, so dropped events can be freed.
+A graph that was not asked to record has no history and no overhead.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ if TYPE_CHECKING:
 Kind = Literal["call", "connection", "publication", "delivery", "loss", "request", "answer"]
 
 KEPT_EVENTS = 20_000
-"""How many events are kept."""
+"""Maximum number of events that are kept."""
 
 KEPT_PUBLICATIONS = 50
-"""How many publications of each topic, and requests of each service, are kept, however long ago they were."""
+"""Number of publications of each topic, and of requests of each service, that are kept, however old they are."""
 
 MASTER = "Master"
-"""What the Master is called, which is no node."""
+"""The name of the Master, which is not a node."""
 
 UNRECORDED = frozenset(["/rosout_agg", "/clock"])
-"""Topics whose messages are not recorded: they repeat what others say, and are many."""
+"""Topics whose messages are not recorded: they repeat other information, and are many."""
 
 STANDARD_LIBRARY = str(Path(os.__file__).parent) + os.sep
 _MAGIC = re.compile(r"get_ipython\(\)\.run_line_magic\(('\w+', (?:'[^'\\\\]*'|\"[^\"\\\\]*\"))\)")
@@ -60,7 +60,7 @@ def _cause_of(message: Any) -> int | None:
 
 
 class Place(NamedTuple):
-    """A line of somebody's program."""
+    """A line of a user's program."""
 
     file: str
     line: int
@@ -74,10 +74,10 @@ class Place(NamedTuple):
 
 @dataclass(slots=True, eq=False)
 class Event:
-    """One thing that happened.
+    """An event in the graph.
 
-    A ``call`` is one of the Master's API or of a node's slave API; a ``connection`` is made by a subscriber, for a
-    topic; a ``publication`` leads to a ``delivery`` for each subscriber, or to a ``loss`` if a fault was asked for; an
+    A ``call`` is one of the Master's API or of a node's slave API; a ``connection`` to a topic is made by a subscriber;
+    a ``publication`` leads to a ``delivery`` for each subscriber, or to a ``loss`` if a fault loses the message; an
     ``answer`` has its ``request`` as cause.
     """
 
@@ -88,26 +88,26 @@ class Event:
     who: str
     """The node that acts, or ``"Master"``."""
     whom: str
-    """Who is acted on; empty for a publication."""
+    """The node that is acted on; empty for a publication."""
     about: str
     """The topic, service or parameter."""
     what: str = ""
     """The method of a call."""
     arguments: str = ""
-    """The arguments of a call, in short."""
+    """The arguments of a call, abbreviated."""
     answer: str | None = None
-    """The answer to a call, in short; of a failed request the reason."""
+    """The answer to a call, abbreviated; the reason if a request failed."""
     count: int = 0
-    """This is the count-th publication on its topic, or request of its service, since recording began."""
+    """Number of publications on the topic, or requests of the service, since recording began, including this one."""
     message: Values | None = None
     place: Place | None = None
-    """The line that published or called; of a delivery the callback."""
+    """The line that published or called; for a delivery, the callback."""
     lane: str = ""
-    """What ran: the name of the lane; empty for what the scheduler did by itself."""
+    """Name of the lane that ran; empty if the scheduler itself acted."""
     cause: int | None = None
-    """The number of the event without which this one would not have happened."""
+    """Number of the event that caused this one."""
     heard: tuple[int, ...] = ()
-    """The last delivery on each topic that the publishing node has got: the numbers of these events."""
+    """Numbers of the last deliveries to the publishing node, one for each topic."""
 
     @property
     def time(self) -> float:
@@ -116,12 +116,12 @@ class Event:
 
     @property
     def text(self) -> str:
-        """The arguments, or the message, in short."""
+        """The arguments, or the message, abbreviated."""
         return self.arguments or brief(self.message)
 
 
 class History:
-    """Records what happens in a graph. Its methods are called by the graph's own parts, in the hub's thread."""
+    """Records the events of a graph. The parts of the graph call its methods, in the scheduler's thread."""
 
     def __init__(self, scheduler: Scheduler, nodes: Mapping[str, Any]) -> None:
         self._scheduler = scheduler
@@ -139,15 +139,15 @@ class History:
 
     @property
     def next_number(self) -> int:
-        """The number that the next event will have."""
+        """The number of the next event."""
         return self._next
 
     def between(self, start: int, end: int) -> list[Event]:
-        """Return the events with numbers from ``start`` on, below ``end``, as far as they are kept."""
+        """Return the kept events with numbers from ``start`` to ``end``, without ``end``."""
         return [event for event in self._events if start <= event.number < end]
 
     def event(self, number: int | None) -> Event | None:
-        """Return the event of a number, if there is one and it is still kept."""
+        """Return the event with a number, or None if there is no such event or it was dropped."""
         if number is None or not self._events:
             return None
         index = number - self._events[0].number
@@ -158,7 +158,7 @@ class History:
         return list(self._last.get(about, ()))[-count:]
 
     def last_of(self, node: str) -> Event | None:
-        """Return what a node did last: a publication, a log message too, or a request."""
+        """Return a node's last publication (log messages included) or request."""
         return next(
             (
                 event
@@ -169,7 +169,7 @@ class History:
         )
 
     def subjects(self) -> list[str]:
-        """Return the topics and services about which :meth:`last` knows something, sorted."""
+        """Return the topics and services for which :meth:`last` has events, sorted."""
         return sorted(self._last)
 
     # -- recording -----------------------------------------------------------------------------------------------
@@ -181,26 +181,26 @@ class History:
         return event
 
     def _acting(self) -> tuple[Lane | None, int | None]:
-        """Return the lane that acts, None if the scheduler itself does, and what it acts on."""
+        """Return the lane that acts (None if the scheduler itself does), and the event on which it acts."""
         scheduler = self._scheduler
         lane = scheduler.current()
         if lane.waiter is not None or (lane.idle and lane is not scheduler.root):
-            return None, None  # the queue goes on, and this one only ran before
+            return None, None  # the queue is running; this lane only ran before
         woken = lane.woken
         if woken is not None and woken[0] == scheduler.now_ns():
             return lane, woken[1]
         return lane, lane.cause
 
     def cause(self) -> int | None:
-        """Return on which event whatever is running acts."""
+        """Return the number of the event on which the running code acts."""
         return self._acting()[1]
 
     def called(self, who: str, uri: str, method: str, arguments: tuple[Any, ...], answer: Any) -> None:
-        """Note a call of the Master's API (no ``uri``), or of the slave API at ``uri``, and its answer."""
+        """Record a call of the Master's API (no ``uri``), or of the slave API at ``uri``, and its answer."""
         if not self._scheduler.is_hub_thread():
             self._scheduler.call_soon_threadsafe(
                 partial(self.called, who, uri, method, arguments, answer)
-            )  # what the caller acts on is not known then
+            )  # the event on which the caller acts is unknown then
             return
         lane, cause = self._acting()
         about, *rest = [*arguments, ""]
@@ -229,7 +229,7 @@ class History:
         return "1"
 
     def _shown(self, value: Any) -> str:
-        """Return an argument in short: addresses are replaced by the names of who is there, one's own is left out."""
+        """Return an argument, abbreviated: lists of addresses become names, a single address is left out."""
         if isinstance(value, list):
             names = [self.name_at(each) for each in value if isinstance(each, str)]
             return f"[{', '.join(names)}]" if len(names) == len(value) else ""
@@ -238,19 +238,19 @@ class History:
         return "" if isinstance(value, dict) else str(value)
 
     def name_at(self, uri: str) -> str:
-        """Return the name of the node with the slave API or the services at ``uri``; else that itself."""
+        """Return the name of the node whose slave API or services are at ``uri``, or ``uri`` if it is unknown."""
         place = uri.replace("rosrpc://", "http://").rstrip("/")
         if place not in self._names:
             self._names.update({node.uri.rstrip("/"): node.name for node in self._nodes.values()})
         return self._names.get(place, uri)
 
     def connected(self, subscriber: str, publisher: str, topic: str, message_type: str) -> None:
-        """Note that a subscriber has connected to a publisher."""
+        """Record that a subscriber has connected to a publisher."""
         _, cause = self._acting()
         self._note("connection", subscriber, publisher, topic, arguments=message_type, cause=cause)
 
     def published(self, node: str, topic: str, frozen: Any) -> None:
-        """Note a publication, which a message carries from now on."""
+        """Record a publication; the message carries its number from now on."""
         if topic in UNRECORDED:
             return
         lane, cause = self._acting()
@@ -282,23 +282,23 @@ class History:
 
     @staticmethod
     def same(copy: Any, frozen: Any) -> None:
-        """Note that a message is a copy of another."""
+        """Mark a message as a copy of another."""
         cause = _cause_of(frozen)
         if cause is not None:
             _set_cause(copy, cause)
 
     def observer(self, connection: Connection) -> Observer:
-        """Return what records the messages of a connection."""
+        """Return an observer that records the messages of a connection."""
         return _Deliveries(self, connection)
 
     def delivered(self, node: str, peer: str, topic: str, frozen: Any, callback: Any) -> None:
-        """Note that a message reaches the callback in whose lane this is called, which acts on it from now on."""
+        """Record that a message reaches a callback; the calling lane acts on it from now on."""
         event = self._arrived("delivery", node, peer, topic, frozen, place=self._place_of(callback))
         self._heard.setdefault(node, {})[topic] = event.number
         self.act_on(event.number)
 
     def lost(self, node: str, peer: str, topic: str, frozen: Any) -> None:
-        """Note that a message is lost on its way to a node."""
+        """Record that a message is lost on its way to a node."""
         self._arrived("loss", node, peer, topic, frozen)
 
     def _arrived(self, kind: Kind, node: str, peer: str, topic: str, frozen: Any, **more: Any) -> Event:
@@ -311,7 +311,7 @@ class History:
         )
 
     def requested(self, node: str, peer: str, service: str, request: Any) -> Event:
-        """Note a request, which carries that from now on."""
+        """Record a request, which carries its number from now on."""
         lane, cause = self._acting()
         event = self._note(
             "request",
@@ -329,17 +329,17 @@ class History:
         return event
 
     def answered(self, request: Event, response: Any, problem: str | None) -> None:
-        """Note the answer to a request."""
+        """Record the answer to a request."""
         answer = problem if problem is not None else brief(values(response))
         request.answer = answer
         self._note("answer", request.whom, request.who, request.about, arguments=answer, cause=request.number)
 
     def serve(self, request: Any) -> None:
-        """Note that the caller's lane acts on a request from now on."""
+        """Record that the caller's lane acts on a request from now on."""
         self.act_on(_cause_of(request))
 
     def act_on(self, number: int | None) -> None:
-        """Note on which event the caller's lane acts from now on; None: on nobody's."""
+        """Set the number of the event on which the caller's lane acts from now on; None for no event."""
         self._scheduler.current().cause = number
 
     # -- whose line it is ----------------------------------------------------------------------------------------

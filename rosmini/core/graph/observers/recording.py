@@ -1,4 +1,4 @@
-"""A span of time in which it is recorded what happens in a graph: who called whom, and who sent what to whom."""
+"""A period in which the events of a graph are recorded: the calls and messages between nodes."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from .history import Event, History
 
 Call = tuple[str, str, str, str | None]
-"""(who, whom, what, the answer or None), as a sequence diagram takes it."""
+"""(caller, callee, text, the answer or None), the form that a sequence diagram needs."""
 
 EVERY_NODES = ("/get_loggers", "/set_logger_level")
 EVERYBODYS = ("/rosout", "/use_sim_time")
 
 
 class Recording:
-    """What happens from now on, until :meth:`stop`; made by ``Graph.record``.
+    """The events from now on, until :meth:`stop`; made by ``Graph.record``.
 
     >>> from rosmini import Graph
     >>> graph = Graph()
@@ -50,39 +50,39 @@ class Recording:
         self.stop()
 
     def stop(self) -> None:
-        """Record no more. Harmless when repeated."""
+        """Stop recording. Harmless when repeated."""
         if self._stop is None:
             self._stop = self.history.next_number
             self._end()
 
     @property
     def events(self) -> list[Event]:
-        """What happened, oldest first; the last 20,000 events are kept."""
+        """The events, oldest first; the last 20,000 are kept."""
         end = self.history.next_number if self._stop is None else self._stop
         return self.history.between(self._start, end)
 
     def calls(self, *names: str, everything: bool = False, since: float | None = None) -> list[Call]:
-        """Return who called whom, or sent whom a message, in order: (who, whom, what, answer).
+        """Return the calls and messages between nodes, in order: (sender, receiver, text, answer).
 
-        ``names`` are nodes, topics, services and parameters: only what is about one of these, between two of these
-        nodes (or one of them, if it is the only one). What every node does for its log messages is left out unless
-        it is named, or ``everything`` is wanted. ``since`` is a time of the graph [s].
+        ``names`` are nodes, topics, services and parameters: only events about one of these subjects and between these
+        nodes (or with the only one) are returned. The calls that every node makes for its log messages are left out
+        unless they are named, or ``everything`` is True. ``since`` is a time of the graph [s].
         """
         found = (event for event in self.events if since is None or event.time >= since)
         return list(_calls(found if everything else _about(found, names)))
 
     def names(self) -> list[str]:
-        """Return the nodes, topics, services and parameters of which something was recorded, sorted."""
+        """Return the nodes, topics, services and parameters that occur in the recording, sorted."""
         return sorted({one for event in self.events for one in (event.who, event.whom, event.about)} - {""})
 
     def show(self, *names: str, **options: Any) -> Any:
         """Return a sequence diagram of :meth:`calls`.
 
         Options, with their defaults:
-            everything=False: also what every node does for its log messages
-            since=None: only what happened from that time of the graph on [s]
-            limit=40: how many calls are drawn; the picture says how many more there were
-            title=None: a caption under the picture, and the first words of its text form
+            everything=False: True to include the calls that every node makes for its log messages
+            since=None: only events from this time of the graph on [s]
+            limit=40: maximum number of calls that are drawn; the picture says how many more there were
+            title=None: a caption under the picture, and the beginning of its text form
         """
         return show("recorded_calls", self, names=names, **options)
 
@@ -105,7 +105,7 @@ def _is_wanted(event: Event, nodes: set[str], subjects: set[str]) -> bool:
 
 
 def _calls(events: Iterable[Event]) -> Iterator[Call]:
-    """Yield what sequence diagrams draw; an answer that comes at once goes with its request."""
+    """Yield the calls that a sequence diagram draws; an immediate answer is merged with its request."""
     shown = [event for event in events if event.kind != "publication" and event.who != event.whom]
     joined: set[int] = set()
     for event, following in zip_longest(shown, shown[1:]):

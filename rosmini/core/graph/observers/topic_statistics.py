@@ -1,4 +1,4 @@
-"""Statistics of a subscriber's connections, as rospy's (http://wiki.ros.org/Topics#Topic_statistics).
+"""Statistics of a subscriber's connections, as in rospy (http://wiki.ros.org/Topics#Topic_statistics).
 
 A node that subscribes while ``/enable_statistics`` is true publishes on ``/statistics`` the traffic, the period and the
 age of the messages of each publisher. The length of a window follows the number of messages in it, within the bounds
@@ -33,7 +33,7 @@ SECOND = 1_000_000_000
 def are_wanted(node: Node, topic: str) -> bool:
     """Return the value of ``/enable_statistics``; False if the Master does not answer, as in rospy.
 
-    A Master in this process is asked without a record of the call: the parameter is read for every subscriber.
+    A Master in this process is asked without recording the call, because the parameter is read for every subscriber.
     """
     if topic in WITHOUT:
         return False
@@ -78,7 +78,7 @@ class TopicStatistics:
         return value
 
     def observer(self, connection: Connection) -> Observer:
-        """Return what counts the messages of a connection."""
+        """Return an observer that counts the messages of a connection."""
         return _Counter(self, connection)
 
     def window(self, publisher: str) -> _Window:
@@ -107,7 +107,7 @@ class _Counter(Observer):
 
 
 class _Window:
-    """What one connection received since its statistics were published last; all times are in nanoseconds."""
+    """The messages of one connection since its statistics were last published; all times are in nanoseconds."""
 
     def __init__(self, statistics: TopicStatistics, node: Node, topic: str, publisher: str) -> None:
         self._statistics = statistics
