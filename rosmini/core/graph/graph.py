@@ -392,7 +392,7 @@ class Graph:
             direction='right': or 'down'
             since=None: an earlier state; additions since then are bold, removals are dashed
             highlight='': a node or topic: its sources are blue, its receivers green, everything else pale
-            title=None: a caption under the picture, and the beginning of its text form
+            title=None: a caption under the picture, and the first words of its text form
         """
         return show("computation_graph", self, **options)
 

@@ -74,6 +74,6 @@ class Console:
             end=None: no later messages
             columns=('stamp', 'severity', 'node', 'message', 'location'): the columns, in order
             limit=None: maximum number of messages after filtering, the newest; None for all
-            title=None: a caption under the table, and the beginning of its text form
+            title=None: a caption under the table, and the first words of its text form
         """
         return show("log_console", self, **filters)

@@ -82,7 +82,7 @@ class Recording:
             everything=False: True to include the calls that every node makes for its log messages
             since=None: only events from this time of the graph on [s]
             limit=40: maximum number of calls that are drawn; the picture says how many more there were
-            title=None: a caption under the picture, and the beginning of its text form
+            title=None: a caption under the picture, and the first words of its text form
         """
         return show("recorded_calls", self, names=names, **options)
 
