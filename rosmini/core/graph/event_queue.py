@@ -17,7 +17,6 @@ from rosmini.core.errors import RosminiError, shown
 from .threads import MAIN_THREAD
 
 if TYPE_CHECKING:
-    from collections import deque
     from collections.abc import Callable
 
 

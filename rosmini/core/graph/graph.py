@@ -34,7 +34,6 @@ from .transport import Transports
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
-    from pathlib import Path
     from types import TracebackType
     from typing import Self
 
@@ -42,9 +41,7 @@ if TYPE_CHECKING:
 
     from .connection import Connection, Observer
     from .lanes import Lane, Waiter
-    from .master_port import MasterPort
     from .report import RunReport
-    from .scheduler import Scheduler
     from .transport import Transport
 
 

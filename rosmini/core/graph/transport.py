@@ -260,7 +260,7 @@ class Transports:
     ) -> ServiceLink:
         """Open a service connection; see :class:`~rosmini.core.graph.transport.Transport`."""
         if header.get("service") in self.cut:
-            raise TransportException("the connection was cut off on purpose; `%fault clear` mends it")
+            raise TransportException("the connection was cut off on purpose; `%fault clear` ends the fault")
         here = self._here.get(service_uri)
         if here is not None:
             way = self._way_to(here)
