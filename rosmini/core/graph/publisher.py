@@ -105,7 +105,7 @@ class Publication:
         """
         scheduler = self._scheduler
         if type(message) is MessageFactory:
-            if self._latch and not self.senders and scheduler.history is None:
+            if self._latch and not (to or self.senders) and scheduler.history is None:
                 self._latched = message
                 return
             frozen = self._made(message)

@@ -281,6 +281,16 @@ def test_a_later_message_replaces_one_that_was_not_made_yet(graph: Graph) -> Non
     assert heard == ["new"]
 
 
+def test_a_message_for_a_node_that_has_gone_replaces_nothing(graph: Graph) -> None:
+    publisher = graph.node("talker").publisher("chatter", String, latch=True)
+    publisher.publish("latched")
+    publisher.publish_to("/gone", MessageFactory(lambda: String("for /gone")))
+    heard: list[str] = []
+    graph.node("listener").subscriber("chatter", String, lambda message: heard.append(message.data))
+    until(graph, lambda: heard)
+    assert heard == ["latched"]
+
+
 @pytest.mark.parametrize("arrays_first", [True, False])
 def test_the_first_subscriber_of_a_node_decides_what_all_of_them_get(
     graph: Graph, arrays_first: bool, capfd: pytest.CaptureFixture[str]
