@@ -354,7 +354,8 @@ class Bag(Summaries):
 
     def _messages(self, found: Iterator[RawMessage], raw: bool, with_header: bool) -> Iterator[Any]:
         decoders: dict[int, Callable[[bytes], Any]] = {}
-        for conn, nanoseconds, data, chunk, offset in found:
+        for stored in found:
+            conn, nanoseconds, data, chunk, offset = stored
             if raw:
                 position = (self._index.chunks[chunk].position, offset)
                 message: Any = (conn.type, data, conn.md5sum, position, self._types.of(conn))
@@ -365,16 +366,26 @@ class Bag(Summaries):
                 try:
                     message = decode(data)
                 except DeserializationError as error:
-                    place = f"byte {offset} of the chunk at byte {self._index.chunks[chunk].position}"
-                    raise DeserializationError(
-                        f"{self._name}: the message on {conn.topic} at {place} cannot be read: {error}"
-                    ) from error
-            del data  # free its memory for the next one, which saves much time with large messages
+                    raise self._unreadable(stored, error) from error
+            del stored, data  # free its memory for the next one, which saves much time with large messages
             time = Time(*divmod(nanoseconds, 1_000_000_000))
             if with_header:
                 yield BagMessageWithConnectionHeader(conn.topic, message, time, dict(conn.header))
             else:
                 yield BagMessage(conn.topic, message, time)
+
+    def decode(self, stored: RawMessage) -> Any:
+        """Return the frozen message of `read_raw`'s result; raises ``DeserializationError`` with the file and place."""
+        try:
+            return self.message_class(stored.connection)._decode(stored.data)
+        except DeserializationError as error:
+            raise self._unreadable(stored, error) from error
+
+    def _unreadable(self, stored: RawMessage, error: DeserializationError) -> DeserializationError:
+        place = f"byte {stored.offset} of the chunk at byte {self._index.chunks[stored.chunk].position}"
+        return DeserializationError(
+            f"{self._name}: the message on {stored.connection.topic} at {place} cannot be read: {error}"
+        )
 
     def _decoder(self, conn: Connection) -> Callable[[bytes], Any]:
         cls = self._types.of(conn)

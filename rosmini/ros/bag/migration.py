@@ -91,18 +91,18 @@ def fix_bag(source: PathLike, target: PathLike, *, force: bool = False) -> Fixed
 
 
 def _copy(inbag: Bag, outbag: Bag) -> Copied:
-    ways: dict[int, Callable[[RawMessage], None]] = {}
+    writers: dict[int, Callable[[RawMessage], None]] = {}
     count = 0
     for message in inbag.read_raw():
         conn = message.connection
-        if conn.id not in ways:
-            ways[conn.id] = _way(conn, outbag)
-        ways[conn.id](message)
+        if conn.id not in writers:
+            writers[conn.id] = _writer(conn, inbag, outbag)
+        writers[conn.id](message)
         count += 1
     return Copied(count, count)
 
 
-def _way(conn: Connection, outbag: Bag) -> Callable[[RawMessage], None]:
+def _writer(conn: Connection, inbag: Bag, outbag: Bag) -> Callable[[RawMessage], None]:
     """Return a function that writes the messages of a connection."""
     local = local_class(conn)
     if local is None or local._md5sum == conn.md5sum:
@@ -116,7 +116,7 @@ def _way(conn: Connection, outbag: Bag) -> Callable[[RawMessage], None]:
     changed = outbag.connect(connection(0, conn.topic, header))
 
     def write(message: RawMessage) -> None:
-        content = recorded._thaw(recorded._decode(message.data))
+        content = recorded._thaw(inbag.decode(message))
         outbag.write_raw(changed, message.time, serialized(migrated(content, local)))
 
     return write

@@ -267,10 +267,11 @@ class Player:
 
     def _publish_next(self) -> tuple[str, int]:
         assert self._next is not None  # noqa: S101 - asked before
-        (conn, time, data, _, _), bag = self._next
+        stored, bag = self._next
+        conn, time = stored.connection, stored.time
         self._next = next(self._messages, None)
         topic = self.target(conn.topic)
-        message = bag.message_class(conn)._decode(data)
+        message = bag.decode(stored)
         if topic in self._latched:
             kept = self._latched[topic]
             key = id(bag), conn.id

@@ -94,8 +94,7 @@ def filter_bag(
     with Bag(source) as inbag:
 
         def keep(message: RawMessage) -> bool:
-            cls = inbag.message_class(message.connection)
-            content = cls._thaw(cls._decode(message.data))
+            content = inbag.message_class(message.connection)._thaw(inbag.decode(message))
             time = Time.from_nsec(message.time)
             kept = bool(chosen(message.connection.topic, content, time))
             if tell is not None:

@@ -8,6 +8,7 @@ import os
 import random
 import struct
 import tracemalloc
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import lz4.frame
 import pytest
 
 from rosmini.core.errors import DeserializationError, RosminiError
+from rosmini.core.graph import Graph
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.ros.bag import (
@@ -23,12 +25,15 @@ from rosmini.ros.bag import (
     ROSBagFormatException,
     ROSBagUnindexedException,
     filter_bag,
+    fix_bag,
     recompress,
     reindex,
 )
 from rosmini.ros.bag.index import connection
 from rosmini.ros.bag.info import info_text, info_yaml
+from rosmini.ros.bag.player import Player
 from rosmini.ros.bag.records import MAGIC, OP_CHUNK, TRUSTED_CHUNK, pack_fields, pack_record, u32
+from rosmini.ros.rospy.aliases.genpy.dynamic import generate_dynamic
 
 from ...conftest import nightly
 
@@ -349,16 +354,27 @@ def test_bags_of_version_2_1_open_and_say_so(path: Path) -> None:
         Bag(path, "a")
 
 
-def test_a_message_that_is_none_says_where_it_is(path: Path) -> None:
+def play(path: Path) -> None:
+    with Bag(path) as bag, Graph() as graph:
+        Player(graph.node("play"), bag, quiet=True)
+        graph.run(1.0)
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda path: list(Bag(path)),
+        lambda path: filter_bag(path, path.with_name("target.bag"), "True"),
+        lambda path: fix_bag(path, path.with_name("target.bag"), force=True),
+        play,
+    ],
+    ids=["read", "filter", "fix", "play"],
+)
+def test_a_damaged_message_names_the_file_and_its_place(path: Path, use: Callable[[Path], object]) -> None:
+    changed = generate_dynamic("std_msgs/String", "string text")["std_msgs/String"]
     with Bag(path, "w") as bag:
-        raw: Any = ("std_msgs/String", b"\xff\xff\xff\xff", String._md5sum, String)
+        raw: Any = ("std_msgs/String", b"\xff\xff\xff\xff", changed._md5sum, changed)
         bag.write("/topic", raw, Time(1), raw=True)
-    with (
-        Bag(path) as bag,
-        pytest.raises(
-            DeserializationError,
-            match=r"test\.bag: the message on /topic at byte \d+ of the chunk at byte 4117 cannot be read: "
-            r"std_msgs/String",
-        ),
-    ):
-        list(bag)
+    place = r"test\.bag: the message on /topic at byte \d+ of the chunk at byte 4117 cannot be read: std_msgs/String"
+    with pytest.raises(DeserializationError, match=place):
+        use(path)
