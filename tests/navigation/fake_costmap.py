@@ -36,10 +36,7 @@ def planner(cls, costs, name=None, **parameters):
     watcher = graph.node("watcher")
     for topic, kind in (
         ("plan", "nav_msgs/Path"),
-        (
-            "potential",
-            "sensor_msgs/PointCloud2" if name == "NavfnROS" else "nav_msgs/OccupancyGrid",
-        ),
+        ("potential", "sensor_msgs/PointCloud2" if name == "NavfnROS" else "nav_msgs/OccupancyGrid"),
     ):
         watcher.subscriber(
             f"/move_base/{name}/{topic}", message_class(kind), heard.setdefault(topic, []).append

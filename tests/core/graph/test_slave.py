@@ -58,11 +58,7 @@ def test_each_method_answers_as_in_ros(talking: Graph) -> None:
         "subscriptions",
         [["/chatter", "std_msgs/String"]],
     ]
-    assert call(talking, "/talker", "requestTopic", "/nope", offers) == [
-        -1,
-        "Not a publisher of [/nope]",
-        [],
-    ]
+    assert call(talking, "/talker", "requestTopic", "/nope", offers) == [-1, "Not a publisher of [/nope]", []]
     assert call(talking, "/talker", "requestTopic", "/chatter", [["UDPROS"]]) == [
         0,
         "no supported protocol implementations",

@@ -366,13 +366,7 @@ def test_another_base_frame_asks_anew_where_the_laser_is(graph):
 
 
 @pytest.mark.parametrize(
-    "given",
-    [
-        "_max_particles:=many",
-        "_odom_alpha1:=.nan",
-        "_initial_pose_a:=.nan",
-        "_initial_pose_x:=.inf",
-    ],
+    "given", ["_max_particles:=many", "_odom_alpha1:=.nan", "_initial_pose_a:=.nan", "_initial_pose_x:=.inf"]
 )
 def test_parameters_that_cannot_be(graph, given):
     with pytest.raises(ParameterError, match=given[1:].partition(":")[0]):

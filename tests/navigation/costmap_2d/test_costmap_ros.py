@@ -415,9 +415,7 @@ def test_a_cell_is_explained_layer_by_layer(stage):
     occupancy[10, 10] = 100
     stage.publish_map(occupancy)
     costmap = stage.costmap(
-        plugins=layers("static", "obstacles", "inflation"),
-        inflation={"cost_scaling_factor": 3.0},
-        **ROBOT,
+        plugins=layers("static", "obstacles", "inflation"), inflation={"cost_scaling_factor": 3.0}, **ROBOT
     )
     why = costmap.explain(12, 10)
     inscribed = costmap.inscribed_radius

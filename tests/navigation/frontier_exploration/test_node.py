@@ -35,9 +35,7 @@ class Exploration:
         ).instance()
         self.graph.run(1.0)
         self.client = SimpleActionClient(
-            self.graph.node("user"),
-            "explore_server",
-            message_class("frontier_exploration/ExploreTaskAction"),
+            self.graph.node("user"), "explore_server", message_class("frontier_exploration/ExploreTaskAction")
         )
         self.graph.run(0.5)
         self.feedback = []

@@ -18,10 +18,7 @@ def test_vertices_then_near_the_first_then_inside():
     selection = Selection()
     assert {step for step, _ in click(selection, *SQUARE)} == {Step.ADDED}
     ((step, text),) = click(selection, (0.2, -0.2))
-    assert (step, text) == (
-        Step.CLOSED,
-        "Please select an initial point for exploration inside the polygon",
-    )
+    assert (step, text) == (Step.CLOSED, "Please select an initial point for exploration inside the polygon")
     assert click(selection, (1.0, 1.0)) == [(Step.COMPLETE, "Sending goal")]
     assert selection.polygon.tolist() == [list(point) for point in SQUARE]
 

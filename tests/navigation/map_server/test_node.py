@@ -9,14 +9,7 @@ import pytest
 
 from rosmini.core.errors import ParameterError, ServiceException, UsageError
 from rosmini.core.graph import Graph
-from rosmini.core.maps import (
-    GridMap,
-    MapDataError,
-    MapError,
-    MapMetadataError,
-    MapMissing,
-    save_map,
-)
+from rosmini.core.maps import GridMap, MapDataError, MapError, MapMetadataError, MapMissing, save_map
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.map_server.node import MapServer
 

@@ -242,10 +242,7 @@ def test_goals_that_are_none(graph):
     change(rig, planner_patience=0.5, recovery_behavior_enabled=False)
     bad = goal(1.0, 0.0)
     bad.target_pose.pose.orientation.w = 0.0
-    assert go(rig, bad) == (
-        Status.ABORTED,
-        "Aborting on goal because it was sent with an invalid quaternion",
-    )
+    assert go(rig, bad) == (Status.ABORTED, "Aborting on goal because it was sent with an invalid quaternion")
     for target, why in (
         (goal(90.0, 0.0), "off the global costmap"),
         (goal(*IN_A_WALL), "253|254"),

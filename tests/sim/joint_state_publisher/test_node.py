@@ -70,11 +70,7 @@ def test_with_robot_state_publisher_all_frames_are_there(graph):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["_rate:=0"], "rate is above 0 Hz"),
-        (["_rate:=fast"], "is needed"),
-    ],
+    ("arguments", "message"), [(["_rate:=0"], "rate is above 0 Hz"), (["_rate:=fast"], "is needed")]
 )
 def test_parameters_that_cannot_be(graph, arguments, message):
     with pytest.raises(ParameterError, match=message):

@@ -181,10 +181,7 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
             robot(f"{A}{B}{C}\n{joint('j', 'b', 'c')}\n{joint('k', 'c', 'b')}"),
             "f:1: joints form a circle: 'k' (line 4), 'j' (line 3)",
         ),
-        (
-            robot(f"{A}{B}\n{joint('j', 'a', 'b')}\n{joint('k', 'b', 'a')}"),
-            "f:1: joints form a circle",
-        ),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b')}\n{joint('k', 'b', 'a')}"), "f:1: joints form a circle"),
         (robot(f"{A}\n{joint('j', 'a', 'a')}"), "f:3: the joint 'j' connects the link 'a' to itself"),
         (robot(f"{A}\n{A}"), "f:3: there are two links 'a': the other one is in line 2"),
         (
@@ -298,10 +295,7 @@ def test_errors_name_file_line_and_element(text, message):
             ),
             "f:4: the parts of a colour are from 0 to 1",
         ),
-        (
-            body('<inertial>\n<mass value="-1"/><inertia/></inertial>'),
-            "f:4: a mass is negative: -1 kg",
-        ),
+        (body('<inertial>\n<mass value="-1"/><inertia/></inertial>'), "f:4: a mass is negative: -1 kg"),
         (body('<inertial>\n<mass value="1"/></inertial>'), "f:3: <inertial> has no <inertia>"),
         (
             body(

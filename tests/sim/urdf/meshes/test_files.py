@@ -211,11 +211,7 @@ def test_obj(tmp_path):
     ("name", "data", "message"),
     [
         ("a.stl", b"short", "this is not an STL file"),
-        (
-            "a.stl",
-            b"\0" * 80 + b"\2\0\0\0" + b"\0" * 50,
-            "2 triangles would be 184 bytes, not 134",
-        ),
+        ("a.stl", b"\0" * 80 + b"\2\0\0\0" + b"\0" * 50, "2 triangles would be 184 bytes, not 134"),
         ("a.stl", b"solid x\nvertex 1 2\n", "a.stl:2: a corner has three numbers"),
         ("a.stl", b"solid x\nvertex 1 2 3\n", "1 corners are no triangles"),
         ("a.obj", b"v 0 0 0\nf 1 2 3\n", "a.obj:2: the face '1 2 3' is invalid"),
