@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import pickle
 from collections import defaultdict
 from dataclasses import replace
 from typing import Any
@@ -368,64 +367,6 @@ def drive(graph: Graph, ears: Ears, robots: tuple[str, ...]) -> None:
     graph.run(0.001)  # what was sent arrives
 
 
-def content(messages: list[Any]) -> list[bytes]:
-    """Messages without their stamps and numbers, in bytes."""
-    out = []
-    for message in messages:
-        for part in [message, *getattr(message, "transforms", [])]:
-            header = getattr(part, "header", None)
-            if header is not None:
-                header.seq = header.stamp.secs = header.stamp.nsecs = 0
-        out.append(type(message)._encode(message))
-    return out
-
-
-@pytest.mark.parametrize("world", ["arena", "empty"])
-def test_what_is_restored_goes_on_to_the_last_bit(graph, world):
-    simulator = start(graph, world=world, robots=2, noise=1.0, board=True)
-    names = ("tb3_0", "tb3_1")
-    ears = Ears(graph, *names)
-    drive(graph, ears, names)
-    state = pickle.loads(pickle.dumps(simulator.save()))
-    runs = []
-    for _ in range(3):
-        for messages in ears.heard.values():
-            messages.clear()
-        drive(graph, ears, names)
-        runs.append(
-            (
-                {topic: content(messages) for topic, messages in ears.heard.items()},
-                [simulator.truth(name) for name in names],
-                [simulator.robot(name).odometry for name in names],
-                [simulator.robot(name).battery.battery.level for name in names],  # type: ignore[union-attr]
-            )
-        )
-        simulator.restore(state)
-    first, second, third = runs
-    assert len(first[0]["tb3_1/imu"]) > 300
-    assert second[1:] == first[1:] == third[1:]
-    assert second[0] == first[0] == third[0]
-
-
-def test_a_state_can_be_restored_in_another_graph():
-    def run(state: Any = None) -> Any:
-        with Graph(seed=3) as graph:
-            simulator = start(graph, world="arena", noise=1.0)
-            ears = Ears(graph, "")
-            graph.run(0.01)
-            if state is None:
-                simulator.spawn("second", "waffle", (1.0, 1.0, 0.0))
-                drive(graph, ears, ("", "second"))
-                state = simulator.save()
-            else:
-                simulator.restore(state)
-            drive(graph, ears, ("", "second"))
-            return state, [simulator.truth(name) for name in ("burger", "second")], simulator.odometry
-
-    state, *after = run()
-    assert run(pickle.loads(pickle.dumps(state)))[1:] == tuple(after)
-
-
 def test_robots_come_and_go_with_the_state(graph):
     simulator = start(graph)
     simulator.spawn("old", pose=(1.0, 0.0, 0.0))
@@ -534,28 +475,6 @@ def test_motors_without_current_do_not_turn(graph):
     board.command("", 0.2)
     graph.run(0.5)
     assert board.simulator.truth()[0] > stood[0] + 0.05
-
-
-def test_reset_sets_odometry_to_zero_where_it_is_and_the_imus_heading_goes_on(graph):
-    board = Board(graph)
-    board.command("", 0.2, 0.5)
-    graph.run(1.0)
-    board.command("", 0.0)
-    graph.run(0.5)
-    place = board.simulator.truth()
-    board.zero.publish()
-    graph.run(0.1)
-    assert board.simulator.odometry == (0.0, 0.0, 0.0)
-    assert board.simulator.truth() == place
-    q = board.heard["imu"][-1].orientation
-    assert 2 * math.atan2(q.z, q.w) == pytest.approx(place[2], abs=1e-6)
-    board.command("", 0.2)
-    graph.run(1.0)
-    assert board.simulator.odometry == (
-        pytest.approx(0.18, abs=0.01),
-        pytest.approx(0.0, abs=1e-3),
-        pytest.approx(0.0, abs=1e-3),
-    )
 
 
 def test_an_empty_battery_stops_the_robot_until_it_is_charged(graph, capsys):

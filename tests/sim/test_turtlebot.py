@@ -100,24 +100,6 @@ def test_the_way_is_that_of_the_ticks_along_the_heading_of_the_imu(graph):
     assert math.hypot(*counted.pose[:2]) > 0.05
 
 
-def test_tf_is_the_odometry(graph):
-    bench = Bench(graph)
-    bench.go(1.0, 0.2, 1.0)
-    odom = {each.header.stamp.to_nsec(): each.pose.pose for each in bench.heard["odom"]}
-    said = [each.transforms[0] for each in bench.heard["/tf"]]
-    assert len(said) > 25
-    for each in said:
-        pose = odom[each.header.stamp.to_nsec()]
-        assert (pose.position.x, pose.position.y) == (
-            each.transform.translation.x,
-            each.transform.translation.y,
-        )
-        assert (pose.orientation.z, pose.orientation.w) == (
-            each.transform.rotation.z,
-            each.transform.rotation.w,
-        )
-
-
 def test_a_heading_goes_round_without_a_jump(graph):
     bench = Bench(graph, noise=0.0)
     bench.go(10.0, 0.1, 2.0)
@@ -188,15 +170,6 @@ def test_reset_calibrates_the_gyroscope_and_sets_odometry_to_zero(graph):
     odom, imu = bench.headings("odom"), bench.headings("imu")
     last = max(odom.keys() & imu.keys())
     assert abs(imu[last] - odom[last]) > 0.1  # the IMU's own heading goes on
-
-
-def test_reset_positions_begins_anew(graph):
-    bench = Bench(graph)
-    bench.go(2.0, 0.1, 1.5)
-    bench.simulator.reset()
-    assert bench.simulator.odometry == (0.0, 0.0, 0.0)
-    bench.go(0.5)
-    assert bench.simulator.odometry == pytest.approx((0.0, 0.0, 0.0), abs=0.01)
 
 
 def test_a_saved_run_goes_on_to_the_last_bit(graph):

@@ -279,39 +279,6 @@ def test_reset_puts_everything_back():
 # -- the same again --------------------------------------------------------------------------------------------------
 
 
-def course(engine: Engine, look: float = 0.1) -> list:
-    """A drive through the room that bumps into things; the engine is asked every `look` seconds."""
-    rng = np.random.default_rng(8)
-    poses = []
-    for _ in range(60):
-        engine.command("burger", *rng.uniform((0.0, -1.5), (0.22, 1.5)).tolist())
-        until = round(engine.now + 0.5, 6)
-        while engine.now < until:
-            engine.advance(min(round(engine.now + look, 6), until))
-        poses.append((engine.robots["burger"].pose, [o.pose for o in engine.obstacles()]))
-    return poses
-
-
-def test_two_runs_are_equal_to_the_last_bit():
-    assert course(make("room", noise=1.0)) == course(make("room", noise=1.0))
-
-
-def test_who_looks_more_often_sees_the_same():
-    seldom, often = course(make("room", noise=1.0), 0.5), course(make("room", noise=1.0), 0.005)
-    for (one, _), (other, _) in zip(seldom, often, strict=True):
-        assert one == pytest.approx(other, abs=1e-6)
-
-
-def test_another_robot_changes_no_ones_errors():
-    alone, company = make(noise=1.0), make(noise=1.0)
-    company.add("other", BURGER, (5.0, 5.0, 0.0))
-    for engine in (alone, company):
-        engine.command("burger", 0.2, 0.3)
-        engine.advance(7.0)
-    assert alone.robots["burger"].pose == company.robots["burger"].pose
-    assert company.robots["other"].wheels.left != company.robots["burger"].wheels.left
-
-
 def test_a_peek_tells_the_future_and_changes_nothing():
     engine, other = make("room", noise=1.0), make("room", noise=1.0)
     for each in (engine, other):

@@ -193,20 +193,6 @@ def test_robots_far_away_change_nothing(scenery, count):
     assert run(engine, 2, glance) == run(scenery(), 2)
 
 
-def test_a_free_robot_is_where_it_is_however_often_it_was_asked():
-    asked, other = (
-        made(World("void"), one=(BURGER, (0.0, 0.0, 0.0))),
-        made(World("void"), one=(BURGER, (0.0, 0.0, 0.0))),
-    )
-    for engine in (asked, other):
-        engine.command("one", 0.2, 0.3)
-    for k in range(1, 2001):
-        asked.advance(k * 0.00123)
-        _ = asked.robots["one"].pose
-    other.advance(2000 * 0.00123)
-    assert asked.robots["one"].pose == other.robots["one"].pose
-
-
 def test_a_command_within_a_step_counts_from_the_end_of_the_step_for_who_is_kept_from_its_way():
     wall = World("wall", walls=np.array([(0.3, -1.0, 0.3, 1.0)]))
     engine = made(wall, one=(BURGER, (0.25, 0.0, 0.0)))

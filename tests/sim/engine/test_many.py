@@ -6,20 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from rosmini.sim.engine import Engine, RobotGone
-from rosmini.sim.engine.scene import Near
-from rosmini.sim.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
-
-
-def overlap(one, other):
-    there = Overlaps()
-    there.insert("one", Outline(one))
-    return there.find(Outline(other))
 
 
 def generator(name: str) -> np.random.Generator:
@@ -30,51 +20,6 @@ def pen(half: float) -> World:
     h = half
     sides = np.array([(-h, -h, h, -h), (h, -h, h, h), (h, h, -h, h), (-h, h, -h, -h)])
     return World("pen", walls=sides)
-
-
-def crowd(engine: Engine, count: int, half: float, rng: np.random.Generator) -> None:
-    """So many robots anywhere within the square."""
-    while len(engine.robots) < count:
-        x, y = rng.uniform(-half + 0.25, half - 0.25, 2).tolist()
-        model = WAFFLE if len(engine.robots) % 5 == 4 else BURGER
-        try:
-            engine.add(f"robot {len(engine.robots)}", model, (x, y, float(rng.uniform(-3, 3))))
-        except WorldError:
-            continue
-
-
-def deepest(engine: Engine) -> float:
-    """How deep any two robots reach into each other [m], at most 1 cm more than that."""
-    robots = list(engine.robots.values())
-    worst = 0.0
-    for i, one in enumerate(robots):
-        for other in robots[:i]:
-            if math.dist(one.pose[:2], other.pose[:2]) < one.model.reach + other.model.reach:
-                middle = one.corners().mean(axis=0)
-                for shrink in (0.0, 0.002, 0.005, 0.01, 0.02):
-                    corners = middle + (one.corners() - middle) * (1 - shrink / 0.1)
-                    if not overlap(corners, other.corners()):
-                        worst = max(worst, shrink)
-                        break
-                else:
-                    return 1.0
-    return worst
-
-
-@settings(max_examples=5)
-@given(st.integers(0, 10_000))
-def test_robots_never_go_through_one_another_nor_through_walls(seed):
-    rng = np.random.default_rng(seed)
-    engine = Engine(pen(1.2), generator)
-    crowd(engine, 10, 1.2, rng)
-    for _ in range(16):
-        for name, robot in engine.robots.items():
-            fast = robot.model.max_linear
-            engine.command(name, *rng.uniform((-fast, -1.5), (fast, 1.5)).tolist())
-        engine.advance(engine.now + float(rng.uniform(0.05, 1.0)))
-        for robot in engine.robots.values():
-            assert abs(robot.corners()).max() < 1.2 + 1e-3
-        assert deepest(engine) <= 0.005
 
 
 def test_a_robot_that_comes_while_another_rests_is_not_overlooked():
@@ -130,43 +75,6 @@ def test_a_row_of_robots_pushes_as_one():
     assert alone.pose("crate")[0] == pytest.approx(1.0, abs=2e-3)
 
 
-def test_a_replay_of_a_crowd_is_equal_to_the_last_bit():
-    def run() -> list:
-        rng = np.random.default_rng(3)
-        engine = Engine(pen(1.5), generator)
-        crowd(engine, 12, 1.5, rng)
-        engine.insert(Obstacle("ball", Cylinder(0.08), (0.0, 0.0, 0.0), mass=0.2)) if not any(
-            math.hypot(*r.pose[:2]) < 0.4 for r in engine.robots.values()
-        ) else None
-        for k in range(40):
-            for name in engine.robots:
-                engine.command(name, *rng.uniform((0.0, -1.5), (0.22, 1.5)).tolist(), 0.3)
-            engine.advance((k + 1) / 4)
-        return [(r.pose, r.ticks) for r in engine.robots.values()] + [o.pose for o in engine.obstacles()]
-
-    assert run() == run()
-
-
-@pytest.mark.parametrize("count", [1, 20])
-def test_more_robots_change_nobodys_way(count):
-    alone, company = Engine(World("void"), generator), Engine(World("void"), generator)
-    for engine in (alone, company):
-        engine.add("first", BURGER, (0.0, 0.0, 0.0))
-    for i in range(count):
-        company.add(f"other {i}", BURGER, (5.0 + i, 5.0, 0.0))
-    for engine in (alone, company):
-        for t in range(1, 90):
-            if t % 10 == 1:
-                for name in engine.robots:
-                    engine.command(name, 0.2, 0.3)
-            engine.advance(t / 30)
-    assert alone.robots["first"].pose == company.robots["first"].pose
-    company.remove("other 0")
-    for engine in (alone, company):
-        engine.advance(9.0)
-    assert alone.robots["first"].pose == company.robots["first"].pose
-
-
 def test_a_robot_is_removed_while_it_moves_and_pushes_and_is_pushed():
     engine = Engine(World("crate", (Obstacle("crate", Box(0.2, 0.2), (0.5, 0.0, 0.0), mass=0.3),)), generator)
     for i in range(3):
@@ -184,32 +92,6 @@ def test_a_robot_is_removed_while_it_moves_and_pushes_and_is_pushed():
     engine.remove("2")
     engine.advance(20.0)
     engine.add("0", BURGER, (5.0, 0.0, 0.0))
-
-
-def test_looks_at_what_is_near_grow_with_the_robots_and_not_with_their_pairs(monkeypatch):
-    counted: list[int] = []
-    original = Near.clearances
-
-    def look(self, lookers, view):
-        counted.extend(lookers)
-        return original(self, lookers, view)
-
-    monkeypatch.setattr(Near, "clearances", look)
-
-    def looks(count: int) -> int:
-        """What so many robots take that go in circles, 1 m apart from one another."""
-        counted.clear()
-        engine = Engine(World("void"), generator, noise=0.0)
-        side = math.ceil(math.sqrt(count))
-        for i in range(count):
-            engine.add(f"{i}", BURGER, (float(i % side), float(i // side), 0.3 * i))
-            engine.command(f"{i}", 0.1, 0.4)
-        for k in range(1, 151):
-            engine.advance(k / 30)
-        return len(counted)
-
-    few, many = looks(36), looks(144)
-    assert many < 6 * few
 
 
 def test_who_does_not_touch_goes_on_in_closed_form_while_others_push():

@@ -200,14 +200,6 @@ def test_a_robot_that_is_put_elsewhere_sees_all_from_there():
     assert (engine.sweep("r", 0.2 / 360)[1] == (0.0, 0.0, 0.0)).all()
 
 
-def test_nothing_is_remembered_where_no_laser_sweeps():
-    engine = Engine(ROOM, lambda _: np.random.default_rng(0), noise=0.0)
-    engine.add("r", BURGER, (0.0, 0.0, 0.0))
-    engine.command("r", 0.2, 1.0)
-    engine.advance(3.0)
-    assert engine.trails.state() == {}
-
-
 def test_what_is_remembered_stays_short():
     engine = engine_of()
     engine.add("r", BURGER, (1.4, 0.0, 0.0))

@@ -16,7 +16,7 @@ from rosmini.core.errors import RosminiError
 from rosmini.core.geometry.errors import GeometryError
 from rosmini.core.geometry.machine_code import LOADING, Deferral
 from rosmini.sim.geometry import raycast as module
-from rosmini.sim.geometry import raycast_numba, raycast_numpy
+from rosmini.sim.geometry import raycast_numba
 from rosmini.sim.geometry.raycast import BACKENDS, backend, raycast, raycast_each
 
 HAS_NUMBA = importlib.util.find_spec("numba") is not None
@@ -284,42 +284,6 @@ def test_culling_changes_nothing(name, segments, discs, fan):
 def test_the_backends_agree_to_the_last_bit_even_where_a_hair_decides(segments, discs, fan):
     found = [look(segments, discs, **fan, backend=name).tobytes() for name in BACKENDS]
     assert found[0] == found[1]
-
-
-@given(walls, pillars, fans)
-def test_the_loops_agree_before_they_are_compiled(segments, discs, fan):
-    step = abs(math.remainder(fan["step"], TURN))
-    angles = fan["start"] + step * np.arange(fan["count"])
-    arguments = (
-        np.array(segments, dtype=float).reshape(-1, 4),
-        np.array(discs, dtype=float).reshape(-1, 3),
-        fan["x"],
-        fan["y"],
-        np.cos(angles),
-        np.sin(angles),
-        float(angles[0]),
-        step,
-        fan["reach"],
-    )
-    loops, arrays = np.full(fan["count"], np.inf), np.full(fan["count"], np.inf)
-    here = np.zeros(fan["count"])
-    origins = (here, here, 0.0, 0.0, module.EVERY, module.EVERY)
-    raycast_numba.cast(*arguments, loops, *origins)
-    raycast_numpy.cast(*arguments, arrays, *origins)
-    assert loops.tobytes() == arrays.tobytes()
-
-
-@both
-def test_a_large_world_is_seen_like_the_part_that_is_near(name):
-    rng = np.random.default_rng(5)
-    starts = rng.uniform(-100, 100, (40_000, 2))
-    segments = np.hstack([starts, starts + rng.uniform(-0.5, 0.5, starts.shape)])
-    discs = np.column_stack([rng.uniform(-100, 100, (2_000, 2)), np.full(2_000, 0.1)])
-    discs = discs[np.hypot(discs[:, 0], discs[:, 1]) > 1]
-    near = segments[np.hypot(*starts.T) < 5], discs[np.hypot(discs[:, 0], discs[:, 1]) < 5]
-    seen = look(segments, discs, reach=3.5, backend=name)
-    np.testing.assert_array_equal(seen, look(*near, reach=3.5, backend=name))
-    assert np.isfinite(seen).sum() > 100
 
 
 @pytest.mark.skipif(not HAS_NUMBA, reason="numba is not installed")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import math
-import pickle
 import sys
 from collections import defaultdict
 from pathlib import Path
@@ -14,12 +13,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rosmini.core.errors import ParameterError, RosminiError, ScriptError
+from rosmini.core.errors import ParameterError, ScriptError
 from rosmini.core.geometry.angles import yaw_from_quaternion
 from rosmini.core.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.ros.scripts import run_source
-from rosmini.sim.engine import RobotGone, laser_view
+from rosmini.sim.engine import RobotGone
 from rosmini.sim.stage import StageError
 from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import WorldError
@@ -196,29 +195,6 @@ def test_a_world_that_is_paused_in_stages_window_runs_where_there_is_none(bench)
     ours.listen("clock")
     ours.graph.run(1.01)
     assert len(ours.heard["clock"]) == 10
-
-
-def test_many_robots_with_many_lasers_are_placed_once_a_height_and_step(bench, monkeypatch):
-    made = []
-
-    class Counted(laser_view.RobotSections):
-        def __init__(self, models, *args):
-            made.append(len(models))
-            super().__init__(models, *args)
-
-    monkeypatch.setattr(laser_view, "RobotSections", Counted)
-    rangers = "".join(
-        f"ranger( pose [0 0 {z} 0] sensor( range [0 8] samples 9 fov 90 ) )" for z in (-0.1, -0.1, -0.2, -0.2)
-    )
-    ours = bench(
-        "".join(f"position( size [0.3 0.3 0.3] pose [{i % 5} {i // 5} 0 0] {rangers} )" for i in range(20))
-    )
-    ours.command(0.2, 0.3, topic="/robot_0/cmd_vel")
-    made.clear()
-    ours.graph.run(0.5)
-    assert (
-        made == [20] * 2 * 5
-    )  # two heights, five steps; once it was one for each change of height from laser to laser, 40 a step
 
 
 def test_notes_come_once_with_their_number(bench):
@@ -426,13 +402,6 @@ def test_robots_see_one_another_if_their_lasers_are_low(bench, z: float, seen: b
     assert list(ours.heard["/robot_1/base_scan"][0].ranges) == [30.0]
 
 
-def test_robots_push_one_another(bench):
-    ours = bench(ROBOT % "" + ROBOT % "pose [1 0 0 0]")
-    ours.go(4.0, v=0.5, topic="/robot_0/cmd_vel")
-    assert ours.stage.truth("robot_1")[0] > 1.05
-    assert ours.stage.truth("robot_1")[0] - ours.stage.truth("robot_0")[0] == pytest.approx(0.35, abs=0.01)
-
-
 def test_an_added_robot_changes_no_other_robots_noise(graph: Graph, tmp_path: Path):
     noisy = ROBOT.replace("samples 541", "samples 541 noise [0.05 0 0]")
     heard = []
@@ -546,31 +515,6 @@ def test_depth_in_millimetres(bench):
 # ---- by hand, and what is wrong ----
 
 
-def test_it_goes_on_from_what_was_saved(bench):
-    noisy = ROBOT.replace("samples 541", "samples 541 noise [0.05 0 0]")
-    ours = bench(
-        noisy % 'drive "omni" localization "odom"' + ROBOT % "pose [1 0.1 0 0]" + "model( pose [3 0 0 0] )"
-    )
-    ours.listen("/robot_0/base_scan", "/robot_0/odom", "/robot_1/base_pose_ground_truth")
-
-    def drive() -> list[str]:
-        ours.graph.run(0.05)  # what was under way arrives
-        for heard in ours.heard.values():
-            heard.clear()
-        ours.go(1.5, v=0.6, w=0.1, vy=0.1, topic="/robot_0/cmd_vel")
-        ours.graph.run(0.5)
-        everything = [message for heard in ours.heard.values() for message in heard]
-        for message in everything:
-            message.header.seq = 0
-        return [str(message) for message in everything]
-
-    ours.go(1.0, v=0.5, topic="/robot_0/cmd_vel")
-    state = pickle.loads(pickle.dumps(ours.stage.save()))
-    first = drive()
-    ours.stage.restore(state)
-    assert drive() == first
-
-
 def test_dragging(bench):
     ours = bench(
         ROBOT % 'name "era"' + 'model( name "box" gripper_return 1 mass 2 size [0.3 0.3 0.3] pose [2 0 0 0] )'
@@ -673,10 +617,6 @@ def test_rosmini_run(tmp_path: Path):
     ]
     done = run(command)
     assert "stopped at 2.8" in done.stdout, done.stdout + done.stderr
-
-
-def test_an_error_of_a_file_is_one_of_rosminis():
-    assert issubclass(StageError, RosminiError)
 
 
 def test_time_begins_when_all_is_there(tmp_path, monkeypatch):
