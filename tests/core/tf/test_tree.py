@@ -175,19 +175,11 @@ def test_branches_are_drawn_in_order():
 @pytest.mark.parametrize(
     ("target", "source", "text"),
     [
-        (
-            "map",
-            "lazer",
-            '"lazer" passed to lookupTransform argument source_frame does not exist. Did you mean laser?',
-        ),
-        (
-            "maps",
-            "laser",
-            '"maps" passed to lookupTransform argument target_frame does not exist. Did you mean map?',
-        ),
+        ("map", "lazer", '"lazer" passed to lookupTransform argument source_frame does not exist. Did you mean laser?'),
+        ("maps", "laser", '"maps" passed to lookupTransform argument target_frame does not exist. Did you mean map?'),
         ("map", "qq", "There are these frames: base, laser, map, odom, x, y."),
     ],
-)
+)  # fmt: skip
 def test_an_unknown_frame(tree, target, source, text):
     with pytest.raises(LookupException) as info:
         tree.lookup(target, source)

@@ -54,27 +54,15 @@ def test_a_model_comes_and_goes(bench: Start) -> None:
     [
         (box(), "first", "SpawnModel: Failure - entity already exists."),
         ("<robot name='r'>", "new", "line"),
-        (
-            "<robot name='r'><link name='a'/><link name='b'/></robot>",
-            "new",
-            "model_xml:1: the robot has 2 roots",
-        ),
+        ("<robot name='r'><link name='a'/><link name='b'/></robot>", "new", "model_xml:1: the robot has 2 roots"),
         ("<sdf version='1.6'/>", "new", "no <model>"),
-        (
-            "<sdf version='1.6'><model name='m'><link/></model></sdf>",
-            "new",
-            'name="..." is missing in <link>',
-        ),
+        ("<sdf version='1.6'><model name='m'><link/></model></sdf>", "new", 'name="..." is missing in <link>'),
         ("<world/>", "new", "input model_xml not SDF or URDF"),
         ("nothing at all", "new", "this is not XML"),
         (urdf(DIFF_DRIVE.replace("left_wheel", "left_weel")), "new", "did you mean left_wheel?"),
-        (
-            urdf(DIFF_DRIVE.replace("<wheelDiameter>0.1", "<wheelDiameter>0")),
-            "new",
-            "<wheelDiameter> is more than 0 m",
-        ),
+        (urdf(DIFF_DRIVE.replace("<wheelDiameter>0.1", "<wheelDiameter>0")), "new", "<wheelDiameter> is more than 0 m"),
     ],
-)
+)  # fmt: skip
 def test_what_cannot_come_is_refused_and_the_simulation_goes_on(
     bench: Start, xml: str, name: str, said: str
 ) -> None:

@@ -164,62 +164,31 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
         ("<sdf/>", "f:1: a URDF file begins with <robot>, this one with <sdf>"),
         ("<robot name='r'>", "f:1: the file ends, but <robot> of line 1 is still open"),
         (robot(""), "f:1: the robot 'r' has no <link>"),
-        (
-            robot(f"{A}\n{B}"),
-            "f:1: the robot has 2 roots, links that are no joint's child: 'a' (line 2), 'b' (line 3)",
-        ),
-        (
-            robot(f"{A}\n{joint('j', 'a', 'aa')}"),
-            "f:3: the child of the joint 'j' is no link: 'aa'; the links are: a",
-        ),
+        (robot(f"{A}\n{B}"), "f:1: the robot has 2 roots, links that are no joint's child: 'a' (line 2), 'b' (line 3)"),
+        (robot(f"{A}\n{joint('j', 'a', 'aa')}"), "f:3: the child of the joint 'j' is no link: 'aa'; the links are: a"),
         (robot(f"{A}\n{joint('j', 'x', 'a')}"), "f:3: the parent of the joint 'j' is no link: 'x'"),
-        (
-            robot(f"{A}{B}\n{joint('j', 'a', 'b')}\n{joint('k', 'a', 'b')}"),
-            "f:4: the link 'b' is the child of two joints: of 'k' and, in line 3, of 'j'",
-        ),
-        (
-            robot(f"{A}{B}{C}\n{joint('j', 'b', 'c')}\n{joint('k', 'c', 'b')}"),
-            "f:1: joints form a circle: 'k' (line 4), 'j' (line 3)",
-        ),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b')}\n{joint('k', 'a', 'b')}"),
+         "f:4: the link 'b' is the child of two joints: of 'k' and, in line 3, of 'j'"),
+        (robot(f"{A}{B}{C}\n{joint('j', 'b', 'c')}\n{joint('k', 'c', 'b')}"),
+         "f:1: joints form a circle: 'k' (line 4), 'j' (line 3)"),
         (robot(f"{A}{B}\n{joint('j', 'a', 'b')}\n{joint('k', 'b', 'a')}"), "f:1: joints form a circle"),
         (robot(f"{A}\n{joint('j', 'a', 'a')}"), "f:3: the joint 'j' connects the link 'a' to itself"),
         (robot(f"{A}\n{A}"), "f:3: there are two links 'a': the other one is in line 2"),
-        (
-            robot(f"{A}{B}{C}\n{joint('j', 'a', 'b')}\n{joint('j', 'b', 'c')}"),
-            "f:4: there are two joints 'j'",
-        ),
-        (
-            robot(f"{A}{B}\n{joint('j', 'a', 'b', 'hinge')}"),
-            "f:3: the joint 'j' has an unknown type 'hinge'; there are revolute",
-        ),
-        (
-            robot(f"{A}{B}\n{joint('j', 'a', 'b', 'revolut')}"),
-            "f:3: the joint 'j' has an unknown type 'revolut'; did you mean revolute?",
-        ),
+        (robot(f"{A}{B}{C}\n{joint('j', 'a', 'b')}\n{joint('j', 'b', 'c')}"), "f:4: there are two joints 'j'"),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'hinge')}"),
+         "f:3: the joint 'j' has an unknown type 'hinge'; there are revolute"),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'revolut')}"),
+         "f:3: the joint 'j' has an unknown type 'revolut'; did you mean revolute?"),
         (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'revolute')}"), "f:3: the revolute joint 'j' needs <limit"),
-        (
-            robot(
-                f"{A}{B}\n{joint('j', 'a', 'b', 'fixed', '<origin xyz=' + chr(34) + '0 0' + chr(34) + '/>')}"
-            ),
-            "f:3: xyz takes 3 numbers, not 2: '0 0'",
-        ),
-        (
-            robot(
-                f"{A}{B}\n{joint('j', 'a', 'b', 'fixed', '<origin rpy=' + chr(34) + '0 0 q' + chr(34) + '/>')}"
-            ),
-            "f:3: 'q' in rpy of <origin> is not a number",
-        ),
-        (
-            robot('<joint name="j" type="fixed">\n<child link="a"/></joint>'),
-            "f:1: the robot 'r' has no <link>",
-        ),
-        (
-            robot(f'{A}\n<joint name="j" type="fixed"><child link="a"/></joint>'),
-            "f:3: <joint> has no <parent>",
-        ),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'fixed', '<origin xyz=' + chr(34) + '0 0' + chr(34) + '/>')}"),
+         "f:3: xyz takes 3 numbers, not 2: '0 0'"),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'fixed', '<origin rpy=' + chr(34) + '0 0 q' + chr(34) + '/>')}"),
+         "f:3: 'q' in rpy of <origin> is not a number"),
+        (robot('<joint name="j" type="fixed">\n<child link="a"/></joint>'), "f:1: the robot 'r' has no <link>"),
+        (robot(f'{A}\n<joint name="j" type="fixed"><child link="a"/></joint>'), "f:3: <joint> has no <parent>"),
         (robot('<xacro:macro name="m"/>'), "f:2: <xacro:macro> is a macro of xacro: expand the file first"),
     ],
-)
+)  # fmt: skip
 def test_errors_name_file_line_and_element(text, message):
     with pytest.raises(UrdfError) as caught:
         load(text, path="f")
@@ -229,65 +198,31 @@ def test_errors_name_file_line_and_element(text, message):
 @pytest.mark.parametrize(
     ("text", "note"),
     [
-        (
-            robot(f"{A}{B}\n{joint('j', 'a', 'b', 'revolute', UPSIDE_DOWN)}"),
-            "f:3: the lower limit of the joint 'j' is above the upper one: 2 > 1",
-        ),
-        (
-            robot(
-                f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<axis xyz=' + chr(34) + '0 0 0' + chr(34) + '/>')}"
-            ),
-            "f:3: the axis of the joint 'j' has no direction",
-        ),
-        (
-            robot(
-                f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<mimic joint=' + chr(34) + 'k' + chr(34) + '/>')}"
-            ),
-            "f:3: the joint 'j' mimics 'k', which is no joint",
-        ),
-        (
-            robot(
-                f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<mimic joint=' + chr(34) + 'j' + chr(34) + '/>')}"
-            ),
-            "f:3: joints mimic one another in a circle: j -> j",
-        ),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'revolute', UPSIDE_DOWN)}"),
+         "f:3: the lower limit of the joint 'j' is above the upper one: 2 > 1"),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<axis xyz=' + chr(34) + '0 0 0' + chr(34) + '/>')}"),
+         "f:3: the axis of the joint 'j' has no direction"),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<mimic joint=' + chr(34) + 'k' + chr(34) + '/>')}"),
+         "f:3: the joint 'j' mimics 'k', which is no joint"),
+        (robot(f"{A}{B}\n{joint('j', 'a', 'b', 'continuous', '<mimic joint=' + chr(34) + 'j' + chr(34) + '/>')}"),
+         "f:3: joints mimic one another in a circle: j -> j"),
         (body("<visual>\n<geometry/></visual>"), "f:4: <geometry> holds one shape"),
         (body("<visual/>"), "f:3: <visual> has no <geometry>"),
         (body("<visual><geometry>\n<ball/></geometry></visual>"), "f:4: <ball> is no shape"),
-        (
-            body('<visual><geometry>\n<box size="1 1"/></geometry></visual>'),
-            "f:4: size takes 3 numbers, not 2",
-        ),
-        (
-            body('<visual><geometry>\n<box size="1 1 -1"/></geometry></visual>'),
-            "f:4: size of <box> takes numbers above 0",
-        ),
-        (
-            body('<visual><geometry>\n<sphere radius="0"/></geometry></visual>'),
-            "f:4: radius of <sphere> is above 0",
-        ),
-        (
-            body('<visual><geometry>\n<cylinder radius="1"/></geometry></visual>'),
-            'f:4: length="..." is missing in <cylinder>',
-        ),
-        (
-            body(
-                '<visual><geometry><mesh\n filename="package://no_such_package/a.stl"/></geometry></visual>'
-            ),
-            "f:3: the mesh is missing: there is no package 'no_such_package'",
-        ),
-        (
-            body('<visual><geometry><mesh filename="a.stl"/></geometry></visual>'),
-            "f:3: the mesh is missing: there is no file a.stl",
-        ),
-        (
-            body('<visual><geometry><mesh filename="http://x/a.stl"/></geometry></visual>'),
-            "f:3: the mesh 'http://x/a.stl' is neither",
-        ),
-        (
-            body('<visual><geometry><sphere radius="1"/></geometry>\n<material name="bleu"/></visual>'),
-            "f:4: the material 'bleu' has neither <color> nor <texture>",
-        ),
+        (body('<visual><geometry>\n<box size="1 1"/></geometry></visual>'), "f:4: size takes 3 numbers, not 2"),
+        (body('<visual><geometry>\n<box size="1 1 -1"/></geometry></visual>'),
+         "f:4: size of <box> takes numbers above 0"),
+        (body('<visual><geometry>\n<sphere radius="0"/></geometry></visual>'), "f:4: radius of <sphere> is above 0"),
+        (body('<visual><geometry>\n<cylinder radius="1"/></geometry></visual>'),
+         'f:4: length="..." is missing in <cylinder>'),
+        (body('<visual><geometry><mesh\n filename="package://no_such_package/a.stl"/></geometry></visual>'),
+         "f:3: the mesh is missing: there is no package 'no_such_package'"),
+        (body('<visual><geometry><mesh filename="a.stl"/></geometry></visual>'),
+         "f:3: the mesh is missing: there is no file a.stl"),
+        (body('<visual><geometry><mesh filename="http://x/a.stl"/></geometry></visual>'),
+         "f:3: the mesh 'http://x/a.stl' is neither"),
+        (body('<visual><geometry><sphere radius="1"/></geometry>\n<material name="bleu"/></visual>'),
+         "f:4: the material 'bleu' has neither <color> nor <texture>"),
         (
             body(
                 '<visual><geometry><sphere radius="1"/></geometry>\n'
@@ -297,15 +232,11 @@ def test_errors_name_file_line_and_element(text, message):
         ),
         (body('<inertial>\n<mass value="-1"/><inertia/></inertial>'), "f:4: a mass is negative: -1 kg"),
         (body('<inertial>\n<mass value="1"/></inertial>'), "f:3: <inertial> has no <inertia>"),
-        (
-            body(
-                '<inertial><mass value="1"/>\n<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0"/></inertial>'
-            ),
-            'f:4: izz="..." is missing in <inertia>',
-        ),
+        (body('<inertial><mass value="1"/>\n<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0"/></inertial>'),
+         'f:4: izz="..." is missing in <inertia>'),
         (body('<inertial>\n<mass value="nan"/></inertial>'), "f:4: 'nan' in value of <mass> is not finite"),
     ],
-)
+)  # fmt: skip
 def test_what_ros_accepts_is_read_with_a_note(text, note):
     found = load(text, path="f")
     assert [each for each in found.notes if each.startswith(note)]
