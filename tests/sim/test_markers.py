@@ -9,7 +9,6 @@ import pytest
 
 from rosmini.core.graph import Graph
 from rosmini.msgs import message_class
-from rosmini.sim.engine import Engine
 from rosmini.sim.markers import ADD, DELETE, Markers, MarkersError, first_poses, obstacles_of
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recorder import Recorder
@@ -161,12 +160,6 @@ def test_the_simulator_says_nothing_of_obstacles_unless_asked():
     with Graph() as graph:
         Simulator(graph.node("simulator"), world=WALKING)
         assert "nobody publishes" in graph.who_publishes("/obstacles")
-
-
-def test_an_engine_tells_of_the_things_that_move():
-    engine = Engine(WALKING, lambda name: np.random.default_rng(0))
-    names = [marker.ns for marker in Markers().message(engine.obstacles(), STAMP).markers]
-    assert sorted(names) == ["crate", "walker"]
 
 
 # ---- recordings ----

@@ -41,11 +41,6 @@ def test_a_model_by_name_by_environment_and_by_default(monkeypatch):
     assert model() is BURGER
 
 
-def test_an_unknown_model_suggests_the_nearest():
-    with pytest.raises(UnknownModel, match="did you mean burger"):
-        model("burgr")
-
-
 @pytest.mark.parametrize("name", ["waffle", "waffle_pi"])
 def test_the_environment_chooses_a_waffle(monkeypatch, name):
     monkeypatch.setenv("TURTLEBOT3_MODEL", name)

@@ -16,7 +16,7 @@ from rosmini.core.graph import Graph
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.ros.scripts import rosrun
-from rosmini.sim.models import ImuModel, LidarModel, RobotModel
+from rosmini.sim.models import BURGER, LidarModel
 from rosmini.sim.recorder import Recorder, aligned
 from rosmini.sim.recording import RecordingError
 from rosmini.sim.world import World
@@ -26,20 +26,8 @@ LaserScan = message_class("sensor_msgs/LaserScan")
 Odometry = message_class("nav_msgs/Odometry")
 Twist = message_class("geometry_msgs/Twist")
 BEAMS = 8
-ROBOT = RobotModel(
-    name="test robot",
-    mass=1.0,
-    inertia=0.01,
-    wheel_radius=0.03,
-    wheel_separation=0.16,
-    max_linear=0.22,
-    max_angular=2.84,
-    wheel_acceleration=2.5,
-    ticks_per_turn=4096,
-    footprint=((-0.1, -0.09), (0.04, -0.09), (0.04, 0.09), (-0.1, 0.09)),
-    height=0.2,
-    lidar=LidarModel("test laser", (-0.03, 0.0, 0.17), BEAMS, 5.0, 0.1, 3.5, 0.01),
-    imu=ImuModel((0.0, 0.0, 0.1), 200.0, 0.001, 0.01),
+ROBOT = replace(
+    BURGER, name="test robot", lidar=LidarModel("test laser", (-0.03, 0.0, 0.17), BEAMS, 5.0, 0.1, 3.5, 0.01)
 )
 WORLD = World("void")
 

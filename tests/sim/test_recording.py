@@ -11,25 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.geometry.poses import arc, compose
-from rosmini.sim.models import ImuModel, LidarModel, RobotModel
+from rosmini.sim.models import BURGER
 from rosmini.sim.recording import Recording, RecordingError, since
 from rosmini.sim.world import World
 
-ROBOT = RobotModel(
-    name="square",
-    mass=1.0,
-    inertia=0.01,
-    wheel_radius=0.03,
-    wheel_separation=0.16,
-    max_linear=0.22,
-    max_angular=2.84,
-    wheel_acceleration=2.5,
-    ticks_per_turn=4096,
-    footprint=((-0.1, -0.09), (0.04, -0.09), (0.04, 0.09), (-0.1, 0.09)),
-    height=0.2,
-    lidar=LidarModel("four beams", (-0.03, 0.0, 0.17), 4, 5.0, 0.1, 3.5, 0.01),
-    imu=ImuModel((0.0, 0.0, 0.1), 200.0, 0.001, 0.01),
-)
+ROBOT = replace(BURGER, name="square", lidar=replace(BURGER.laser, beams=4))
 
 
 def recording(truth, odom=None, *, step=0.1, commands=(), scans=()) -> Recording:

@@ -504,22 +504,6 @@ def test_a_battery_may_begin_half_empty(graph):
         start(other, battery=1.5)
 
 
-def test_time_can_stand_and_go_in_steps(graph):
-    simulator = start(graph)
-    ears = Ears(graph, "")
-    ears.command("", 0.2)
-    graph.run(1.0)
-    simulator.host.pause()
-    stood = simulator.truth()
-    graph.run(2.0)
-    assert simulator.truth() == stood
-    simulator.host.step(0.5)
-    assert simulator.truth()[0] == pytest.approx(stood[0] + 0.1)
-    simulator.host.unpause()
-    graph.run(0.5)
-    assert simulator.truth()[0] == pytest.approx(stood[0] + 0.2)
-
-
 def test_driving_drains_more_than_standing():
     def left(v: float) -> float:
         with Graph() as graph:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -128,22 +127,6 @@ def test_a_robot_moves_sees_and_reckons(sim: Simulation, graph: Graph) -> None:
     assert list(sim.last_scan().ranges) == list(scans[-1].ranges)
     assert sim.scan_poses.shape[1] == 3
     assert 0.0 < sim.scan_pose[0] <= moved + 1e-9
-
-
-def test_what_was_saved_is_restored(sim: Simulation, graph: Graph) -> None:
-    drive(graph, 0.2, 0.5)
-    graph.run(0.0321)
-    state = pickle.loads(pickle.dumps(sim.save()))
-    ways = []
-    for _ in range(2):
-        drive(graph, 0.2, 2.0)
-        ways.append((sim.truth(), sim.truth("crate"), sim.now))
-        graph.run(0.0021)
-        sim.restore(state)
-    assert ways[0] == ways[1]
-    for wrong in (None, state.host, 3):
-        with pytest.raises(RosminiError, match="can only be restored from"):
-            sim.restore(wrong)  # type: ignore[arg-type]
 
 
 def test_it_is_shown(sim: Simulation) -> None:

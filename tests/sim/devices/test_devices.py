@@ -23,9 +23,6 @@ from rosmini.sim.devices import (
     JointStates,
     Laser,
     PlanarMove,
-    one_of,
-    prefixed,
-    within,
 )
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
@@ -130,14 +127,6 @@ def test_unknown_sources_are_named(graph):
         DifferentialDrive(stand.host, "r", source="encodre")
 
 
-def test_a_command_holds_until_its_time_out(graph):
-    stand = Stand(graph)
-    drive = stand.host.add(DifferentialDrive(stand.host, "r", timeout=0.2))
-    drive.command(0.2, 0.0)
-    graph.run(2.0)
-    assert stand.engine.robot("r").pose[0] == pytest.approx(0.04, abs=1e-6)
-
-
 @pytest.mark.parametrize("source", ["encoder", "start", "world"])
 def test_a_planar_move_goes_to_the_side(graph, source):
     stand = Stand(graph, model=OMNI)
@@ -169,9 +158,7 @@ def test_a_planar_move_starts_to_count_anew(graph):
     drive.command(0.0, 0.0, 0.0)
     graph.run(1.0)
     drive.reset_odometry()
-    before = drive._reckoned_from
     drive.restore(drive.state())
-    assert drive._reckoned_from == before
     graph.run(0.1)
     assert drive.reckoned.pose == pytest.approx((0.0, 0.0, 0.0), abs=1e-12)
 
@@ -384,24 +371,6 @@ def test_the_clock_tells_the_worlds_time(graph):
     clock.publish_now()
     graph.run(0.01)
     assert heard[-1].clock.to_sec() == pytest.approx(0.8)
-
-
-def test_nodes_live_on_the_worlds_time(graph):
-    graph.master.setParam("/test", "/use_sim_time", True)
-    stand = Stand(graph, from_zero=True)
-    stand.host.add(ClockDevice(stand.host, rate=100.0))
-    graph.run(2.005)
-    assert stand.node.now().to_sec() == pytest.approx(2.0, abs=0.011)
-    stand.host.pause()
-    graph.run(5.0)
-    assert stand.node.now().to_sec() == pytest.approx(2.0, abs=0.011)
-
-
-def test_names_are_put_together():
-    assert within("/a/", "x") == "/a/x"
-    assert prefixed("/a", "/x") == "x"
-    with pytest.raises(RosminiError, match="it is one of a, b"):
-        one_of("letter", "q", ("a", "b"))
 
 
 @pytest.mark.parametrize(

@@ -85,14 +85,3 @@ def test_sensors_of_several_robots_have_topics_and_names_of_their_own(simulator)
     topics = {name for name, _ in simulator.node.graph.master.getPublishedTopics("/test", "")[2]}
     assert "/sonar" in topics
     assert "/other/sonar" not in topics
-
-
-def test_devices_due_together_are_served_in_their_order(simulator):
-    sonar = simulator.robot().add(Ultrasonic, rate=5.0)
-    served = []
-    for device in simulator.host.devices:
-        device.due = lambda *_, name=device.name: served.append(name)
-    simulator.host._groups[5.0].sort()
-    hear(simulator, "sonar")
-    simulator.node.graph.run(0.3)
-    assert served[served.index("burger/lidar") + 1] == sonar.name

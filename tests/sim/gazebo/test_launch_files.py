@@ -18,9 +18,11 @@ from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs import message_class
 from rosmini.ros.scripts import ScriptSpec, run_scripts
 
-PACKAGES = ("gazebo_ros", "turtlebot3_gazebo", "turtlebot3_bringup", "turtlebot3_teleop")
+PACKAGES = "gazebo_ros turtlebot3_gazebo turtlebot3_bringup turtlebot3_teleop turtlesim turtle_tf turtle_tf2"
 FILES = sorted(
-    path for package in PACKAGES for path in (assets_dir() / "ros" / package / "launch").rglob("*.launch*")
+    path
+    for package in PACKAGES.split()
+    for path in (assets_dir() / "ros" / package / "launch").rglob("*.launch*")
 )
 
 
@@ -45,25 +47,11 @@ def test_empty_world_has_the_arguments_of_noetic() -> None:
     arguments = {
         each.get("name"): each.get("default") for each in root.all("arg") if "default" in each.attributes
     }
-    assert arguments == {
-        "paused": "false",
-        "use_sim_time": "true",
-        "extra_gazebo_args": "",
-        "gui": "true",
-        "recording": "false",
-        "headless": "false",
-        "debug": "false",
-        "physics": "ode",
-        "verbose": "false",
-        "output": "screen",
-        "world_name": "worlds/empty.world",
-        "respawn_gazebo": "false",
-        "use_clock_frequency": "false",
-        "pub_clock_frequency": "100",
-        "enable_ros_network": "true",
-        "server_required": "false",
-        "gui_required": "false",
-    }
+    noetic = """paused=false use_sim_time=true extra_gazebo_args= gui=true recording=false headless=false debug=false
+        physics=ode verbose=false output=screen world_name=worlds/empty.world respawn_gazebo=false
+        use_clock_frequency=false pub_clock_frequency=100 enable_ros_network=true server_required=false
+        gui_required=false"""
+    assert arguments == dict(word.split("=") for word in noetic.split())
 
 
 def test_keys_move_a_target_that_is_approached() -> None:

@@ -51,14 +51,6 @@ def test_a_box_is_pushed_along(bench: Start) -> None:
     assert there.pose("crate")[0] == pytest.approx(x, abs=1e-6)  # nobody pushes any more
 
 
-def test_a_wall_stops_what_is_pushed(bench: Start) -> None:
-    there = bench()
-    there.spawn(box(static=True), "wall", 1.0)
-    there.spawn(box(extra=PUSH.format("0.5 0 0", 20)), "crate")
-    there.graph.run(5.0)
-    assert there.pose("crate")[0] == pytest.approx(0.6, abs=0.02)
-
-
 def world_with(plugin: str) -> str:
     return (
         '<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri>'

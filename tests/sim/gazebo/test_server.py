@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Callable
 from pathlib import Path
 
@@ -185,28 +184,6 @@ def test_rosminis_own_worlds_have_their_obstacles_as_models(bench: Start) -> Non
     there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="pillar")
     there.spawn(urdf(), "robot", 2.0)  # the place is free now
     assert "robot" in there.server.world.models
-
-
-def test_a_state_is_saved_and_all_goes_on_from_it_as_it_did(bench: Start) -> None:
-    there = bench()
-    noisy = urdf().replace("<range>", "<noise><type>gaussian</type><stddev>0.05</stddev></noise><range>")
-    there.spawn(noisy, "robot")
-    there.spawn(box(mass=0.5), "crate", 0.6)
-    there.spawn(box(static=True), "wall", 3.0)
-    scans = there.hear("/scan", "sensor_msgs/LaserScan")
-    there.drive("/cmd_vel", 0.3, 0.1)
-    there.graph.run(2.05)  # between two scans: none is on its way
-    world = there.server.world
-    state = pickle.loads(pickle.dumps(there.server.save()))
-
-    def goes_on() -> tuple[object, ...]:
-        del scans[:]
-        there.graph.run(2.0)
-        return there.pose("robot"), there.pose("crate"), world.now, [tuple(scan.ranges) for scan in scans]
-
-    first = goes_on()
-    there.server.restore(state)
-    assert goes_on() == first
 
 
 def test_from_python_without_services(bench: Start) -> None:

@@ -14,7 +14,6 @@ from rosmini.sim.geometry.raycast import raycast
 from rosmini.sim.models import BURGER
 from rosmini.sim.sensors import lidar
 from rosmini.sim.world import Box, Cylinder, Obstacle, World
-from rosmini.sim.worlds import world
 
 LDS = BURGER.lidar
 NOTHING = np.empty((0, 3))
@@ -41,15 +40,6 @@ def test_ranges_in_a_square_are_exact(pose):
     exact = distances_in_square(*eye, pose[2], 2.0)
     exact[exact > LDS.range_max] = np.inf
     np.testing.assert_allclose(lidar.scan(LDS, pose, square(2.0), NOTHING), exact, atol=1e-9)
-
-
-def test_the_arena_through_the_engine():
-    engine = Engine(world("arena"), lambda name: np.random.default_rng(0), noise=0.0)
-    engine.add("burger", BURGER, (0.5, -0.25, 0.6))
-    eye = (0.5 - 0.032 * math.cos(0.6), -0.25 - 0.032 * math.sin(0.6))
-    exact = distances_in_square(*eye, 0.6, 2.0)
-    exact[exact > LDS.range_max] = np.inf
-    np.testing.assert_allclose(engine.scan("burger"), exact, atol=1e-9)
 
 
 def test_a_pillar_is_seen_where_it_is():
@@ -81,17 +71,6 @@ def test_what_is_lower_than_the_laser_is_not_seen():
     assert seen(0.25) == pytest.approx(0.9 + 0.032)
 
 
-def test_robots_see_one_another_at_the_height_of_the_laser():
-    engine = Engine(world("empty"), lambda name: np.random.default_rng(0), noise=0.0)
-    engine.add("one", BURGER, (0.0, 0.0, 0.0))
-    engine.add("two", BURGER, (1.0, 0.0, math.pi))
-    # the other's laser is a disc of 55 mm, 17 mm behind its axle; from the own laser to its middle it is 1.049 m
-    assert engine.scan("one")[0] == pytest.approx(1.049 - 0.055)
-    assert engine.scan("two")[0] == pytest.approx(1.049 - 0.055)
-    engine.remove("two")
-    assert not np.isfinite(engine.scan("one")).any()
-
-
 def test_noise_over_fifty_seeds_has_the_stated_distribution():
     exact = distances_in_square(-0.032, 0.0, 0.0, 2.0)
     residuals = []
@@ -113,16 +92,6 @@ def test_noise_does_not_bring_back_what_is_far_away():
     noise = np.full(360, -0.5)
     ranges = lidar.scan(LDS, (0.0, 0.0, 0.0), square(5.0), NOTHING, noise)
     assert not np.isfinite(ranges).any()
-
-
-def test_without_numba_the_ranges_are_the_same(monkeypatch):
-    pose = (0.2, 0.1, 0.7)
-    with_numba = lidar.scan(LDS, pose, square(2.0), np.array([[1.0, 1.0, 0.2]]))
-    monkeypatch.setenv("ROSMINI_RAYCAST", "numpy")
-    without = lidar.scan(LDS, pose, square(2.0), np.array([[1.0, 1.0, 0.2]]))
-    np.testing.assert_allclose(without, with_numba, atol=1e-9)
-    forced = raycast(square(2.0), NOTHING, 0.0, 0.0, 0.0, 0.1, 3, 3.5, backend="numpy")
-    assert forced[0] == 2.0
 
 
 @pytest.mark.parametrize("backend", ["numba", "numpy"])

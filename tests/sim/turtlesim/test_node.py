@@ -201,20 +201,17 @@ def test_names_and_namespaces_are_those_of_the_node() -> None:
         assert {"/left/turtle1/pose", "/left/turtle1/color_sensor"} <= set(sim.node.publications)
 
 
-def test_a_background_that_is_set_before_stays() -> None:
-    graph, sim = start("_background_r:=7")
+@pytest.mark.parametrize(
+    ("arguments", "background"),
+    [
+        (("_background_r:=7",), (7, 86, 255)),
+        (("_background_r:=300", "_background_g:=-1", "_background_b:=2.5"), (44, 255, 3)),  # the lowest bytes
+    ],
+)
+def test_a_background_can_be_set_before(arguments: tuple[str, ...], background: tuple[int, ...]) -> None:
+    graph, sim = start(*arguments)
     with graph:
-        assert sim.frame.paper.background == (7, 86, 255)
-        assert sim.node.get_param("/turtlesim/background_r") == 7
-
-
-def test_of_a_background_the_lowest_bytes_count() -> None:
-    graph, sim = start("_background_r:=300", "_background_g:=-1", "_background_b:=2.5")
-    with graph:
-        assert sim.frame.paper.background == (44, 255, 3)
-
-
-def test_a_wrong_parameter_is_named() -> None:
+        assert sim.frame.paper.background == background
     with pytest.raises(ParameterError, match="background_r"):
         start("_background_r:=red")
 

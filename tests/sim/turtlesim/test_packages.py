@@ -4,31 +4,13 @@ from __future__ import annotations
 
 import io
 import math
-from pathlib import Path
 
 import pytest
 
 from rosmini import Graph, rosrun
-from rosmini.core.markup import parse_file
-from rosmini.core.packages import PackageIndex, assets_dir
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.ros.launch import roslaunch
 from rosmini.sim.turtlesim import TurtleSim, window
-
-FILES = [
-    path
-    for package in ("turtlesim", "turtle_tf", "turtle_tf2")
-    for path in sorted((assets_dir() / "ros" / package / "launch").glob("*.launch"))
-]
-
-
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_all_that_a_launch_file_names_is_there(path: Path) -> None:
-    index = PackageIndex()
-    nodes = [each for each in parse_file(path).walk() if each.tag == "node"]
-    assert nodes
-    for node in nodes:
-        index.find_executable(node.attribute("pkg"), node.attribute("type"))
 
 
 @pytest.mark.parametrize("version", ["", "2"])

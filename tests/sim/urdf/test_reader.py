@@ -330,11 +330,3 @@ def test_files_and_meshes(tmp_path):
         load(tmp_path / "none.urdf")
     with pytest.raises(UrdfError, match="did you mean my_robot"):
         load("package://my_robt/r.urdf", packages=index)
-
-
-@pytest.mark.parametrize("before", ["\n", "<!-- mine -->\n"])
-def test_comments_and_blank_lines_may_precede_the_declaration(tmp_path, before):
-    path = tmp_path / "late.urdf"
-    text = f"{before}<?xml version='1.0' ?><robot name='late'><link name='base_link'/></robot>"
-    path.write_text(text, encoding="utf-8")
-    assert load(path).name == load(text).name == "late"

@@ -17,7 +17,7 @@ from rosmini.core.geometry import polygons
 from rosmini.core.maps import MapError, load_map
 from rosmini.sim.geometry.contours import edge_loops
 from rosmini.sim.geometry.raycast import raycast
-from rosmini.sim.world import Cylinder, World, WorldError, edges
+from rosmini.sim.world import Cylinder, WorldError, edges
 from rosmini.sim.worlds import names, source, world, world_from_map
 
 # The corners of a TurtleBot3 Burger: 138 mm by 178 mm, its axle 32 mm ahead of the middle, and 2 cm more.
@@ -69,21 +69,6 @@ def test_the_room_has_walls_shapes_of_each_kind_and_something_to_push():
     assert len({thing.colour for thing in room.obstacles}) >= 5
     x0, y0, x1, y1 = room.bounds
     assert (x1 - x0, y1 - y0) == pytest.approx((4.16, 3.66))
-
-
-def test_things_in_the_room_do_not_stand_in_one_another():
-    things = world("room").obstacles
-    for i, one in enumerate(things):
-        for other in things[:i]:
-            if isinstance(one.shape, Cylinder) and isinstance(other.shape, Cylinder):
-                assert math.dist(one.pose[:2], other.pose[:2]) > one.shape.radius + other.shape.radius
-            else:
-                solid, rest = (other, one) if isinstance(one.shape, Cylinder) else (one, other)
-                alone, footprint = World("alone", (solid,)), rest.outline()
-                if isinstance(rest.shape, Cylinder):
-                    assert alone.blocked(rest.pose, rest.shape.radius, 1.0) is None, (one.name, other.name)
-                else:
-                    assert alone.blocked((0.0, 0.0, 0.0), footprint, 1.0) is None, (one.name, other.name)
 
 
 def test_a_laser_sees_something_everywhere_in_the_room_and_no_way_leads_out():
@@ -194,28 +179,6 @@ def test_the_floor_is_found_by_name_by_address_and_by_path(monkeypatch):
     assert by_name.solid
     assert len(by_name.walls) < 200
     assert by_name.blocked((-1.0 + 0.65, -4.0 + 6.85, 0.0), BURGER) == "the inside of a wall", "in the bed"
-
-
-def test_all_rooms_of_the_floor_can_be_reached():
-    grid = load_map(source("floor"))
-    reached = np.zeros_like(grid.free)
-    cell = lambda pose: tuple(
-        int((p - o) / 0.05) for p, o in zip(pose[1::-1], grid.origin[1::-1], strict=True)
-    )
-    room = np.array(grid.free)
-    for _ in range(3):  # half of a Burger
-        padded = np.pad(room, 1)
-        room = room & padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
-    starts = world("floor").starts
-    reached[cell(starts[0])] = True
-    while True:
-        padded = np.pad(reached, 1)
-        grown = room & (reached | padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:])
-        if (grown == reached).all():
-            break
-        reached = grown
-    assert all(reached[cell(start)] for start in starts)
-    assert not reached[0].any()
 
 
 def test_a_map_without_walls_is_a_world(tmp_path):

@@ -57,7 +57,7 @@ def reachable(free, start):
     return seen
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", [*FILES, "floor", "room"])
 def test_a_robot_can_drive_from_every_start_to_every_other(name):
     here = world(name)
     resolution = 0.05
@@ -113,7 +113,7 @@ def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
         world(tmp_path / "r.urdf")
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", [*FILES, "room"])
 def test_fixed_things_do_not_stand_in_one_another(name):
     """But for walls, which meet in corners; what is above something else is apart from it."""
     parts = [
