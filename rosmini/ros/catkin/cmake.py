@@ -1,21 +1,24 @@
-"""Parser for ``CMakeLists.txt``: reads commands and blocks (https://cmake.org/cmake/help, cmake-language(7)).
+"""Reader for ``CMakeLists.txt``: commands and their arguments (https://cmake.org/cmake/help, cmake-language(7)).
 
-Nothing is evaluated here: `rosmini.ros.catkin.evaluation` does that.
+Variables are followed as far as ``set`` and ``list(APPEND)`` outside of blocks set them. Commands in a block, such as
+``if`` or ``foreach``, are not: whether CMake would reach them depends on more than this file. No program is run.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 from rosmini.core.errors import DefinitionError, shown
 
 LARGEST = 1_000_000
 """Maximum number of characters in a file; the largest public ones have a hundredth of it."""
 
-DEEPEST = 50
-"""Maximum nesting depth of blocks."""
+LONGEST = 1_000_000
+"""Maximum number of characters in all values together: a variable can double its length with each command."""
 
 BLOCKS = {
     "if": "endif",
@@ -39,10 +42,21 @@ _TOKEN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 _NAME = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
+_REFERENCE = re.compile(r"\$(?:ENV|CACHE)?\{([^${}]*)\}")
+_SEPARATOR = re.compile(r"(?<!\\);")
+_ESCAPE = re.compile(r"\\(.)", re.DOTALL)
+_ESCAPED = {"n": "\n", "t": "\t", "r": "\r"}
 
 
 class CMakeError(DefinitionError):
     """A ``CMakeLists.txt`` has a syntax error at ``file``, line ``line``."""
+
+
+class Word(NamedTuple):
+    """An argument after evaluation, and the line where it is written."""
+
+    text: str
+    line: int
 
 
 @dataclass(frozen=True)
@@ -64,62 +78,88 @@ class Command:
     name: str
     arguments: tuple[Argument, ...]
     line: int
-
-
-@dataclass(frozen=True)
-class Block:
-    """A block from its opening to its closing command.
-
-    ``parts`` are its sections: one, except for an ``if``, where each further one begins with ``elseif`` or ``else``.
-    """
-
-    parts: tuple[tuple[Command, tuple[Command | Block, ...]], ...]
-
-    @property
-    def opening(self) -> Command:
-        """The command that opens the block."""
-        return self.parts[0][0]
+    block: Command | None = None
+    """The command that opens the outermost block around this one."""
 
 
 @dataclass
-class _Open:
-    """A block that is being parsed."""
+class Variables:
+    """The variables of a file, and the names of those that are read without having been set here."""
 
-    parts: list[tuple[Command, list[Command | Block]]] = field(default_factory=list)
+    path: Path
+    values: dict[str, str]
+    unknown: list[str] = field(default_factory=list)
+    _length: int = 0
+
+    def words(self, command: Command) -> list[Word]:
+        """Return the arguments of a command after evaluation, and set the variable that it sets.
+
+        Raises `CMakeError` if the values are too long.
+        """
+        self.unknown.clear()
+        words = [word for each in command.arguments for word in self._words(each)]
+        texts = [word.text for word in words]
+        if command.name == "set" and texts:
+            ends = [texts.index(end) for end in ("CACHE", "PARENT_SCOPE") if end in texts]
+            self.values[texts[0]] = ";".join(texts[1 : min(ends, default=None)])
+        elif command.name == "list" and texts[:1] == ["APPEND"] and len(texts) > 1:
+            old = self.values.get(texts[1], "")
+            self._spend(len(old), command.line)
+            self.values[texts[1]] = ";".join([*filter(None, [old]), *texts[2:]])
+        elif command.name == "project" and texts:
+            self.values["PROJECT_NAME"] = texts[0]
+        return words
+
+    def _words(self, argument: Argument) -> Iterator[Word]:
+        if argument.raw:
+            yield Word(argument.text, argument.line)
+            return
+        text = argument.text
+        for _ in range(20):  # innermost first: ${${NAME}_FILES}
+            new = _REFERENCE.sub(self._value, text)
+            if new == text:
+                break
+            self._spend(len(new), argument.line)
+            text = new
+        for part in [text] if argument.quoted else filter(None, _SEPARATOR.split(text)):
+            yield Word(_ESCAPE.sub(lambda match: _ESCAPED.get(match[1], match[1]), part), argument.line)
+
+    def _value(self, reference: re.Match[str]) -> str:
+        if reference[1] not in self.values:
+            self.unknown.append(reference[1])
+        return self.values.get(reference[1], "")
+
+    def _spend(self, length: int, line: int) -> None:
+        self._length += length
+        if self._length > LONGEST:
+            raise CMakeError(f"the variables have more than {LONGEST} characters together", self.path, line)
 
 
-def parse(text: str, path: str | Path = "CMakeLists.txt") -> tuple[Command | Block, ...]:
-    """Return the commands and blocks of a file. Raises `CMakeError` with the invalid line."""
+def parse(text: str, path: str | Path = "CMakeLists.txt") -> Iterator[Command]:
+    """Yield the commands of a file, without those that open, divide or close blocks.
+
+    Raises `CMakeError` with the invalid line.
+    """
     if len(text) > LARGEST:
         raise CMakeError(f"this has more than {LARGEST} characters: no CMakeLists.txt has", path, 1)
-    body: list[Command | Block] = []
-    waiting: list[_Open] = []
+    blocks: list[Command] = []
     for command in _commands(text, path):
-        here = waiting[-1].parts[-1][1] if waiting else body
-        opening = waiting[-1].parts[0][0] if waiting else None
+        opening = blocks[-1] if blocks else None
         if command.name in BLOCKS:
-            if len(waiting) >= DEEPEST:
-                raise CMakeError(f"more than {DEEPEST} blocks inside one another", path, command.line)
-            waiting.append(_Open([(command, [])]))
+            blocks.append(command)
         elif command.name in ("elseif", "else"):
             if opening is None or opening.name != "if":
                 raise CMakeError(f"{command.name}() without an if()", path, command.line)
-            waiting[-1].parts.append((command, []))
         elif command.name in BLOCKS.values():
             if opening is None or BLOCKS[opening.name] != command.name:
                 before = f"; {opening.name}() of line {opening.line} is still open" if opening else ""
                 raise CMakeError(f"{command.name}() closes nothing that is open{before}", path, command.line)
-            closed = waiting.pop()
-            block = Block(tuple((start, tuple(content)) for start, content in closed.parts))
-            (waiting[-1].parts[-1][1] if waiting else body).append(block)
+            blocks.pop()
         else:
-            here.append(command)
-    if waiting:
-        opening = waiting[-1].parts[0][0]
-        raise CMakeError(
-            f"{opening.name}() is never closed; add {BLOCKS[opening.name]}()", path, opening.line
-        )
-    return tuple(body)
+            yield Command(command.name, command.arguments, command.line, blocks[0] if blocks else None)
+    if blocks:
+        name, line = blocks[-1].name, blocks[-1].line
+        raise CMakeError(f"{name}() is never closed; add {BLOCKS[name]}()", path, line)
 
 
 def _commands(text: str, path: str | Path) -> list[Command]:

@@ -8,14 +8,18 @@ from pathlib import Path
 
 from rosmini.core import files
 
-from .cmake import LARGEST, CMakeError, parse
-from .evaluation import Evaluation, Statement, Word
+from .cmake import LARGEST, CMakeError, Command, Variables, Word, parse
 from .findings import Finding, warning
 
 CMAKE = "CMakeLists.txt"
 
 KINDS = {"add_message_files": "msg", "add_service_files": "srv", "add_action_files": "action"}
-TESTS = ("add_rostest", "add_rostest_gtest", "catkin_add_gtest", "catkin_add_gmock", "catkin_add_nosetests")
+EARLY = {"generate_messages", "generate_dynamic_reconfigure_options", "catkin_python_setup"}
+"""Commands that come before ``catkin_package``."""
+
+DECLARATIONS = {*KINDS, *EARLY, "catkin_install_python"}
+"""Commands that generate something; one that cannot be followed is reported."""
+
 COMPILING = (
     "add_executable",
     "add_library",
@@ -74,7 +78,6 @@ class Project:
     reconfigurable: list[Word] = field(default_factory=list)
     """The ``.cfg`` files."""
     compiled: list[Word] = field(default_factory=list)
-    tests: list[Word] = field(default_factory=list)
     is_metapackage: bool = False
     findings: list[Finding] = field(default_factory=list)
 
@@ -95,22 +98,16 @@ def read_project(folder: Path) -> Project:
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         raise CMakeError("the file is not UTF-8 text", path, line) from error
-    variables = {
-        "CMAKE_CURRENT_SOURCE_DIR": folder.as_posix(),
-        "CMAKE_CURRENT_LIST_DIR": folder.as_posix(),
-        "PROJECT_SOURCE_DIR": folder.as_posix(),
-        "CATKIN_ENABLE_TESTING": "ON",
-        "CMAKE_SYSTEM_NAME": "Linux",
-        "UNIX": "1",
-        "catkin_FOUND": "1",
-        "PYTHON_VERSION_MAJOR": "3",
-        **_destinations(folder.name),
-    }
-    evaluation = Evaluation(folder, variables, path)
+    sources = ("CMAKE_CURRENT_SOURCE_DIR", "CMAKE_CURRENT_LIST_DIR", "PROJECT_SOURCE_DIR")
+    variables = Variables(path, dict.fromkeys(sources, folder.as_posix()) | _destinations(folder.name))
     project = Project(path)
-    for statement in evaluation.statements(parse(text, path)):
-        _declare(project, statement, evaluation)
-    project.findings += [warning(note.text, path, note.line) for note in evaluation.passed_over]
+    for command in parse(text, path):
+        if command.block is None:
+            _declare(project, command, variables)
+        elif command.name in DECLARATIONS:
+            block = f"{command.block.name}() of line {command.block.line}"
+            message = f"{command.name}() is ignored, because rosmini does not evaluate {block}"
+            project.findings.append(warning(message, path, command.line))
     return project
 
 
@@ -119,28 +116,31 @@ def _destinations(name: str) -> dict[str, str]:
     return {key: value.format(name=name) for key, value in CATKIN_VARIABLES.items()}
 
 
-def _declare(project: Project, statement: Statement, evaluation: Evaluation) -> None:
+def _declare(project: Project, command: Command, variables: Variables) -> None:
     """Record the declarations of one command."""
-    words, line = statement.words, statement.line
-    name = statement.name
+    words, line = variables.words(command), command.line
+    name = command.name
+    if variables.unknown and name in DECLARATIONS:
+        message = (
+            f"{variables.unknown[0]} has no value, because rosmini only follows set() and list(APPEND) outside "
+            f"of blocks; write what {name}() needs without it"
+        )
+        project.findings.append(warning(message, project.path, line))
+    if name in EARLY and project.exports is not None:
+        message = f"{name}() comes after catkin_package(); move it before"
+        project.findings.append(Finding(message, project.path, line))
     if name == "project" and words:
         project.name = words[0]
-        evaluation.variables.update(_destinations(words[0].text))
+        variables.values.update(_destinations(words[0].text))
     elif name == "find_package" and words and words[0].text == "catkin":
         project.finds_catkin = line
         project.components += _after(words, ("COMPONENTS", "OPTIONAL_COMPONENTS"), ("REQUIRED", "QUIET"))
     elif name in KINDS:
-        _add_definitions(project, statement)
+        _add_definitions(project, command, words)
     elif name == "generate_messages":
-        _expect_before(
-            project, project.exports is None, f"{name}() comes after catkin_package(); move it before", line
-        )
         project.generates = line
         project.message_packages += _after(words, ("DEPENDENCIES",), ("LANGS",))
     elif name == "generate_dynamic_reconfigure_options":
-        _expect_before(
-            project, project.exports is None, f"{name}() comes after catkin_package(); move it before", line
-        )
         project.reconfigurable += words
     elif name == "catkin_package":
         project.exports = line
@@ -156,9 +156,6 @@ def _declare(project: Project, statement: Statement, evaluation: Evaluation) -> 
     elif name == "catkin_metapackage":
         project.is_metapackage = True
     elif name == "catkin_python_setup":
-        _expect_before(
-            project, project.exports is None, f"{name}() comes after catkin_package(); move it before", line
-        )
         project.python_setup = line
     elif name == "catkin_install_python":
         _install(project, words, scripts=True)
@@ -166,30 +163,23 @@ def _declare(project: Project, statement: Statement, evaluation: Evaluation) -> 
         _install(project, words, scripts=False)
     elif name in COMPILING and words:
         project.compiled.append(Word(words[0].text, line))
-    elif name in TESTS and words:
-        project.tests.append(words[0])
 
 
-def _expect_before(project: Project, holds: bool, message: str, line: int) -> None:
-    if not holds:
-        project.findings.append(Finding(message, project.path, line))
-
-
-def _add_definitions(project: Project, statement: Statement) -> None:
+def _add_definitions(project: Project, command: Command, words: Sequence[Word]) -> None:
     """``add_message_files([DIRECTORY folder] [FILES names...])``; without names, every file of the folder."""
-    kind = KINDS[statement.name]
-    folder = next(iter(_after(statement.words, ("DIRECTORY",), ("FILES",))), Word(kind, statement.line)).text
-    names = _after(statement.words, ("FILES",), ("DIRECTORY", "PACKAGE", "NOINSTALL"))
-    loose = [word for word in statement.words if word.text.endswith(f".{kind}") and word not in names]
+    kind = KINDS[command.name]
+    folder = next(iter(_after(words, ("DIRECTORY",), ("FILES",))), Word(kind, command.line)).text
+    names = _after(words, ("FILES",), ("DIRECTORY", "PACKAGE", "NOINSTALL"))
+    loose = [word for word in words if word.text.endswith(f".{kind}") and word not in names]
     for word in loose:
-        message = f"{word.text} is ignored, because FILES is missing before it in {statement.name}()"
+        message = f"{word.text} is ignored, because FILES is missing before it in {command.name}()"
         project.findings.append(Finding(message, project.path, word.line))
     if project.generates is not None:
-        message = f"{statement.name}() comes after generate_messages(); move it before"
-        project.findings.append(Finding(message, project.path, statement.line))
-    if not any(word.text == "FILES" for word in statement.words) and not loose:
+        message = f"{command.name}() comes after generate_messages(); move it before"
+        project.findings.append(Finding(message, project.path, command.line))
+    if not any(word.text == "FILES" for word in words) and not loose:
         found = files.names_in(project.folder / folder)
-        names = [Word(name, statement.line) for name in found if name.endswith(f".{kind}")]
+        names = [Word(name, command.line) for name in found if name.endswith(f".{kind}")]
     for word in names:
         path = word.text if Path(word.text).is_absolute() else f"{folder}/{word.text}"
         project.definitions.append(Definition(kind, path, word.line))

@@ -91,7 +91,7 @@ def test_some_packages_only(bench: Bench) -> None:
         bench.make("midle")
 
 
-def test_actions_python_modules_globs_and_variables(bench: Bench) -> None:
+def test_actions_python_modules_and_variables(bench: Bench) -> None:
     bench.package("acting", "actionlib_msgs")
     bench.write("acting", "action/Wash.action", "int8 dishes\n---\nint8 clean\n---\nfloat32 done\n")
     bench.write("acting", "src/acting/__init__.py", "from .helper import answer\n")
@@ -104,7 +104,7 @@ def test_actions_python_modules_globs_and_variables(bench: Bench) -> None:
         set(NEEDED std_msgs actionlib_msgs)
         find_package(catkin REQUIRED COMPONENTS rospy message_generation ${NEEDED})
         catkin_python_setup()
-        file(GLOB found RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg msg/*.msg)
+        set(found Num.msg)
         add_message_files(FILES ${found})
         add_service_files(FILES Add.srv)
         add_action_files(DIRECTORY action FILES Wash.action)
@@ -126,6 +126,25 @@ def test_actions_python_modules_globs_and_variables(bench: Bench) -> None:
     code = "import acting\nfrom acting.msg import WashAction, WashGoal, Num\n"
     code += "print(acting.answer, WashGoal(dishes=2).dishes)"
     assert run([sys.executable, "-c", code], env=env, check=True).stdout == "42 2\n"
+
+
+def test_declarations_that_cannot_be_followed_are_reported(bench: Bench) -> None:
+    bench.package("acting")
+    bench.write("acting", "CMakeLists.txt", """
+        project(acting)
+        find_package(catkin REQUIRED COMPONENTS rospy std_msgs message_generation)
+        file(GLOB found msg/*.msg)
+        add_message_files(FILES ${found})
+        if(UNIX)
+          add_service_files(FILES Add.srv)
+          set(other 1)
+        endif()
+        catkin_package()
+    """)  # fmt: skip
+    found = {each.line: each.message for each in bench.make().findings if each.file.name == "CMakeLists.txt"}
+    assert found[5].startswith("found has no value")
+    assert found[7].startswith("add_service_files() is ignored")
+    assert "if() of line 6" in found[7]
 
 
 def test_a_setup_py_is_read_and_not_run(bench: Bench) -> None:
