@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import re
-import sys
 import xmlrpc.client
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from ..processes import free_port, run, start, wait_until
+from ..processes import free_port, start, wait_until
 from .conftest import SYSTEM_PYTHON, need_ros
+
+if TYPE_CHECKING:
+    from .conftest import Tools
 
 need_ros("rosnode", "rostopic", modules="rospy, std_msgs.msg, geometry_msgs.msg")
 
@@ -53,14 +55,6 @@ def nodes(master: dict[str, str]) -> Iterator[dict[str, str]]:
         yield master
 
 
-def both(env: dict[str, str], line: str, stdin: str | None = None) -> tuple[Any, Any]:
-    """What the real tool did, and what ours did."""
-    words = line.split()
-    real = run(words, env=env, stdin=stdin)
-    ours = run([sys.executable, "-m", "rosmini", *words], env=env, stdin=stdin)
-    return real, ours
-
-
 def masked(text: str) -> str:
     return re.sub(r"(time=|average: )[\d.]+", r"\1TIME", text)
 
@@ -77,9 +71,10 @@ SAME = [
 ]  # fmt: skip
 
 
+@pytest.mark.usefixtures("nodes")
 @pytest.mark.parametrize("line", SAME)
-def test_the_same_line_prints_the_same(nodes: dict[str, str], line: str) -> None:
-    real, ours = both(nodes, line)
+def test_the_same_line_prints_the_same(tools: Tools, line: str) -> None:
+    real, ours = tools.both(line)
     assert masked(ours.stdout) == masked(real.stdout)
     assert (ours.returncode, ours.stderr) == (real.returncode, real.stderr)
 
@@ -90,39 +85,36 @@ MORE = [
 ]  # fmt: skip
 
 
+@pytest.mark.usefixtures("nodes")
 @pytest.mark.parametrize("line", MORE)
-def test_what_there_is_to_do_comes_after_the_same_error(nodes: dict[str, str], line: str) -> None:
-    real, ours = both(nodes, line)
+def test_our_hint_follows_the_error_of_the_real_tool(tools: Tools, line: str) -> None:
+    real, ours = tools.both(line)
     assert (ours.returncode, ours.stdout) == (real.returncode, real.stdout)
     assert ours.stderr.startswith(real.stderr)
     assert len(ours.stderr) > len(real.stderr)
 
 
 @pytest.mark.parametrize("line", ["rosnode list", "rosnode info /x", "rostopic list", "rostopic info /x"])
-def test_no_master(tmp_path: Any, line: str) -> None:
-    port = free_port()
-    env = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
-    real, ours = both(env, line)
-    assert (ours.returncode, ours.stdout.replace("-" * 80 + "\n", "")) == (
-        1,
-        real.stdout.replace("-" * 80 + "\n", ""),
-    )
+def test_no_master(tools: Tools, line: str) -> None:
+    uri = f"http://127.0.0.1:{free_port()}"
+    real, ours = tools.both(line, env={"ROS_MASTER_URI": uri})
+    rule = "-" * 80 + "\n"
+    assert (ours.returncode, ours.stdout.replace(rule, "")) == (1, real.stdout.replace(rule, ""))
     assert ours.stderr.startswith(real.stderr)
-    assert f"127.0.0.1:{port}" in ours.stderr
+    assert uri in ours.stderr
 
 
-def test_ours_cleans_up_and_kills(master: dict[str, str]) -> None:
+def test_ours_cleans_up_and_kills(tools: Tools, master: dict[str, str]) -> None:
     gone = f"http://127.0.0.1:{free_port()}/"
     ask(master, "registerPublisher", "/gone", "/old", "std_msgs/String", gone)
     ask(master, "registerService", "/gone", "/gone/srv", gone.replace("http", "rosrpc"), gone)
-    tool = [sys.executable, "-m", "rosmini", "rosnode"]
-    asked = run([*tool, "cleanup"], env=master, stdin="y\n", check=True)
-    assert f"ERROR: connection refused to [{gone}]" in asked.stderr
-    assert asked.stdout.endswith("Please type y or n to continue:\nUnregistering /gone\ndone\n")
-    assert "/gone" not in run(["rosnode", "list"], env=master, check=True).stdout
+    cleaned = tools.ours("rosnode cleanup", stdin="y\n")
+    assert cleaned.returncode == 0
+    assert f"ERROR: connection refused to [{gone}]" in cleaned.stderr
+    assert cleaned.stdout.endswith("Please type y or n to continue:\nUnregistering /gone\ndone\n")
+    assert "/gone" not in tools.real("rosnode list").stdout
     with start([SYSTEM_PYTHON, "-c", NODE, "victim"], env=master) as victim:
         wait_until(lambda: is_ready(master, "victim"), "victim", victim)
-        killed = run([*tool, "kill", "victim"], env=master, check=True)
-        assert killed.stdout == "killing /victim\nkilled\n"
+        assert tools.ours("rosnode kill victim").stdout == "killing /victim\nkilled\n"
         victim.wait()
-    assert "/victim" not in run([*tool, "list"], env=master, check=True).stdout
+    assert "/victim" not in tools.ours("rosnode list").stdout

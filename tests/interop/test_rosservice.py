@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-import shlex
-import sys
 import xmlrpc.client
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING
 
 import pytest
 
-from ..processes import free_port, run, start, wait_until
+from ..processes import free_port, start, wait_until
 from .conftest import SYSTEM_PYTHON, need_ros
+
+if TYPE_CHECKING:
+    from .conftest import Tools
 
 need_ros("rosservice", modules="rospy, roscpp.srv, sensor_msgs.srv, tf2_msgs.srv")
 
@@ -46,14 +47,6 @@ def server(master: dict[str, str]) -> Iterator[dict[str, str]]:
         yield master
 
 
-def both(env: dict[str, str], line: str, stdin: str | None = None) -> tuple[Any, Any]:
-    """What the real tool did, and what ours did."""
-    words = shlex.split(line)
-    real = run(words, env=env, stdin=stdin)
-    ours = run([sys.executable, "-m", "rosmini", *words], env=env, stdin=stdin)
-    return real, ours
-
-
 SAME = [
     "list", "list -n", "list /robot1", "list /robot1/info", "list /nope", "type /frames", "type robot1/info",
     "uri /frames", "node /frames", "args /robot1/info", "args /server/empty", "info /robot1/info",
@@ -63,9 +56,12 @@ SAME = [
 ]  # fmt: skip
 
 
+pytestmark = pytest.mark.usefixtures("server")
+
+
 @pytest.mark.parametrize("line", SAME)
-def test_the_same_line_prints_the_same(server: dict[str, str], line: str) -> None:
-    real, ours = both(server, f"rosservice {line}")
+def test_the_same_line_prints_the_same(tools: Tools, line: str) -> None:
+    real, ours = tools.both(f"rosservice {line}")
     assert (ours.stdout, ours.returncode) == (real.stdout, real.returncode)
     assert ours.stderr.startswith(real.stderr)
 
@@ -73,29 +69,28 @@ def test_the_same_line_prints_the_same(server: dict[str, str], line: str) -> Non
 @pytest.mark.parametrize(
     "line", ["type /nope", "uri /nope", "info /nope", "call /nope", "args /nope", "call /fails"]
 )
-def test_errors_begin_as_the_real_ones(server: dict[str, str], line: str) -> None:
-    real, ours = both(server, f"rosservice {line}")
+def test_errors_begin_as_the_real_ones(tools: Tools, line: str) -> None:
+    real, ours = tools.both(f"rosservice {line}")
     assert (ours.stdout, ours.returncode) == (real.stdout, real.returncode)
     assert ours.stderr.startswith(re.sub(r"b'(.*)'$", r"\1", real.stderr, flags=re.MULTILINE))
 
 
-def test_requests_on_standard_input(server: dict[str, str]) -> None:
+def test_requests_on_standard_input(tools: Tools) -> None:
     requests = "".join(f"camera_info: {{width: {number}}}\n---\n" for number in (1, 2))
-    real, ours = both(server, "rosservice call /robot1/info", requests + "camera_info: {width: 3}\n")
+    real, ours = tools.both("rosservice call /robot1/info", stdin=requests + "camera_info: {width: 3}\n")
     assert (ours.stdout, ours.returncode) == (real.stdout, real.returncode)
     assert '"2"' in ours.stdout
 
 
-def test_no_master(tmp_path: Any) -> None:
+def test_no_master(tools: Tools) -> None:
     uri = f"http://127.0.0.1:{free_port()}"
-    env = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "ROS_MASTER_URI": uri}
-    real, ours = both(env, "rosservice list")
+    real, ours = tools.both("rosservice list", env={"ROS_MASTER_URI": uri})
     assert (ours.stdout, ours.returncode) == (real.stdout, real.returncode)
     assert ours.stderr.startswith(real.stderr)
 
 
-def test_a_tool_leaves_nothing_behind(server: dict[str, str]) -> None:
+def test_a_tool_leaves_nothing_behind(tools: Tools, server: dict[str, str]) -> None:
     with xmlrpc.client.ServerProxy(server["ROS_MASTER_URI"]) as proxy:
         before = proxy.getSystemState("/test")
-        run([sys.executable, "-m", "rosmini", "rosservice", "call", "/frames"], env=server, check=True)
+        assert tools.ours("rosservice call /frames").returncode == 0
         assert proxy.getSystemState("/test") == before

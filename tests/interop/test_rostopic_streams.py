@@ -8,12 +8,15 @@ import subprocess
 import sys
 import xmlrpc.client
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from ..processes import run, start, wait_until
 from .conftest import SYSTEM_PYTHON, need_ros
+
+if TYPE_CHECKING:
+    from .conftest import Tools
 
 need_ros("rostopic", modules="rospy, std_msgs.msg, geometry_msgs.msg, sensor_msgs.msg")
 
@@ -61,19 +64,18 @@ def tool(*words: str) -> list[str]:
 
 
 ECHO = [
-    ["/word"], ["/word/data"], ["/odom"], ["--noarr", "/odom"], ["--nostr", "/odom"], ["-p", "/odom"],
-    ["-p", "--noarr", "--nostr", "/odom"], ["-w", "8", "/odom"], ["/odom/pose/pose/orientation"],
-    ["/odom/header/stamp"], ["/scan"], ["-p", "/scan"], ["/scan/ranges"], ["/scan/ranges[0:2]"], ["/scan/ranges[-1]"],
-    ["/image"], ["--filter", "m.range_max > 3", "/scan/range_max"],
+    "/word", "/word/data", "/odom", "--noarr /odom", "--nostr /odom", "-p /odom", "-p --noarr --nostr /odom",
+    "-w 8 /odom", "/odom/pose/pose/orientation", "/odom/header/stamp", "/scan", "-p /scan", "/scan/ranges",
+    "/scan/ranges[0:2]", "/scan/ranges[-1]", "/image", "--filter 'm.range_max > 3' /scan/range_max",
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("words", ECHO, ids=" ".join)
-def test_it_echoes_what_the_real_one_does(graph: dict[str, str], words: list[str]) -> None:
-    real = run(["rostopic", "echo", "-n", "1", *words], env=graph | {"LANG": "C.UTF-8"}, check=True)
-    ours = run(tool("echo", "-n", "1", *words), env=graph, check=True)
+@pytest.mark.usefixtures("graph")
+@pytest.mark.parametrize("words", ECHO)
+def test_it_echoes_what_the_real_one_does(tools: Tools, words: str) -> None:
+    real, ours = tools.both(f"rostopic echo -n 1 {words}", env={"LANG": "C.UTF-8"})
+    assert (ours.returncode, ours.stderr, real.returncode) == (0, "", 0)
     assert unnumbered(ours.stdout) == unnumbered(real.stdout)
-    assert ours.stderr == ""
 
 
 def unnumbered(text: str) -> str:
@@ -81,15 +83,18 @@ def unnumbered(text: str) -> str:
     return re.sub(r"^(  seq: +|[1-9]\d*,)\d+", r"\1N", text, flags=re.MULTILINE)
 
 
-@pytest.mark.parametrize("verb", ["hz", "bw"])
-def test_it_measures_real_publishers(graph: dict[str, str], verb: str) -> None:
-    ours = run(tool(verb, "--duration", "3.5", "/chatter"), env=graph, check=True)
+@pytest.mark.usefixtures("graph")
+@pytest.mark.parametrize(
+    ("verb", "form"),
+    [
+        ("hz", r"average rate: [\d.]+ \tmin: [\d.]+s max: [\d.]+s std dev: [\d.]+s window: \d+"),
+        ("bw", r"average: [\d.]+K?B/s \tmean: 33.00B min: 33.00B max: 33.00B window: \d+"),
+    ],
+)
+def test_it_measures_real_publishers(tools: Tools, verb: str, form: str) -> None:
+    ours = tools.ours(f"rostopic {verb} --duration 1.5 /chatter")
     first, *rest = ours.stdout.splitlines()
     assert first == "subscribed to [/chatter]"
-    form = {
-        "hz": r"average rate: [\d.]+ \tmin: [\d.]+s max: [\d.]+s std dev: [\d.]+s window: \d+",
-        "bw": r"average: [\d.]+K?B/s \tmean: 33.00B min: 33.00B max: 33.00B window: \d+",
-    }[verb]
     printed = " ".join(rest).replace("no new messages ", "")
     assert re.match(form, printed), ours.stdout
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...processes import free_port, run, start, wait_until
-from ..conftest import SYSTEM_PYTHON
+from ..conftest import SYSTEM_PYTHON, Tools
 
 if TYPE_CHECKING:
     import subprocess
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from types import TracebackType
 
 PEER = Path(__file__).with_name("peer.py")
-REAL = PEER.with_name("real_tools.py")
-REAL_TOOLS = {"rosnode", "rostopic", "rosservice", "rosparam"}
+FORKED_TOOLS = {"rosnode", "rostopic", "rosservice", "rosparam"}
+"""Tools that are imported once for many commands."""
 ROSMINI = [sys.executable, str(PEER.with_name("ours.py"))]
 PACKAGE = "wire_peers"
 ALL_REAL = os.environ.get("ROSMINI_WIRE_ALL_REAL") == "1"
@@ -215,11 +215,11 @@ class Stage:
         self.children: list[Child] = []
         self.pair: dict[str, Peer] = {}
         """The two peers that the tests of a module share."""
-        self._tools: Child | None = None
         self._stack = ExitStack()
         self._packages = home / "packages"
         self.marker = str(home / ".ros")
         (home / ".ros").mkdir()
+        self._tools = self._stack.enter_context(Tools(self.environment(), home))
         self.add_package()
 
     @property
@@ -316,26 +316,20 @@ class Stage:
         return child
 
     def tool(self, *words: Any) -> str:
-        """Run a tool to its end and return what it wrote; it has to succeed."""
-        status, out, err = self._real_tool(words) if words[0] in REAL_TOOLS else self._program(words)
-        assert status == 0, f"{words} ended with {status}:\n{out}\n{err}"
-        return out
+        """Run one of ROS's tools, or another program, to its end and return what it wrote; it has to succeed."""
+        return self._succeed("real", [str(word) for word in words])
 
-    def _program(self, words: Sequence[Any]) -> tuple[int, str, str]:
-        found = run(words, env=self.environment(), cwd=self.home)
-        return found.returncode, found.stdout, found.stderr
+    def our_tool(self, *words: Any) -> str:
+        """Run one of our tools."""
+        return self._succeed("ours", [str(word) for word in words])
 
-    def _real_tool(self, words: Sequence[Any]) -> tuple[int, str, str]:
-        """Run one of ROS's tools in a process that has imported it already."""
-        if self._tools is None:
-            self._tools = self.start("tools", [SYSTEM_PYTHON, REAL])
-        tools, files = self._tools, [str(self.home / f"tool.{name}") for name in ("out", "err")]
-        before = tools.output.count("\n")
-        tools.process.stdin.write(json.dumps([[str(word) for word in words], *files]) + "\n")
-        tools.process.stdin.flush()
-        tools.wait(lambda: tools.output.count("\n") > before, f"the end of {words}")
-        out, err = (Path(file).read_text(encoding="utf-8") for file in files)
-        return int(tools.output.splitlines()[before]), out, err
+    def _succeed(self, kind: str, words: list[str]) -> str:
+        if words[0] in FORKED_TOOLS:
+            done = self._tools.run(kind, words)
+        else:
+            done = run(words if kind == "real" else [*ROSMINI, *words], env=self.environment(), cwd=self.home)
+        assert done.returncode == 0, f"{words} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}"
+        return done.stdout
 
     def play(self, words: list[Any], topic: str, listeners: Sequence[Peer]) -> Child:
         """Play a bag that has /gate, too, by a program that waits for subscribers of all topics.

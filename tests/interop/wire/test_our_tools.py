@@ -57,7 +57,7 @@ def plain(text: str) -> list[str]:
 def test_our_tools_say_what_ros_own_say(core: Stage, busy: Peers, words: str) -> None:
     for peer in busy if "{}" in words else busy[:1]:
         asked = words.format(peer.node).split()
-        ours, theirs = core.tool(*ROSMINI, *asked), core.tool(*asked)
+        ours, theirs = core.our_tool(*asked), core.tool(*asked)
         assert plain(ours) == plain(theirs)
 
 
@@ -71,9 +71,7 @@ def test_our_rates_and_publications(core: Stage, busy: Peers) -> None:
             tool.interrupt()
         peer.tell("hear", f"{peer.node}/inbox")
         while not peer.has_answered():  # it says it for three seconds
-            core.tool(
-                *ROSMINI, "rostopic", "pub", "-1", f"{peer.node}/inbox", "std_msgs/String", "data: hello"
-            )
+            core.our_tool("rostopic", "pub", "-1", f"{peer.node}/inbox", "std_msgs/String", "data: hello")
         assert peer.answer() == [{"data": "hello"}]  # once, though it is latched
 
 
@@ -81,9 +79,9 @@ def test_our_rostopic_shows_types_that_only_the_publisher_knows(core: Stage) -> 
     """Which ROS's own cannot: the definition comes with the connection."""
     odd = core.start("odd", [SYSTEM_PYTHON, "-c", ODD])
     core.wait_for("/odd", "publishers", "/odd_publisher")
-    said = core.tool(*ROSMINI, "rostopic", "echo", "-n", "1", "/odd")
+    said = core.our_tool("rostopic", "echo", "-n", "1", "/odd")
     assert yaml.safe_load(said.replace("---", "")) == {"text": "käse", "values": [1.5, 2.0]}
-    assert core.tool(*ROSMINI, "rostopic", "echo", "-n", "1", "/odd/values[1]") == "2.0\n---\n"
+    assert core.our_tool("rostopic", "echo", "-n", "1", "/odd/values[1]") == "2.0\n---\n"
     odd.interrupt()
 
 
@@ -101,7 +99,7 @@ rospy.spin()
 def test_our_rosnode_kills_and_cleans_up(core: Stage, busy: Peers) -> None:
     for kind in ("ours", "real"):
         victim = core.peer(kind, f"victim_of_ours_{kind}").ready()
-        assert core.tool(*ROSMINI, "rosnode", "kill", victim.node) == f"killing {victim.node}\nkilled\n"
+        assert core.our_tool("rosnode", "kill", victim.node) == f"killing {victim.node}\nkilled\n"
         victim.process.stdin.close()
         assert victim.ended() == 0
         wait_until(lambda name=victim.node: name not in core.nodes(), "unregistering")
