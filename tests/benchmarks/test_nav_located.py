@@ -5,6 +5,8 @@ from __future__ import annotations
 from rosmini_bench import nav_located
 from rosmini_bench.nav_located import Row
 
+from rosmini.core.errors import RosminiError
+
 
 def test_the_page_is_what_is_made_of_the_committed_rows():
     rows = nav_located.load(nav_located.FILE)
@@ -30,3 +32,17 @@ def test_rows_are_kept_and_counted(tmp_path):
     page = nav_located.page(kept)
     assert "| house | 3 of 3 | 44% to 100% | 30 s | 1 to 3 | abc, def |" in page
     assert "| house | 5 (6) | 0.7 (0.6) | 1 to 3 | abc |" in page
+
+
+def test_bench_measures_a_row_of_each_study(monkeypatch, capsys):
+    def lost(what, seed):
+        raise RosminiError(f"{what} is not here")
+
+    studies = {study: lambda what, seed: {"off [cm]": 4.0 + seed} for study in nav_located.STUDIES}
+    monkeypatch.setattr(nav_located, "STUDIES", studies | {"lost": lost})
+    nav_located.show(quick=True)
+    shown = capsys.readouterr().out
+    assert (
+        "tracking:\n| what | off [cm] | seeds | commit |\n|---|---|---|---|\n| house | 5 (5) | 1 |" in shown
+    )
+    assert "lost: house is not here" in shown

@@ -157,11 +157,9 @@ def main(args: argparse.Namespace) -> int:
         )
         print(f"written to {args.json}")
     if args.subject == "nav":
-        from . import nav_amcl, nav_explore, nav_gmapping, nav_hector, nav_quality, nav_study
+        from . import nav_explore, nav_located, nav_quality, nav_study
 
-        nav_amcl.run(quick=args.quick)
-        nav_gmapping.show(quick=args.quick)
-        nav_hector.study(*((1, 30.0) if args.quick else (3, 120.0)))
+        nav_located.show(quick=args.quick)
         if args.quick:
             explored = nav_explore.run(worlds=("maze",), seeds=(args.seed,))
         else:

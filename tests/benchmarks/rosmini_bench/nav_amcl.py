@@ -1,12 +1,10 @@
-"""How fast amcl is, and how well it knows where the robot is: over drives, many seeds, without a graph.
+"""How fast amcl is, and how it follows a drive, without a graph; `nav_located` makes studies of it.
 
-`python -m rosmini_bench.nav_amcl --seeds 50` prints the whole study; `rosmini bench nav` a short one. Parameters are
-those of `turtlebot3_navigation`'s amcl.launch, and what a row's name says.
+Parameters are those of `turtlebot3_navigation`'s amcl.launch.
 """
 
 from __future__ import annotations
 
-import argparse
 import math
 import time
 import tracemalloc
@@ -24,12 +22,11 @@ from rosmini.navigation.amcl.filter import ParticleFilter
 from rosmini.navigation.amcl.laser import LaserModel, Scan
 from rosmini.navigation.amcl.localizer import Localizer
 from rosmini.navigation.amcl.motion import moved
-from rosmini.navigation.amcl.parameters import LASERS, AmclParameters
+from rosmini.navigation.amcl.parameters import AmclParameters
 from rosmini.ros.launch import plan_of
 
 from . import Measure
-from .nav_drives import Drive, accompanied, drive, kidnapped
-from .nav_goals import wilson
+from .nav_drives import Drive, drive
 from .nav_trial import place
 
 Floats = NDArray[np.float64]
@@ -160,82 +157,10 @@ def _pose(row: Floats) -> Pose:
     return float(row[0]), float(row[1]), float(row[2])
 
 
-# -- studies -------------------------------------------------------------------------------------------------------
-
-
-def tracking(world: str, seeds: range, seconds: float, *, people: int = 0, **changes: Any) -> str:
-    """How far off it is while it follows a robot, over some seeds."""
-    tracks, stopped = [], []
-    for seed in seeds:
-        one, share = drives(world, seed, seconds), 0.0
-        if people:
-            one, share = accompanied(one, people, seed)
-        stopped.append(share)
-        tracks.append(follow(one, replace(ours(), **changes), seed))
-    off, turned = (np.concatenate([getattr(t, name) for t in tracks]) for name in ("off", "turned_off"))
-    turning = np.concatenate([t.turning for t in tracks])
-    inside = [value for t in tracks for value in t.inside]
-    worst = max(float(t.off.mean()) for t in tracks)
-
-    def said(which: Any) -> str:
-        here, turned_here = 100 * off[which], np.degrees(turned[which])
-        most, most_turned = np.quantile(here, 0.95), np.quantile(turned_here, 0.95)
-        return (
-            f"{here.mean():.1f} cm {turned_here.mean():.2f} deg (95th: {most:.1f} cm {most_turned:.1f} deg)"
-        )
-
-    words = [
-        f"all {said(np.ones(len(off), dtype=bool))}",
-        f"straight {said(~turning)}",
-        f"turning {said(turning)}",
-        f"worst drive {100 * worst:.1f} cm",
-        f"truth in the 95 % ellipse {np.mean(inside):.0%} of {len(inside)}",
-        f"particles {np.mean([t.particles.mean() for t in tracks]):.0f}",
-        f"{1e3 * np.mean([t.cpu for t in tracks]):.1f} ms an update",
-    ]
-    return "; ".join([*words, f"people stop {np.mean(stopped):.0%} of the beams"] if people else words)
-
-
-def finding(world: str, seeds: range, *, carried: bool, **changes: Any) -> str:
-    """How often a robot is found that may be anywhere, or that somebody has carried away."""
-    p = replace(ours(), **{**LOST, **changes})
-    times = []
-    for seed in seeds:
-        one = drives(world, seed, WITHIN + HELD + 5.0)
-        if carried:
-            one = kidnapped(drives(world, seed + 1000, CARRIED + 5.0), one, CARRIED)
-        times.append(follow(one, p, seed, lost=not carried).found(CARRIED if carried else 0.0))
-    found = [t for t in times if math.isfinite(t)]
-    low, high = wilson(len(found), len(times))
-    median = f"{np.median(found):.0f} s" if found else "-"
-    share = f"{len(found) / len(times):.0%}, 95 %: {low:.0%} to {high:.0%}"
-    return f"{len(found)} of {len(times)} ({share}), median {median}"
-
-
 @cache
 def drives(world: str, seed: int, seconds: float) -> Drive:
     """A drive, made once."""
     return drive(world, seed, seconds)
-
-
-def study(
-    seeds: int, worlds: tuple[str, ...] = ("house", "office"), seconds: float = 180.0
-) -> Iterator[tuple[str, str]]:
-    """Yield rows of the whole study: what, and how well."""
-    some = range(1, seeds + 1)
-    for world in worlds:
-        for kind in LASERS:
-            yield f"{world}, tracking, {kind}", tracking(world, some, seconds, laser_model_type=kind)
-        yield f"{world}, tracking, people", tracking(world, some, seconds, people=3)
-        skipping: dict[str, Any] = {"laser_model_type": "likelihood_field_prob", "do_beamskip": True}
-        yield (
-            f"{world}, tracking, people, beams skipped",
-            tracking(world, some, seconds, people=3, **skipping),
-        )
-        yield f"{world}, global localisation", finding(world, some, carried=False)
-        yield f"{world}, kidnapped", finding(world, some, carried=True)
-        none = {"recovery_alpha_slow": 0.0, "recovery_alpha_fast": 0.0}
-        yield f"{world}, kidnapped, alphas 0", finding(world, some, carried=True, **none)
 
 
 # -- speed ---------------------------------------------------------------------------------------------------------
@@ -306,25 +231,3 @@ def measures(scale: float) -> Iterator[Measure]:
         name = f"amcl, a map of {side} x {side} cells"
         yield Measure(name, "ms of CPU", partial(map_cost, side), more_is_better=False)
         yield Measure(name, "MB", partial(map_memory, side), more_is_better=False, once=True)
-
-
-def run(*, quick: bool) -> None:
-    """Print how well it localises: in the house over three drives, or over ten in house and office."""
-    rows = study(3, ("house",), 60.0) if quick else study(10)
-    for what, how in rows:
-        print(f"amcl, {what}: {how}", flush=True)
-
-
-def main() -> None:
-    """Print the study."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seeds", type=int, default=20)
-    parser.add_argument("--seconds", type=float, default=180.0)
-    parser.add_argument("--worlds", nargs="+", default=["house", "office"])
-    args = parser.parse_args()
-    for what, how in study(args.seeds, tuple(args.worlds), args.seconds):
-        print(f"{what}: {how}", flush=True)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,12 +1,7 @@
-"""How good gmapping's maps and paths are, over seeds, and what they cost: `python -m rosmini_bench.nav_gmapping`.
-
-The original's figures for the same logs stand in the studies' docstrings. Logs that are not there are left out;
-recordings of our own worlds are made when they are needed.
-"""
+"""How good gmapping's maps and paths are, and what they cost; `nav_located` makes studies of it."""
 
 from __future__ import annotations
 
-import argparse
 import itertools
 import math
 import os
@@ -141,11 +136,11 @@ def run(log: Log, seed: int, **changes: Any) -> Run:
 
 def off_at_start(poses: Floats, truth: Floats) -> float:
     """RMS of the distances [m] between two paths that begin alike."""
-    aligned = compose(_onto(poses[0], truth[0]), poses)
+    aligned = compose(onto(poses[0], truth[0]), poses)
     return float(np.sqrt(np.mean(np.sum((aligned - truth)[:, :2] ** 2, axis=1))))
 
 
-def _onto(pose: Floats, wanted: Floats) -> Pose:
+def onto(pose: Floats, wanted: Floats) -> Pose:
     """What moves a pose to where it should be."""
     x, y, heading = compose(tuple(wanted.tolist()), inverse(tuple(pose.tolist())))
     return x, y, heading
@@ -192,86 +187,6 @@ def _wider(mask: Bools, cells: int) -> Bools:
     return wide
 
 
-def ceiling(log: Log, taken: NDArray[np.int64], usable: float) -> GridSlam:
-    """A map from true poses and the scans that were taken in: better than that no mapper can be."""
-    slam = GridSlam(Settings(particles=1), laser=log.laser, random=np.random.default_rng(0))
-    for index in taken.tolist():
-        seen = np.isfinite(log.ranges[index]) & (log.ranges[index] > 0) & (log.ranges[index] < log.range_max)
-        laser = compose(log.truth[index : index + 1], log.laser)
-        slam.maps.register(laser, log.ranges[index][seen], log.bearings[seen], usable)
-    return slam
-
-
-# -- studies -------------------------------------------------------------------------------------------------------
-
-
-def spread(values: Any, digits: int = 3, *, more_is_better: bool = False) -> str:
-    """The median and the worst of some figures."""
-    worst = min(values) if more_is_better else max(values)
-    return f"{np.median(values):.{digits}f} (worst {worst:.{digits}f})"
-
-
-def mapped(log: Log, seeds: int, **changes: Any) -> str:
-    """A log with known walls.
-
-    The original on log_house, defaults: 0.103 to 0.109 m, revisits 0.034 to 0.037 m, precision 0.80 and recall 0.73
-    within two cells, 65 ms a scan (2.5 GHz).
-    """
-    assert log.walls is not None
-    runs = [run(log, seed, **changes) for seed in range(seeds)]
-    again = revisits(log.truth)
-    off = [off_at_start(one.poses[one.taken], log.truth[one.taken]) for one in runs]
-    back = [float(np.sqrt(np.mean(relative(one.poses, log.truth, again)[0] ** 2))) for one in runs]
-    quality = [map_quality(one.slam, log.walls, _onto(one.poses[0], log.truth[0]), 2) for one in runs]
-    best = map_quality(
-        ceiling(log, runs[0].taken, runs[0].slam.settings.max_urange), log.walls, (0.0, 0.0, 0.0), 2
-    )
-    precision, recall = zip(*quality, strict=True)
-    return "; ".join(
-        (
-            f"{seeds} seeds, {len(runs[0].taken)} scans taken in: off {spread(off)} m",
-            f"odometry alone {off_at_start(log.odometry, log.truth):.2f} m",
-            f"revisits {spread(back)} m",
-            f"precision {spread(precision, 2, more_is_better=True)}, ceiling {best[0]:.2f}",
-            f"recall {spread(recall, 2, more_is_better=True)}, ceiling {best[1]:.2f}",
-            f"{1e3 * np.median([one.cpu for one in runs]):.0f} ms of CPU a scan",
-        )
-    )
-
-
-def floor(log: Log, seeds: int, **changes: Any) -> str:
-    """A log whose truth is another mapper's: means, and medians of angles.
-
-    The original: neighbours 0.046 m and 0.35 degrees, revisits 0.070 m and 0.5 degrees, 109 ms a scan.
-    """
-    index = np.arange(len(log.times) - 1)
-    kinds = {"neighbours": (index, index + 1), "revisits": revisits(log.truth)}
-    runs = [run(log, seed, **changes) for seed in range(seeds)]
-    words = [f"{seeds} seeds, {len(runs[0].taken)} scans taken in"]
-    for name, pairs in kinds.items():
-        found = [relative(one.poses, log.truth, pairs) for one in runs]
-        means = [float(off.mean()) for off, _ in found]
-        angles = [math.degrees(float(np.median(turned))) for _, turned in found]
-        alone = float(relative(log.odometry, log.truth, pairs)[0].mean())
-        words.append(f"{name} {spread(means)} m, {spread(angles, 2)} degrees (odometry alone {alone:.3f} m)")
-    return "; ".join([*words, f"{1e3 * np.median([one.cpu for one in runs]):.0f} ms of CPU a scan"])
-
-
-def study(seeds: int) -> Iterator[tuple[str, str]]:
-    """Yield rows: what, and how well. Without shared data the recordings of our own worlds are left."""
-    log = house()
-    if log is not None:
-        yield "log_house, defaults", mapped(log, seeds)
-        yield "log_house, updates of 0.2 m and 0.25 rad, maxUrange 3", mapped(log, seeds, **OURS)
-    log = csail()
-    if log is not None:
-        yield "csail, defaults", floor(log, seeds)
-    for world in ("office", "maze"):
-        fresh = recorded(world, 1, 240.0)
-        yield f"{world}, fresh, defaults", mapped(fresh, seeds)
-        yield f"{world}, fresh, 0.2 m and 0.25 rad, maxUrange 3", mapped(fresh, seeds, **OURS)
-
-
 # -- cost ----------------------------------------------------------------------------------------------------------
 
 
@@ -315,22 +230,3 @@ def measures(scale: float) -> Iterator[Measure]:
         side = 4000 if full else 200
         name = f"gmapping, maps of {particles} particles, {side} x {side} cells seen"
         yield Measure(name, "MB", partial(memory, particles, side), more_is_better=False, once=True)
-
-
-def show(*, quick: bool) -> None:
-    """Print how well it maps: a short drive, or the whole study over three seeds."""
-    rows = [("maze, fresh, defaults", mapped(recorded("maze", 1, 20.0), 1))] if quick else study(3)
-    for what, how in rows:
-        print(f"gmapping, {what}: {how}", flush=True)
-
-
-def main() -> None:
-    """Print the study."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seeds", type=int, default=10)
-    for what, how in study(parser.parse_args().seeds):
-        print(f"{what}: {how}", flush=True)
-
-
-if __name__ == "__main__":
-    main()

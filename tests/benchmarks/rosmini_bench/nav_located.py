@@ -1,8 +1,8 @@
-"""How well robots know where they are, kept as rows, one for each seed, and the book's page about them.
+"""How well robots know where they are, stored as rows, one for each seed, and the book's page about them.
 
 `python -m rosmini_bench.nav_located lost house --seeds 1 10` (with PYTHONPATH=tests/benchmarks) adds rows to
 assets/benchmarks/localization.json, each with its seed and commit; without a study it only writes
-`book/localization_figures.md` from them again.
+`book/localization_figures.md` from them again. `rosmini bench nav` measures the same with a few seeds.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+
+from rosmini.core.errors import RosminiError
 
 from . import nav_amcl, nav_gmapping, nav_hector
 from .nav_amcl import CARRIED, HELD, LOST, WITHIN
@@ -96,7 +98,7 @@ def gmapped(what: str, seed: int) -> Values:
         name, lambda: nav_gmapping.recorded(name, 1, 240.0)
     )()
     if log is None:
-        raise SystemExit(f"{name} is not there: shared data are looked for in {nav_gmapping.DATA}")
+        raise RosminiError(f"{name} is not in {nav_gmapping.DATA}")
     one = nav_gmapping.run(log, seed, **(nav_gmapping.OURS if kind else {}))
     again = nav_gmapping.revisits(log.truth)
     back, turned = nav_gmapping.relative(one.poses, log.truth, again)
@@ -110,7 +112,7 @@ def gmapped(what: str, seed: int) -> Values:
             "revisits [deg]": math.degrees(float(np.median(turned))),
             "a scan [ms of CPU]": 1e3 * one.cpu,
         }
-    moved = nav_gmapping._onto(one.poses[0], log.truth[0])
+    moved = nav_gmapping.onto(one.poses[0], log.truth[0])
     precision, recall = nav_gmapping.map_quality(one.slam, log.walls, moved, 2)
     return {
         "off [m]": nav_gmapping.off_at_start(one.poses[one.taken], log.truth[one.taken]),
@@ -134,7 +136,7 @@ def hectored(what: str, seed: int) -> Values:
             "house", seed, 120.0, turn=float(speed), sweep=laser == "sweep", rest=0.0 if start else 1.0
         )
     if one is None:
-        raise SystemExit(f"log_house is not there: shared data are looked for in {nav_hector.DATA}")
+        raise RosminiError(f"log_house is not in {nav_gmapping.DATA}")
     alone, helped = nav_hector.hector(one), nav_hector.hector(one, odometry=True)
     rms, rms_helped = (float(np.sqrt(np.mean(found.errors**2))) for found in (alone, helped))
     cost = 1e3 * float(np.median(helped.cpu))
@@ -172,19 +174,19 @@ def page(rows: list[Row]) -> str:
     """The page, as MyST."""
     lines = INTRODUCTION.splitlines()
     for study, words in WORDS.items():
-        chosen: dict[str, list[Row]] = {}
-        for row in rows:
-            if row.study == study:
-                chosen.setdefault(row.what, []).append(row)
-        lines += ["", *words.strip().splitlines(), ""]
-        tables: dict[tuple[str, ...], list[str]] = {}
-        for what, found in chosen.items():
-            names = tuple(found[0].values)
-            tables.setdefault(names, []).append(what)
-        for names, whats in tables.items():
-            lines += [*_table(names, {what: chosen[what] for what in whats}), ""]
-        lines.pop()
+        lines += ["", *words.strip().splitlines(), "", *tables(row for row in rows if row.study == study)]
     return "\n".join(lines) + "\n"
+
+
+def tables(rows: Iterable[Row]) -> list[str]:
+    """The rows of a study as Markdown: a table for each set of values."""
+    chosen: dict[tuple[str, ...], dict[str, list[Row]]] = {}
+    for row in rows:
+        chosen.setdefault(tuple(row.values), {}).setdefault(row.what, []).append(row)
+    lines: list[str] = []
+    for names, whats in chosen.items():
+        lines += [*([""] if lines else []), *_table(names, whats)]
+    return lines
 
 
 def _table(names: tuple[str, ...], chosen: dict[str, list[Row]]) -> Iterator[str]:
@@ -316,6 +318,28 @@ def write(rows: list[Row]) -> str:
     return page(rows).replace("{lost}", lost_parameters())
 
 
+def measured(study: str, what: str, seed: int) -> Row:
+    """Run a study once. Raises `RosminiError` if it needs a log that is not here."""
+    return Row(study, what, seed, commit(), STUDIES[study](what, seed))
+
+
+def show(*, quick: bool) -> None:
+    """Print what the page shows, measured now: of each study all rows with three seeds, or one row with one seed."""
+    known: dict[str, list[str]] = {}
+    for row in load(FILE):
+        known.setdefault(row.study, [])
+        if row.what not in known[row.study]:
+            known[row.study].append(row.what)
+    for study, whats in known.items():
+        rows = []
+        for what in whats[:1] if quick else whats:
+            try:
+                rows += [measured(study, what, seed) for seed in ((1,) if quick else (1, 2, 3))]
+            except RosminiError as error:
+                print(f"{study}: {error}")
+        print(f"{study}:", *tables(rows), sep="\n", flush=True)
+
+
 def main() -> None:
     """Drive, if a study is named, and write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -326,7 +350,7 @@ def main() -> None:
     args = parser.parse_args()
     if args.study:
         for seed in range(args.seeds[0], args.seeds[1] + 1):
-            row = Row(args.study, args.what, seed, commit(), STUDIES[args.study](args.what, seed))
+            row = measured(args.study, args.what, seed)
             print(row, flush=True)
             store([*load(args.rows), row], args.rows)
     PAGE.write_text(write(load(args.rows)), encoding="utf-8")
