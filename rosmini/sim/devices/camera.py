@@ -10,13 +10,16 @@ from numpy.typing import NDArray
 from rosmini.msgs import message_class
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.models import CameraModel
-from rosmini.sim.sensors.rendering import camera_info, camera_noise, capture
+from rosmini.sim.sensors.rendering import camera_info, camera_noise, develop, expose
 from rosmini.sim.sensors.scene import Scene, parts_of
 
 from .sensor import Outlet
 
 if TYPE_CHECKING:
+    from rosmini.core.geometry.poses import Pose
     from rosmini.sim.engine.robot import Robot
+    from rosmini.sim.sensors.rendering import Light
+    from rosmini.sim.shapes import Part
     from rosmini.sim.world import World
 
 Image = NDArray[np.uint8]
@@ -75,6 +78,8 @@ class CameraDevice(Device):
         self.camera = camera
         self._noise = noise
         self._fixed: tuple[World, Scene] | None = None
+        self._moving: tuple[Scene, list[Part], Scene] | None = None
+        self._last: tuple[tuple[Pose, Scene], Light, Depths] | None = None
         self._warned = False
         frame = frame or camera.frame
         node = host.node
@@ -135,14 +140,21 @@ class CameraDevice(Device):
         )
 
     def look(self, number: int = 0) -> tuple[Image, Depths]:
-        """Return the RGB image (h, w, 3) and the depths (h, w) [m] seen now, with the noise of image `number`."""
+        """Return the RGB image (h, w, 3) and the depths (h, w) [m] seen now, with the noise of image `number`.
+
+        While neither the robot nor anything else moves, only the noise differs from image to image.
+        """
         noise = None
         if self.camera.noise and self._noise:
             noise = camera_noise(self.camera, self.host.rng(f"{self.name}/{number}"), self._noise)
-        return capture(self.camera, self.robot.pose, self._scene(), noise=noise)
+        view = (self.robot.pose, self._scene())
+        if self._last is None or self._last[0] != view:
+            self._last = (view, *expose(self.camera, *view))
+        _, light, depths = self._last
+        return develop(light, noise), depths
 
     def _scene(self) -> Scene:
-        """Return everything visible now; the fixed part is cached until the world changes."""
+        """Return everything visible now: the same object as before if nothing has changed."""
         engine = self.host.engine
         world = engine.world
         fixed = [obstacle for obstacle in world.obstacles if obstacle.fixed]
@@ -151,7 +163,12 @@ class CameraDevice(Device):
             self._fixed = (world, walls + Scene.of(parts_of(fixed)))
         names = {obstacle.name for obstacle in fixed}
         others = [part for part in engine.visible(self.robot.name) if part.name not in names]
-        return self._fixed[1] + Scene.of(others) if others else self._fixed[1]
+        fixed_scene = self._fixed[1]
+        if not others:
+            return fixed_scene
+        if self._moving is None or self._moving[0] is not fixed_scene or self._moving[1] != others:
+            self._moving = (fixed_scene, others, fixed_scene + Scene.of(others))
+        return self._moving[2]
 
     def close(self) -> None:
         """Close the topics."""

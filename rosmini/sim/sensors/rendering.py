@@ -36,6 +36,8 @@ __all__ = ["CameraError", "CameraInfo", "Eye", "camera_info", "capture", "depth"
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 Depths = NDArray[np.float32]
+Light = NDArray[np.float32]
+"""(3, h, w): planes of red, green and blue, 0 to 1."""
 Ints = NDArray[np.int64]
 
 View = Scene | World | Iterable[Part]
@@ -133,12 +135,32 @@ def capture(
         CameraError: the pose is not finite.
 
     """
+    light, depths = expose(camera, pose, view, depth_far=depth_far)
+    return develop(light, noise), depths
+
+
+def expose(
+    camera: CameraModel | Eye, pose: Pose, view: View, *, depth_far: float | None = None
+) -> tuple[Light, Depths]:
+    """Return the light (3, h, w) on the camera's pixels, before noise, for `develop`, and the depths (h, w) [m].
+
+    Arguments and errors are those of `capture`.
+    """
     eye = camera if isinstance(camera, Eye) else eye_of(camera, pose)
     scene = _scene(view)
     inverse, shown = look(eye, scene)
     if depth_far is None and isinstance(camera, CameraModel):
         depth_far = camera.depth_far
-    return _image(eye, scene, inverse, shown, noise), _depths(inverse, eye, depth_far)
+    return shading.coloured(eye, scene, inverse, shown), _depths(inverse, eye, depth_far)
+
+
+def develop(light: Light, noise: Floats | None = None) -> Image:
+    """Return the image (h, w, 3) of the light on the pixels, with noise (h, w)."""
+    planes = light.copy() if noise is None else light + np.asarray(noise, dtype=np.float32)
+    planes *= 255.0
+    np.clip(planes, 0.0, 255.0, out=planes)
+    planes += 0.5
+    return np.ascontiguousarray(planes.astype(np.uint8).transpose(1, 2, 0))
 
 
 def render(
@@ -192,16 +214,6 @@ def look(eye: Eye, scene: Scene) -> tuple[Floats, Ints]:
     raster.draw_rods(second, rods, rod_boxes, eye.position, rays, lens, inverse, shown)
     raster.draw_balls(third, balls, ball_boxes, eye.position, rays, lens, inverse, shown)
     return inverse, shown
-
-
-def _image(eye: Eye, scene: Scene, inverse: Floats, shown: Ints, noise: Floats | None) -> Image:
-    planes = shading.coloured(eye, scene, inverse, shown)
-    if noise is not None:
-        planes += np.asarray(noise, dtype=np.float32)
-    planes *= 255.0
-    np.clip(planes, 0.0, 255.0, out=planes)
-    planes += 0.5
-    return np.ascontiguousarray(planes.astype(np.uint8).transpose(1, 2, 0))
 
 
 def _ground(eye: Eye, rays: Floats) -> Floats:
