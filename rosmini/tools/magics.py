@@ -19,7 +19,7 @@ from rosmini.core.graph.notebook import mark_as_shown
 
 from . import failing
 from .completion import candidates
-from .main import COMMANDS, chosen
+from .main import COMMANDS, Plugged, chosen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -50,10 +50,12 @@ def register(
     from IPython.core.magic import no_var_expand
 
     for name, entry in COMMANDS.items():
-        if entry.is_magic:
+        if isinstance(entry, Plugged) or entry.is_magic:
+            # The tools of other rooms import half of the library, so each is imported when it is first used.
+            summary = f"a tool of {entry.entry_point.module}" if isinstance(entry, Plugged) else entry.summary
             magic = partial(run, shell, name, say=say, warn=warn)
             shell.register_magic_function(
-                no_var_expand(_documented(magic, name, entry.summary, around)), "line", name
+                no_var_expand(_documented(magic, name, summary, around)), "line", name
             )
             shell.set_hook("complete_command", _complete, str_key=f"%{name}")
     for name in SLIPS:
@@ -96,10 +98,10 @@ def _complete(_shell: Any, event: Any) -> list[str]:
 
 
 def tool(name: str) -> Tool:
-    """Return the tool that a magic runs."""
+    """Return the tool that a magic runs. Raises ``UsageError`` if the command is only for terminals."""
     found = COMMANDS[name].tool()
-    if found is None:
-        raise UsageError(f"{name} is no magic")
+    if found is None or not found.is_magic:
+        raise UsageError(f"{name} is not a magic: run `rosmini {name}` in a terminal")
     return found
 
 

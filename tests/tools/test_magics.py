@@ -94,6 +94,11 @@ def test_the_table_says_which_commands_have_a_tool() -> None:
     }
 
 
+def test_a_command_for_terminals_is_not_a_magic(shell: Any) -> None:
+    with pytest.raises(UsageError, match="rosmini world.* terminal"):
+        magics.run(shell, "world", "list")
+
+
 def test_a_result_is_printed_and_returned(shell: Any, capsys: pytest.CaptureFixture[str]) -> None:
     shell.graph.node("talker")
     found: Any = magics.run(shell, "rosnode", "list")
