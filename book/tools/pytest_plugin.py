@@ -1,13 +1,14 @@
 """For pytest: the environment in which notebooks and tests run.
 
-Notebooks run with the display form of the book, which is what their stored outputs hold. Nothing sees the variables of
+Notebooks run with the display form of the book, as their stored outputs do. Nothing sees the variables of
 a ROS that its user has set up (``source /opt/ros/noetic/setup.bash``, ``export TURTLEBOT3_MODEL=waffle``), so that
-tests do not contact that user's Master.
+tests do not contact that user's Master. ``PYTHONDONTWRITEBYTECODE`` only keeps compiled modules out of the checkout.
 """
 
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator
 
 import pytest
@@ -18,10 +19,15 @@ OF_ROS = ("ROS_", "ROSLISP_", "TURTLEBOT3_")
 """How the names of variables begin that belong to a ROS on this machine."""
 
 
-def pytest_configure() -> None:
-    """Take the variables of the user's own ROS out of the environment; what tests start inherits it."""
+def pytest_configure(config: pytest.Config) -> None:
+    """Set up the environment that the tests' processes inherit."""
     for name in [name for name in os.environ if name.startswith(OF_ROS)]:
         del os.environ[name]
+    # Hundreds of processes start here, and a kernel that has to compile all modules takes three times as long.
+    if "PYTHONDONTWRITEBYTECODE" in os.environ and config.pluginmanager.has_plugin("cacheprovider"):
+        del os.environ["PYTHONDONTWRITEBYTECODE"]
+        os.environ["PYTHONPYCACHEPREFIX"] = str(config.cache.mkdir("bytecode"))
+        sys.dont_write_bytecode, sys.pycache_prefix = False, os.environ["PYTHONPYCACHEPREFIX"]
 
 
 @pytest.hookimpl(wrapper=True)

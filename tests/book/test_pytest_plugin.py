@@ -47,24 +47,22 @@ def test_nbval_runs_notebooks_in_the_form_of_the_book_and_leaves_other_tests_alo
     assert "1 failed, 1 passed" in without.stdout
 
 
-def test_nothing_sees_the_ros_of_the_user(tmp_path):
+def test_nothing_sees_the_ros_of_the_user_and_compiled_modules_stay_out_of_the_checkout(tmp_path):
+    (tmp_path / "module.py").touch()
     (tmp_path / "test_a.py").write_text(
-        "import os\ndef test(): assert not {'ROS_MASTER_URI', 'TURTLEBOT3_MODEL'} & set(os.environ)\n",
+        "import os, pathlib, module\n"
+        "def test():\n"
+        "    assert not {'ROS_MASTER_URI', 'TURTLEBOT3_MODEL'} & set(os.environ)\n"
+        "    assert pathlib.Path(module.__cached__).is_file()\n",
         encoding="utf-8",
     )
-    environment = os.environ | {"ROS_MASTER_URI": "http://robot:11311", "TURTLEBOT3_MODEL": "waffle"}
-    command = [
-        sys.executable,
-        "-m",
-        "pytest",
-        "-q",
-        "-p",
-        "no:cacheprovider",
-        "-p",
-        "book.tools.pytest_plugin",
-    ]
+    of_user = {"ROS_MASTER_URI": "http://robot:11311", "TURTLEBOT3_MODEL": "waffle"}
+    environment = os.environ | of_user | {"PYTHONDONTWRITEBYTECODE": "1"}
+    cache = ["-o", f"cache_dir={tmp_path}/cache"]
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "book.tools.pytest_plugin", *cache]
     done = run([*command, tmp_path], env=environment, cwd=tmp_path)
     assert "1 passed" in done.stdout, done.stdout
+    assert not (tmp_path / "__pycache__").exists()
 
 
 def test_the_project_loads_the_plugin(pytestconfig):
