@@ -50,13 +50,15 @@ def points_to_keep(points: NDArray[np.float64], tolerance: float) -> list[int]:
     The ends are always included; see `rosmini.core.geometry.polygons.simplified_indices`.
     """
 
+    x, y = (np.ascontiguousarray(column) for column in points.T)
+
     def gaps(first: int, last: int) -> NDArray[np.float64]:
-        start, chord = points[first], points[last] - points[first]
-        between = points[first + 1 : last] - start
-        length = float((chord * chord).sum())  # not `@`: the last bits of BLAS depend on the processor
-        along = (
-            np.clip((between * chord).sum(axis=1) / length, 0.0, 1.0) if length else np.zeros(len(between))
-        )
-        return np.asarray(np.hypot(*(between - along[:, None] * chord).T))
+        dx, dy = x[first + 1 : last] - x[first], y[first + 1 : last] - y[first]
+        chord_x, chord_y = x[last] - x[first], y[last] - y[first]
+        length = chord_x * chord_x + chord_y * chord_y
+        if length:
+            along = np.minimum(np.maximum((dx * chord_x + dy * chord_y) / length, 0.0), 1.0)
+            dx, dy = dx - along * chord_x, dy - along * chord_y
+        return np.asarray(np.hypot(dx, dy))
 
     return simplified_indices([0, len(points) - 1], gaps, tolerance)

@@ -45,11 +45,18 @@ def pack(values: NDArray[np.int64]) -> str:
 def pack_natural(values: ArrayLike) -> str:
     """Return natural numbers (n,) as text in the format of `pack`, but without differences and without folding."""
     numbers = np.asarray(values, dtype=np.int64)
-    groups = numbers[:, None] >> np.arange(0, 63, 7)
-    length = np.maximum(1, (groups > 0).sum(axis=1))[:, None]
-    place = np.arange(groups.shape[1])
-    coded = (groups & 127) | np.where(place < length - 1, 128, 0)
-    return base64.b64encode(coded[place < length].astype(np.uint8).tobytes()).decode()
+    length = np.ones(len(numbers), dtype=np.int64)
+    longer, rest = [np.arange(len(numbers))], numbers >> 7
+    while len(more := longer[-1][rest > 0]):  # most numbers are one byte long
+        length[more] += 1
+        longer.append(more)
+        rest = numbers[more] >> 7 * len(longer)
+    begin = np.cumsum(length) - length
+    coded = np.empty(int(length.sum()), dtype=np.uint8)
+    for place, which in enumerate(longer):
+        last = length[which] == place + 1
+        coded[begin[which] + place] = (numbers[which] >> 7 * place & 127) | np.where(last, 0, 128)
+    return base64.b64encode(coded.tobytes()).decode()
 
 
 def pack_columns(rows: ArrayLike, *quanta: float) -> str:
