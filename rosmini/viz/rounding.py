@@ -49,7 +49,6 @@ def points_to_keep(points: NDArray[np.float64], tolerance: float) -> list[int]:
 
     The ends are always included; see `rosmini.core.geometry.polygons.simplified_indices`.
     """
-
     x, y = (np.ascontiguousarray(column) for column in points.T)
 
     def gaps(first: int, last: int) -> NDArray[np.float64]:

@@ -95,7 +95,7 @@ def test_the_table_says_which_commands_have_a_tool() -> None:
 
 
 def test_a_command_for_terminals_is_not_a_magic(shell: Any) -> None:
-    with pytest.raises(UsageError, match="rosmini world.* terminal"):
+    with pytest.raises(UsageError, match=r"rosmini world.* terminal"):
         magics.run(shell, "world", "list")
 
 
