@@ -309,7 +309,10 @@ def shown(value: object, limit: int = 60) -> str:
 
 
 def _repr(value: Any, room: int) -> str:
-    """Return ``repr(value)``, correct in its first ``room`` characters; longer than that if anything was left out."""
+    """Return ``repr(value)``, formatting little more than the first ``room`` characters.
+
+    If the result is longer than ``room``, the rest is incomplete, and the caller must cut it off.
+    """
     if isinstance(value, (str, bytes, bytearray)):
         return repr(value[:room])
     if isinstance(value, int) and value.bit_length() > 256:

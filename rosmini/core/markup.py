@@ -69,7 +69,7 @@ class Element:
         """Return an error at this element, to be raised."""
         return self.failure(message, self.path, self.line)
 
-    # ---- elements inside ----
+    # ---- child elements ----
 
     def all(self, *tags: str) -> list[Element]:
         """Return the children with one of these tags, in order."""
@@ -167,7 +167,7 @@ class Element:
             raise self.error(f"{what or f'<{self.tag}>'} is true or false, not {shown(text.strip())}")
         return value
 
-    # ---- back to text ----
+    # ---- serialization ----
 
     def source(self, indent: str = "") -> str:
         """Return the element as XML, with the same tags, attributes and texts, but without white space and comments."""

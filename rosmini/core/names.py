@@ -219,7 +219,7 @@ def resolve(
                 f"{name} is private to a node, and there is no node yet: call init_node first, or name the node"
             )
         node_name = join(canonicalize(namespace) or "/", "node")
-    # rospy reads "~/rate" as "/rate" (roscpp as "/node/rate"); we do as rospy.
+    # rospy reads "~/rate" as "/rate" (roscpp as "/node/rate"); we follow rospy.
     private = is_private(name)
     resolved = join(node_name, canonicalize(name)[1:]) if private else resolve_for(name, node_name)
     return remappings.apply(resolved, node_name) if remappings is not None else resolved

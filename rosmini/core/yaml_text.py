@@ -30,12 +30,13 @@ Failure = Callable[[str, str, int | None], Exception]
 
 
 SHORT, SHORT_WITH_TABS = 10_000, 100_000
-"""Maximum length of a text for PyYAML's own parser [characters]: it is ten times as slow as libyaml, but has better
-error messages, and refuses tabs as ROS does."""
+"""Maximum length of a text for PyYAML's pure-Python parser [characters]: it is ten times as slow as libyaml, but has
+better error messages, and rejects tabs as ROS does.
+"""
 
 
 class _Parser(yaml.reader.Reader, yaml.scanner.Scanner, yaml.parser.Parser):
-    """PyYAML's own parser."""
+    """PyYAML's pure-Python parser (libyaml's is `CParser`)."""
 
     def __init__(self, text: str) -> None:
         yaml.reader.Reader.__init__(self, text)
@@ -52,7 +53,7 @@ def _parser(text: str) -> Any:
 
     try:
         return CParser(text)
-    except UnicodeEncodeError:  # half a surrogate pair, which PyYAML's parser refuses with a YAML error
+    except UnicodeEncodeError:  # a lone surrogate, which PyYAML's parser rejects with a YAML error
         return _Parser(text)
 
 
@@ -71,7 +72,7 @@ class Loader(Composer, SafeConstructor, Resolver):
         self.made = 0
 
     def compose_node(self, parent: Any, index: Any) -> Any:
-        """Compose one node, and count it."""
+        """Compose one node. Raises ``MarkedYAMLError`` for more than `MAX_VALUES` nodes."""
         self.made += 1
         if self.made > MAX_VALUES:
             mark = self.peek_event().start_mark
@@ -82,7 +83,7 @@ class Loader(Composer, SafeConstructor, Resolver):
         """Construct the value of a node; errors get its line."""
         try:
             return super().construct_object(node, deep)
-        # 2026-13-45, .e999, a list as a key; !!float "", !!bool x, !!timestamp 1
+        # Raised for 2026-13-45, .e999, a list as a key, !!float "", !!bool x, !!timestamp 1.
         except (ValueError, OverflowError, TypeError, LookupError, AttributeError) as error:
             text = repr(node.value[:60]) if isinstance(node.value, str) else "what is here"
             what = f"{text} is no {node.tag.rpartition(':')[2]}"
@@ -105,13 +106,16 @@ class Loader(Composer, SafeConstructor, Resolver):
         return value if isinstance(value, Hashable) else None
 
     def construct_yaml_int(self, node: Any) -> Any:
-        """Construct an integer."""
+        """Construct an integer.
+
+        Raises ``MarkedYAMLError`` for more than `MAX_DIGITS` characters, because conversion takes quadratic time.
+        """
         if len(node.value) > MAX_DIGITS:
             raise yaml.MarkedYAMLError(problem="a number of too many digits", problem_mark=node.start_mark)
         return super().construct_yaml_int(node)
 
 
-# PyYAML's types only know its own loaders.
+# PyYAML's type stubs accept only its own loaders.
 Loader.add_constructor("tag:yaml.org,2002:int", Loader.construct_yaml_int)  # type: ignore[type-var]
 
 

@@ -29,7 +29,7 @@ Leg = tuple[float, Pose, Pose]
 class Walk:
     """Motion along straight lines between waypoints, at constant speed.
 
-    At each waypoint it waits, turns, and goes on. The waypoints are positions (x, y) [m] in the frame map; the pose of
+    At each waypoint it waits, turns, and goes on. The waypoints are positions (x, y) [m] in the map frame; the pose of
     the obstacle has no effect. It faces its direction of motion.
     """
 

@@ -161,7 +161,7 @@ class ServerGoalHandle:
         self._step(GoalEvent.CANCEL, text, result)
 
     def set_cancel_requested(self) -> bool:
-        """Record that a client cancels the goal; return False if that has no effect. Called by the server."""
+        """Record a client's cancel request; return False if it has no effect. Called by the server."""
         if self.goal is None:
             return False
         try:

@@ -57,10 +57,11 @@ class SimpleActionClient:
         active_cb: Callable[[], object] | None = None,
         feedback_cb: Callable[[Any], object] | None = None,
     ) -> None:
-        """Send a goal and follow it instead of the previous one, which continues unless the server preempts it.
+        """Send a goal and track it in place of the previous one, which the server may continue or preempt.
 
         ``active_cb()`` is called when the server accepts the goal, ``feedback_cb(feedback)`` on feedback, and
-        ``done_cb(state, result)`` once, at the end. Raises ``ActionException`` for a goal of another type.
+        ``done_cb(state, result)`` once, at the end. Raises ``ActionException`` if ``goal`` is not a message of the
+        action's goal type.
         """
         self.node.scheduler.on_hub(lambda: self._send(goal, done_cb, active_cb, feedback_cb))
 
@@ -129,11 +130,11 @@ class SimpleActionClient:
     # -- cancelling ----------------------------------------------------------------------------------------------
 
     def cancel_all_goals(self) -> None:
-        """Ask the server to cancel all its goals, also those of other clients."""
+        """Ask the server to cancel all its goals, including those of other clients."""
         self.action_client.cancel_all_goals()
 
     def cancel_goals_at_and_before_time(self, time: Time) -> None:
-        """Ask the server to cancel all goals that were sent at ``time`` or before, also those of other clients."""
+        """Ask the server to cancel all goals that were sent at ``time`` or before, including those of other clients."""
         self.action_client.cancel_goals_at_and_before_time(time)
 
     def cancel_goal(self) -> None:

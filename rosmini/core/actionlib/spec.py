@@ -91,7 +91,7 @@ class GoalIDGenerator:
 
 
 class StatusTracker:
-    """One goal in a server's list: its message, its status, and the time of its end.
+    """One goal in a server's list: its message, its status, and the time it ended.
 
     Made from an action goal (``FibonacciActionGoal``), which is ``PENDING`` and gets an id and a stamp if it has none;
     or from an id and a status, for a goal that was cancelled before it arrived.

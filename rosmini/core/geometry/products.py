@@ -102,7 +102,10 @@ def eigen(matrix: ArrayLike) -> tuple[Floats, Floats]:
 
 
 def _rotate(table: Floats, vectors: Floats, p: int, q: int) -> None:
-    """Rotate so that the elements (p, q) and (q, p) become 0, if they are not negligible already."""
+    """Apply one Jacobi rotation in place: make the elements (p, q) and (q, p) of the symmetric `table` 0.
+
+    The eigenvectors in `vectors` rotate with it. Negligible elements are set to 0 without a rotation.
+    """
     off, first, second = float(table[p, q]), float(table[p, p]), float(table[q, q])
     if off == 0.0:
         return

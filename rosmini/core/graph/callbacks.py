@@ -77,7 +77,10 @@ def _users_line(error: BaseException) -> str | None:
 
 
 class TopicHandle(ABC):
-    """Base of handles of a topic; ``on_connect`` and ``on_disconnect`` get the name of the node at the other end."""
+    """Base class of `Publisher` and `Subscriber`.
+
+    The callbacks ``on_connect`` and ``on_disconnect`` receive the name of the node that was connected or disconnected.
+    """
 
     node: Node
     topic: str

@@ -159,7 +159,11 @@ class Rate:
 
 
 class TimerEvent(NamedTuple):
-    """The argument of a timer's callback: when this call and the previous one were due, and when they ran."""
+    """The argument of a timer callback, as in rospy.
+
+    The times when the previous and this call were due (`*_expected`) and ran (`*_real`), and how long the previous
+    callback took [s]. The fields of the previous call are None on the first call.
+    """
 
     last_expected: Time | None
     last_real: Time | None

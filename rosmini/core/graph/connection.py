@@ -77,7 +77,7 @@ class Observer:
     """True if :meth:`pass_on` must be called."""
 
     def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[Iterable[Any]], None]) -> None:  # noqa: ARG002
-        """Call ``accept``, now or later, with those messages from ``peer`` that should arrive."""
+        """Call ``accept``, now or later, with those messages from ``peer`` that are to be delivered."""
         accept(messages)
 
     def before(self, frozen: Any) -> None:
@@ -293,7 +293,7 @@ class Connection:
         except TransportInitError as error:
             self._refused(error)
             return
-        except TransportTerminated:  # the publisher has gone; the Master will say so
+        except TransportTerminated:  # the publisher has gone; the Master will send an update
             subscription.lost(self, None)
             return
         except TransportException as error:
@@ -326,7 +326,7 @@ class Connection:
         try:
             return bool(self._request_topic()[0] == -1)
         except TransportException:
-            return True  # if it still exists, the Master still lists it and says so
+            return True  # treat it as gone; if it still exists, it remains in the Master's list
 
     def _request(self) -> Header:
         subscription = self.subscription

@@ -183,7 +183,7 @@ class Graph:
 
     @property
     def is_live(self) -> bool:
-        """True while the graph runs by itself after :meth:`~rosmini.core.graph.graph.Graph.live`."""
+        """True while the graph runs in the background after :meth:`~rosmini.core.graph.graph.Graph.live`."""
         return self._live is not None and self._live.running
 
     def rng(self, name: str) -> np.random.Generator:
@@ -374,7 +374,7 @@ class Graph:
         if self.nodes.get(node.name) is node:
             del self.nodes[node.name]
 
-    # -- looking at it -------------------------------------------------------------------------------------------
+    # -- pictures and recordings ---------------------------------------------------------------------------------
 
     def show(self, **options: Any) -> Any:
         """Return a picture of the graph, as the tool ``rqt_graph`` draws it.

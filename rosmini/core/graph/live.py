@@ -202,15 +202,15 @@ class Errand(LoopDrive):
         super().__init__(graph, kernel_loop())
 
     def over(self) -> bool:
-        """Return True if the other thread's call no longer waits."""
+        """Return True if the other thread's call has ended."""
         return self._waiter.settled
 
     def complain(self) -> None:
         """Warn if a running cell keeps the graph from being driven. Called in the other thread."""
         if not self._begun and not self.graph.scheduler.driven:
             sys.stderr.write(
-                "A call in another thread is waiting, and the graph stands still because the cell that runs does not "
-                "drive it. It goes on after that cell; interrupt the cell, or let it block with node.sleep() or "
+                "A call in another thread is waiting, and the graph is paused because the running cell does not drive "
+                "it. It continues after that cell; interrupt the cell, or let it block with node.sleep() or "
                 "graph.run().\n"
             )
 

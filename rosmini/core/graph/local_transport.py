@@ -71,7 +71,11 @@ class LocalTransport:
         return slave_uri(uri) in self._endpoints
 
     def offer(self, caller: str) -> list[Any] | None:
-        """Return a subscriber's offer in ``requestTopic``, which contains its process and its graph."""
+        """Return the protocol entry that the subscriber at ``caller`` sends in ``requestTopic``.
+
+        It contains the protocol's name and a value that identifies this process and graph. None if ``caller`` is not
+        attached to this transport.
+        """
         return [self.protocol, self._place] if caller in self._endpoints else None
 
     def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:

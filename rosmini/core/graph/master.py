@@ -161,7 +161,7 @@ def _api(
     return decorate
 
 
-# ---- what the Master remembers ----
+# ---- registries ----
 
 
 @dataclass
@@ -231,7 +231,8 @@ class Master(MasterPort):
         self._subscribers = _Registry("subscriber")
         self._services = _Registry("service")
         self._param_subscribers = _Registry("parameter")
-        # Node and address of each service; None until the first service is registered, which shows in a status text.
+        # Node and address of each service; None until the first service is registered: until then unregisterService
+        # returns another status, as in ROS.
         self._service_apis: dict[str, tuple[str, str]] | None = None
 
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
@@ -433,7 +434,7 @@ class Master(MasterPort):
         self._unregister(self._param_subscribers, closed(key), caller_id, caller_api)
         return [1, f"Unsubscribe to parameter [{key}]", 1]
 
-    # ---- how it is done ----
+    # ---- implementation ----
 
     def _register(self, registry: _Registry, key: str, caller_id: str, caller_api: str) -> None:
         known = self._nodes.get(caller_id)

@@ -124,7 +124,7 @@ class MasterProxy:
             return self._reach(self._graph.master, method, arguments)
 
     def _reach(self, port: MasterPort, method: str, arguments: tuple[Any, ...]) -> Triple:
-        """Return a port's answer, and record the call if the graph is recording."""
+        """Call a Master method through ``port`` and return its answer; record the call if the graph is recording."""
         answer: Triple
         if port.is_local:
             answer = getattr(port, method)(self._caller_id, *arguments)

@@ -60,7 +60,9 @@ def describe_mismatch(topic: str, publisher: Header, subscriber: Header) -> str:
 
 
 def recast(message: Any, message_class: Any) -> Any:
-    """Return ``message`` as a frozen one of another type with the same md5 sum, as if it had come over the wire.
+    """Convert ``message`` to a frozen message of ``message_class``, which has the same md5 sum.
+
+    Encodes and decodes it, as a network connection would.
 
     Raises ``DeserializationError`` if the types do not match after all.
     """

@@ -638,7 +638,7 @@ class Node:
             return self.graph.closing
         return self._stopped and isinstance(error, ROSInterruptException)
 
-    # -- what runs by itself -------------------------------------------------------------------------------------
+    # -- rates and timers ----------------------------------------------------------------------------------------
 
     def rate(self, hz: float, *, reset: bool = False) -> Rate:
         """Return a ``Rate``, which keeps a loop at ``hz`` cycles per second."""
@@ -656,7 +656,7 @@ class Node:
         span = period if isinstance(period, Duration) else Duration.from_sec(period)
         return self.scheduler.on_hub(lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset))
 
-    # -- the end -------------------------------------------------------------------------------------------------
+    # -- shutdown ------------------------------------------------------------------------------------------------
 
     def on_shutdown(self, hook: Callable[[], object]) -> None:
         """Call ``hook()`` when the node shuts down, while it can still publish."""
@@ -759,7 +759,7 @@ class Node:
             msg = f"{self._shutdown_message()}; it cannot {what} any more. Make a new node."
             raise ROSException(msg)
 
-    # -- called across the transport seam ------------------------------------------------------------------------
+    # -- called by the transports --------------------------------------------------------------------------------
 
     def slave_call(self, method: str, *arguments: Any) -> Triple:
         """Answer a call of the slave API."""

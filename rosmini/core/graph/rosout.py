@@ -188,7 +188,7 @@ class Logger:
         once: bool = False,
         logger: str = "",
     ) -> None:
-        """Log for a user's call, unless one of its options suppresses the message: see :class:`LogOptions`."""
+        """Log a message from user code (``node.loginfo()``) unless an option suppresses it: see :class:`LogOptions`."""
         shown = str(text)
         is_always_logged = throttle is None and not identical and not once
         if is_always_logged or self._is_let_through(shown, throttle, identical=identical, once=once):
@@ -226,15 +226,16 @@ class Logger:
             self._file.close()
             self._file = None
 
-    # -- where messages go ---------------------------------------------------------------------------------------
+    # -- output -------------------------------------------------------------------------------------------------
 
     def console(self, level: int, line: str) -> None:
         """Write a line, to standard error for WARN and above, as rospy does.
 
         In a notebook every line goes to standard output, unless that is redirected to a log.
         """
-        # In a script's real thread, `sys` does not have the script's streams but those of the code that the graph is
-        # running; nor does a simulator's step, which runs in no lane, see those of a built-in node.
+        # `sys.stdout` is wrong in two cases: in a real thread of a script it belongs to the code that the graph is
+        # running, and in a simulator's step, which has no lane, it is not that of the built-in node. Use the context's
+        # streams.
         own = getattr(self.streams or self._node.scheduler.current().context, "get_own", None)
         to_log = own is not None and getattr(own("stdout"), "to_log", False)
         name = "stdout" if level <= LEVELS["INFO"] or (self._node.graph.notebook and not to_log) else "stderr"

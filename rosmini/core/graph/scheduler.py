@@ -90,7 +90,7 @@ class Scheduler(EventQueue):
         self._output = None if shell is None else CellOutput(shell)
         self._interrupts = InterruptGuard(lambda: self._inbox.put(None), lambda: self._current.name)
 
-    # -- who is running ------------------------------------------------------------------------------------------
+    # -- current lane --------------------------------------------------------------------------------------------
 
     def current(self) -> Lane:
         """Return the caller's lane, or the main program's if it is in none."""
@@ -460,7 +460,9 @@ class Scheduler(EventQueue):
         """Run events until parked code must continue; return that code."""
         ready, heap, simulated = self.ready, self._timed.heap, self.simulated
         nothing_came, interrupts = self._inbox.empty, self._interrupts
-        if not self._left and (self._rounds + 1) % ROUNDS_PER_LOOK:  # most waiters need only due events
+        if (
+            not self._left and (self._rounds + 1) % ROUNDS_PER_LOOK
+        ):  # skip the inbox and the timers in most rounds
             self._rounds += 1
             self._left = len(ready)
         while True:

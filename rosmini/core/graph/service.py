@@ -145,7 +145,7 @@ class ServiceServer:
         return f"<ServiceServer {self.name} [{self.service_class._type}] of {self.node.name}>"
 
     def accept(self, header: Header) -> Session:
-        """Accept a client's connection. Raises ``TransportInitError`` for another type."""
+        """Accept a client's connection. Raises ``TransportInitError`` if its md5 sum is not the type's or ``*``."""
         wanted, mine = header.get("md5sum"), self.service_class._md5sum
         if wanted not in ("*", mine):
             msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{wanted}] vs. [{mine}]"
@@ -394,7 +394,7 @@ class ServiceClient:
             if theirs in (
                 cls._type,
                 _OTHER,
-            ):  # it was refused for another reason, such as a header of the user's
+            ):  # refused for another reason, such as a user-supplied header
                 msg = f"unable to connect to service [{self.name}]: {error}"
                 raise ServiceException(msg) from error
             msg = (

@@ -108,7 +108,7 @@ class InterruptGuard:
             self._previous = _set_handler(_SIGINT, self._handle)
 
     def disarm(self) -> None:
-        """Restore the previous handler of SIGINT."""
+        """Restore the previous handler of SIGINT, at the outermost level."""
         self._depth -= 1
         if self._depth == 0 and self._previous is not None:
             _set_handler(_SIGINT, self._previous)
@@ -193,7 +193,7 @@ def complaint(scheduler: Scheduler, waiter: Waiter) -> Callable[[], None]:
     def complain() -> None:
         if not scheduler.driven:
             sys.stderr.write(
-                f"{name} waits for {waiter.reason}, but nobody drives the graph. "
+                f"{name} waits for {waiter.reason}, but no thread drives the graph. "
                 "Call graph.run(), or anything that blocks, in the thread that made the graph.\n"
             )
 

@@ -22,7 +22,7 @@ MAX_UNSTAMPED = 10
 
 
 class StampedQueue(MutableMapping[Time, Any]):
-    """The waiting messages of one input, by stamp: the policy's queue with the keys of ROS's client."""
+    """A view of the unmatched messages of one input, by stamp, with rospy ``Time`` keys; the policy's queue has ns."""
 
     def __init__(self, kept: Queue) -> None:
         self.kept = kept

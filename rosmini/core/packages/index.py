@@ -123,7 +123,7 @@ class PackageIndex:
         return sorted(self._stacks)
 
     def find_stack(self, name: str) -> Stack:
-        """Return the stack of this name. Raises `UnknownPackage`, and `DefinitionError` for a wrong ``stack.xml``."""
+        """Return the stack of this name. Raises `UnknownPackage`, and `DefinitionError` for a bad ``stack.xml``."""
         self._folders()
         if name not in self._stacks:
             guess = nearest(name, self.stacks())

@@ -28,7 +28,10 @@ _NAMES = {"pi": math.pi, "math": Namespace("math", MATH)}
 
 
 def degrees(text: str) -> float:
-    """Return ``deg(<number>)``, or a number in degrees, in radians. Raises ``RosParamException``."""
+    """Convert ``deg(<number>)``, or a plain number in degrees, to radians.
+
+    Raises ``RosParamException`` for any other text.
+    """
     inner = text.strip()
     if inner.startswith("deg(") and inner.endswith(")"):
         inner = inner[4:-1]

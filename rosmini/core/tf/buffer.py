@@ -77,7 +77,7 @@ class BufferCore:
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> Any:
         """Return the pose of `source_frame` in `target_frame`, as a `geometry_msgs/TransformStamped`.
 
-        Raises as `FrameTree.lookup` does.
+        Raises the same errors as `FrameTree.lookup`.
         """
         found = self.tree.lookup(target_frame, source_frame, time.to_nsec())
         return to_stamped(target_frame, source_frame, *found)

@@ -179,7 +179,7 @@ class FrameTree:
         return frame
 
     def chain(self, target: str, source: str, stamp_ns: int = LATEST) -> list[str]:
-        """Return the frames on the path from `source` to `target`, both included. Raises as `lookup` does."""
+        """Return the frames on the path from `source` to `target`, inclusive. Raises the same errors as `lookup`."""
         up, down, _ = self._path(target, source, stamp_ns)
         if not up:
             top = source

@@ -1,4 +1,7 @@
-"""Texts of the tree's errors and warnings: the query, the frames, the edge at fault, and what to do."""
+"""Error messages and warnings of a `FrameTree`.
+
+Each names the query, the frames and the faulty edge, and suggests a fix.
+"""
 
 from __future__ import annotations
 
@@ -186,7 +189,7 @@ class DataWarnings:
         self._warned: set[tuple[str, str]] = set()
 
     def warn_once(self, frame: str, authority: str, text: str) -> None:
-        """Warn about the data of a frame, once for each kind, which is the first word of the text."""
+        """Warn about the data of a frame, once for each warning code, the part of `text` before the colon."""
         key = (frame, text.partition(":")[0])
         if key not in self._warned:
             self._warned.add(key)
@@ -244,7 +247,7 @@ class DataWarnings:
             authority,
             f'TF_OLD_DATA: the transform of frame "{frame}" at {seconds(stamp_ns)} s from {{sender}} is older than '
             "the "
-            f"buffer (the newest is of {seconds(history.newest_ns)} s, from "
+            f"buffer (the newest is from {seconds(history.newest_ns)} s, from "
             f"{history.newest.authority or 'an unnamed sender'}); ignored. Two broadcasters with different clocks, or "
             "a bag played again, are possible causes.",
         )

@@ -94,7 +94,7 @@ def dashed_remapping(words: Iterable[str]) -> str:
 
 
 def below_here(call: Call) -> Callable[[str], object]:
-    """Return a function that prints a text; in Python it shortens paths below the working directory."""
+    """Return ``call.say``; for a verb called from Python, a variant that shortens paths below the working directory."""
     here = str(Path.cwd())
     return (
         call.say

@@ -246,7 +246,7 @@ def touching_pairs(unique: Ints) -> tuple[Ints, Ints]:
 
 
 def cluster_of(particles: Floats, weights: Floats) -> Cluster:
-    """Return mean and covariance of particles."""
+    """Return the weight, weighted mean and covariance of the particles; the variance of the heading is circular."""
     weight = float(weights.sum())
     shares = weights / weight if weight > 0 else np.full(len(weights), 1 / len(weights))
     xs, ys, headings = particles.T

@@ -80,7 +80,7 @@ def twirling(commands: Floats) -> Floats:
 def combined_scores(raw: Floats, scales: Floats) -> tuple[Floats, Ints]:
     """Combine the critics' raw scores (n, k): return costs (n) and the index of the rejecting critic (n), or -1.
 
-    Critics are applied in order, without those of scale 0 (`SimpleScoredSamplingPlanner::scoreTrajectory`). The cost
+    Critics are applied in order, skipping those with scale 0 (`SimpleScoredSamplingPlanner::scoreTrajectory`). The cost
     of a rejected trajectory is the score of its critic.
     """
     asked = np.flatnonzero(scales != 0)

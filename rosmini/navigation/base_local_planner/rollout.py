@@ -172,11 +172,12 @@ def rollout(
     raw: Floats,
     where: Ints,
 ) -> None:
-    """Simulate every sample and evaluate the critics of its points; all grids (height width) are flat, row by row.
+    """Simulate every sample and evaluate the critics of its points.
 
-    From `pose` (3) each of n samples drives `steps[n]` equal steps in `sim_time` [s]: its velocity starts at
-    `starts[n]` (x, y, theta) and approaches `targets[n]` by up to `limits` (3) [m/s2, rad/s2] a second. The points are
-    written into `points` (n, at least as many as steps, 3).
+    All grids have height * width elements, row by row. From `pose` (3) each of n samples drives `steps[n]` equal steps
+    in `sim_time` [s]: its velocity (x, y, theta) starts at `starts[n]` and approaches `targets[n]` with at most the
+    accelerations `limits` (3) [m/s2, m/s2, rad/s2]. The points are written into `points` (n, at least as many as steps,
+    3).
 
     `raw` (n, 5) receives first the largest cost under the footprint, scaled by `scales[n]`, or a negative number from
     `footprint_cost`; then the distances [cells] at the last point: in `front` and in `path`, both measured `shift` [m]
@@ -265,7 +266,7 @@ def looked_up_distance(
 
 @kernel(footprint_cost, outline_cost, line_cost)
 def compiled_footprint_cost(numba: Any) -> Any:
-    """Return the signature of `footprint_cost`."""
+    """Return the signature of `footprint_cost`; decorated, return its compiled kernel (without numba, the function)."""
     number = numba.float64
     cells = numba.types.Array(numba.uint8, 1, "C", readonly=True)
     outline = numba.types.Array(number, 2, "C", readonly=True)
@@ -274,7 +275,7 @@ def compiled_footprint_cost(numba: Any) -> Any:
 
 @kernel(rollout, outline_cost, line_cost, cell_of, approached, looked_up_distance)
 def compiled_rollout(numba: Any) -> Any:
-    """Return the signature of `rollout`."""
+    """Return the signature of `rollout`; decorated, return its compiled kernel (without numba, `rollout`)."""
     number, whole, array = numba.float64, numba.int64, numba.types.Array
 
     def read(kind: Any, dimensions: int) -> Any:

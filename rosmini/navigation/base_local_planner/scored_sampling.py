@@ -48,7 +48,12 @@ def roll_out(
     shift: float,
     scored: Ints | None = None,
 ) -> Rollouts:
-    """Call the kernel: `grids` of path, goal, front; `motion`: starts (n, 3), targets (n, 3), accelerations (3)."""
+    """Simulate all samples with the compiled `rollout`.
+
+    `grids` are the map grids of the path, the goal and the point in front (`front` in `rollout`). `motion` contains
+    start velocities (n, 3), target velocities (n, 3) and accelerations (3). Raises `ParameterError` for more than
+    `MAX_POINTS` points.
+    """
     starts, targets, limits = motion
     count, most = len(targets), int(steps.max(initial=1))
     if count * most > MAX_POINTS:

@@ -87,9 +87,9 @@ class Samples:
         return f"{self.critics[critic]}: {words}{place}"
 
     def table(self, count: int = 8) -> str:
-        """Format the `count` cheapest trajectories, and the first one that each critic rejected, with all shares.
+        """Return a table of the `count` cheapest trajectories and the first trajectory that each critic rejected.
 
-        Columns that are 0 in all rows are omitted; the reasons for rejection follow below.
+        It shows the scaled score of each critic, without columns that are all 0, and below the reasons for rejection.
         """
         accepted = np.flatnonzero(self.accepted)
         cheapest = accepted[np.argsort(self.totals[accepted].round(6), kind="stable")][:count]

@@ -270,7 +270,7 @@ class TrajectoryPlanner:
         return None if best is None else len(first) + best
 
     def _distance_ahead(self, grid: Costmap2D, end: Floats) -> float:
-        """Return the goal distance of the cell `heading_lookahead` in front of the robot; infinite off the costmap."""
+        """Return the goal distance [cells] `heading_lookahead` [m] ahead of a trajectory's end; inf off the costmap."""
         reach = self.parameters.heading_lookahead
         cell = grid.world_to_map(end[0] + reach * math.cos(end[2]), end[1] + reach * math.sin(end[2]))
         return math.inf if cell is None or self.goal is None else float(self.goal.distances[cell[1], cell[0]])

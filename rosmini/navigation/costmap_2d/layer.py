@@ -213,7 +213,10 @@ class CostmapLayer(Layer):
         return True
 
     def clear_area(self, x0: int, y0: int, x1: int, y1: int, inside: bool = False) -> None:
-        """Set cells to unknown: those strictly between columns `x0`, `x1` and rows `y0`, `y1` (`inside`), or others."""
+        """Set the cells outside a rectangle to unknown or, with `inside`, those in it.
+
+        The rectangle contains columns `x0 + 1` to `x1 - 1` and rows `y0 + 1` to `y1 - 1`.
+        """
         window = Window(max(x0 + 1, 0), max(y0 + 1, 0), min(x1, self.grid.width), min(y1, self.grid.height))
         if inside:
             if not window.is_empty:

@@ -30,16 +30,16 @@ class CostmapConfig(Parameters):
         0.3, "how old the robot's pose may be", unit="s", minimum=0.0, maximum=10.0
     )
     update_frequency: float = parameter(
-        5.0, "how often the costs are computed; 0 for never", unit="Hz", minimum=0.0, maximum=100.0
+        5.0, "rate at which the costs are computed; 0 for never", unit="Hz", minimum=0.0, maximum=100.0
     )
     publish_frequency: float = parameter(
-        0.0, "how often they are published; 0 for never", unit="Hz", minimum=0.0, maximum=100.0
+        0.0, "publication rate of the costs; 0 for never", unit="Hz", minimum=0.0, maximum=100.0
     )
-    width: int = parameter(10, "of the window", unit="m", minimum=0)
-    height: int = parameter(10, "of the window", unit="m", minimum=0)
+    width: int = parameter(10, "width of the window", unit="m", minimum=0)
+    height: int = parameter(10, "height of the window", unit="m", minimum=0)
     resolution: float = parameter(0.05, "the side of a cell", unit="m", minimum=0.0, maximum=50.0)
     origin_x: float = parameter(0.0, "the left edge of the window, in the global frame", unit="m")
-    origin_y: float = parameter(0.0, "its lower edge", unit="m")
+    origin_y: float = parameter(0.0, "the lower edge of the window, in the global frame", unit="m")
     footprint: str = parameter("[]", "the robot's outline in its base frame, as a list of points", unit="m")
     robot_radius: float = parameter(
         0.46, "radius of a round robot, used without a footprint", unit="m", minimum=0.0, maximum=10.0

@@ -59,7 +59,7 @@ class DWAPlannerSettings(DWAPlannerParameters):
     publish_cost_grid_pc: bool = parameter(False, "publish the cost of each cell")
     cheat_factor: float = parameter(
         1.0,
-        "how near the goal the nose leaves the plan: this times forward_point_distance squared",
+        "alignment is scored where the squared distance to the goal exceeds this times forward_point_distance squared",
     )
     global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
 

@@ -237,7 +237,7 @@ class ExploreServer:
             for layer in self._boundaries():
                 layer.given_up.points.append(self._last)
 
-    # -- the end -------------------------------------------------------------------------------------------------
+    # -- result --------------------------------------------------------------------------------------------------
 
     def _finish(self, reason: str) -> None:
         """Finish the task when all frontiers were given up; it fails if there never was one or the robot is stuck."""

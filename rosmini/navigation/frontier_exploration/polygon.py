@@ -59,7 +59,7 @@ class Selection:
 
     @property
     def polygon(self) -> Floats:
-        """The vertices (n, 2)."""
+        """The vertices (n, 2) [m] in `frame`."""
         return np.array(self.vertices, dtype=np.float64).reshape(-1, 2)
 
     def clear(self) -> None:
@@ -67,7 +67,7 @@ class Selection:
         self.vertices, self.is_closed = [], False
 
     def click(self, frame: str, x: float, y: float) -> tuple[Step, str]:
-        """Add a point [m]; return its effect and a message for the user. After `COMPLETE`, call `clear`."""
+        """Add a point [m] in `frame`; return its effect and a message for the user. After `COMPLETE`, call `clear`."""
         if not self.vertices:
             self.frame = frame
         elif frame != self.frame:

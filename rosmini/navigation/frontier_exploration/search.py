@@ -163,5 +163,5 @@ class Blacklist:
         return sum(abs(point[0] - x) < reach and abs(point[1] - y) < reach for x, y in self.points)
 
     def is_given_up(self, point: Point, resolution: float) -> bool:
-        """True if a point was given up permanently."""
+        """True if goals near this point were given up `MAX_FAILURES` times."""
         return self.count(point, resolution) >= MAX_FAILURES

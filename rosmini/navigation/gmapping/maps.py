@@ -162,7 +162,7 @@ class SharedMaps:
     # -- the map -------------------------------------------------------------------------------------------------
 
     def occupancy(self, particle: int) -> tuple[Floats, tuple[float, float]]:
-        """Return the occupancy (h, w) of a map, -1 where unknown, and the lower left corner of cell (0, 0) [m]."""
+        """Return the occupancy (h, w) of a particle's map, 0 to 1 or -1 if unknown, and its lower left corner [m]."""
         table = self.tables[particle]
         rows, columns = table.shape
         found = np.full((rows * SIDE, columns * SIDE), -1.0)
@@ -203,7 +203,7 @@ def trace(n: int, pose: Any, pool: Any, scan: Any, write: bool) -> None:
 
 
 def count(patch: int, i: int, j: int, is_end: bool, x: float, y: float, pool: Any) -> None:
-    """Count a beam that passes a cell, or ends in it at a point."""
+    """Update a cell for a beam that passes it, or ends in it at (x, y) [m]."""
     pool.visits[patch, i, j] += 1
     if is_end:
         pool.hits[patch, i, j] += 1

@@ -109,7 +109,10 @@ class Matcher:
         return still.match(maps, laser_poses, ranges, bearings, usable)
 
     def beams(self, ranges: Floats, bearings: Floats, usable: float) -> Beams:
-        """Return the beams that are matched."""
+        """Return the beams used in scan matching: those with ranges in (0, `usable`] [m].
+
+        With `lskip`, only every (`lskip` + 1)th beam of the scan is considered.
+        """
         chosen = (ranges > 0) & (ranges <= usable)
         if self.lskip:
             chosen &= np.arange(len(ranges)) % (self.lskip + 1) == self.lskip

@@ -40,7 +40,7 @@ class StartBlocked(PlanningFailure):
 
 
 class GoalBlocked(PlanningFailure):
-    """The goal and all cells within the tolerance may not be entered by a plan."""
+    """No plan may enter the goal or any cell within the tolerance."""
 
 
 class NoPath(PlanningFailure):

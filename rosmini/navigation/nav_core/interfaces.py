@@ -68,7 +68,7 @@ class BaseLocalPlanner(Plugin, ABC):
 
     @abstractmethod
     def is_goal_reached(self) -> bool:
-        """Return True if the robot has reached the end of the plan and stands still."""
+        """Return True if the robot has reached the end of the plan and has stopped."""
 
 
 class RecoveryBehavior(Plugin, ABC):

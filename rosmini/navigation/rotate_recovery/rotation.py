@@ -28,7 +28,7 @@ class FullTurn:
 
     @property
     def is_done(self) -> bool:
-        """True if the turn ended with the latest heading."""
+        """True if the latest heading completed the turn."""
         return self.is_half_done and self._remaining <= self.tolerance
 
 

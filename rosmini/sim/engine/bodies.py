@@ -23,7 +23,7 @@ from .kernels import CRATE, KINEMATIC, ROBOT
 
 Floats = NDArray[np.float64]
 Velocity = tuple[float, float, float]
-"""Along x and y of the world [m/s], and to the left [rad/s]."""
+"""Along x and y of the map frame [m/s], and rate of turn to the left [rad/s]."""
 
 AT_REST: Velocity = (0.0, 0.0, 0.0)
 
@@ -34,12 +34,12 @@ DRAG = 0.5
 """Friction of a movable obstacle on the ground."""
 
 FRICTION = 0.3
-"""Friction of bodies on each other."""
+"""Friction between bodies."""
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Coefficients of friction, and the gravity [m/s2] that presses bodies to the ground."""
+    """Coefficients of friction, and gravitational acceleration [m/s2]."""
 
     grip: float = GRIP
     drag: float = DRAG
@@ -75,7 +75,7 @@ class Mass(NamedTuple):
 
 
 def mass_of_pieces(pieces: Sequence[Piece], mass: float) -> Mass:
-    """Return the moment of inertia and centre of a mass spread evenly over convex pieces."""
+    """Return the moment of inertia and centre of mass of convex pieces of uniform density; `mass` [kg] is the total."""
     parts = []  # for each piece: its area, its centre, and the second moment of the area about the centre
     for corners, radius in pieces:
         if len(corners) == 1:
@@ -117,7 +117,7 @@ class Crate:
         """Velocity of its origin and its rate of turn at the end of the last step."""
 
     def carry(self, begin_ns: int, end_ns: int, end: Pose, velocity: Velocity) -> None:
-        """Move straight to a pose within a step, and have this velocity at its end."""
+        """Move along a straight line to `end`, where it arrives at `end_ns` with this velocity."""
         self._begin_ns, self._begin, self._end_ns, self._end = begin_ns, self.pose, end_ns, end
         self.velocity = velocity
 
@@ -131,11 +131,14 @@ class Crate:
 
     @property
     def sliding(self) -> bool:
-        """True if it moves."""
+        """True if its velocity is not zero."""
         return self.velocity != AT_REST
 
     def state(self) -> tuple[Any, ...]:
-        """Return its pose and motion."""
+        """Return the data that `restore` takes.
+
+        They are the times [ns] and poses at the start and the end of the current motion, and the velocity.
+        """
         return (self._begin_ns, self._begin, self._end_ns, self._end, self.velocity)
 
     def restore(self, state: tuple[Any, ...]) -> None:
@@ -161,14 +164,14 @@ class Body:
     ground_friction: tuple[float | None, float, float] = (None, 0.0, 0.0)
     """Ground friction coefficient (None: the surface's), the load on it [kg], and the lever arm [m]."""
     around: Any = field(default=None, repr=False)
-    """The fixed outlines near it; used by `rosmini.sim.engine.contacts`."""
+    """The fixed outlines near it; used by `rosmini.sim.engine.scene`."""
 
     def description(self) -> str:
         """Return a description that fits into a sentence."""
         return f"the {'robot' if self.kind == ROBOT else 'obstacle'} {self.name!r}"
 
     def meets(self, bottom: float, top: float) -> bool:
-        """Return True if something from `bottom` to `top` can hit it; False if it passes over or under it."""
+        """Return True if an object between the heights `bottom` and `top` [m] can hit it, not pass over or under it."""
         return self.bottom <= top and bottom <= self.top
 
     @cached_property
@@ -208,7 +211,7 @@ def crate_body(crate: Crate) -> Body:
         return kinematic_body(obstacle, crate)
     pieces = pieces_of(obstacle.shape)
     mass = mass_of_pieces(pieces, obstacle.mass)
-    # friction spread evenly over a disc of this area has a lever of two thirds of its radius
+    # friction distributed evenly over a disc of this area has a lever arm of two thirds of its radius
     size = sum(math.pi * p.radius**2 if len(p.corners) == 1 else area(p.corners) for p in pieces)
     radius = math.sqrt(size / math.pi)
     if isinstance(obstacle.shape, Compound):  # use the disc with the same moment of inertia, m r^2 / 2

@@ -38,7 +38,7 @@ TOUCH_DISTANCE = 1e-4
 """Maximum distance at which two bodies touch [m]."""
 
 ROUNDING = 1e-6
-"""Approach [m] that counts as rounding: a body passing at a constant distance comes no nearer than this."""
+"""Decrease of a distance [m] that counts as rounding, for example while a body passes at a constant distance."""
 
 
 class Touch(NamedTuple):
@@ -47,10 +47,10 @@ class Touch(NamedTuple):
     other: str
     """The name of the other object: a robot or an obstacle; "wall" for a wall."""
     x: float
-    """The contact point, in the frame map [m]."""
+    """The contact point, in the map frame [m]."""
     y: float
     nx: float
-    """Direction of the push, of length 1: from the other object into the one asked about."""
+    """Direction of the push, of length 1: from the other object towards the queried one."""
     ny: float
     force: float
     """Force of the other object along that direction [N], averaged over the last step, without friction."""
@@ -69,7 +69,7 @@ class Contacts:
         self._loops = Loops()
         self._cells = Cells()
         self._roaming: dict[str, Body] = {}
-        """Bodies that move without an update of the cells."""
+        """Bodies that are not in `_cells`, because they move by themselves."""
         self.forces: tuple[float, list[tuple[str, str, float]]] = (-1.0, [])
         """Time until which they apply [ns], and for each pair of bodies the force between them [N]."""
 
@@ -91,7 +91,7 @@ class Contacts:
         self.update_cells(crate)
 
     def update_cells(self, crate: Crate) -> None:
-        """Update the cells with the pose of an obstacle now or at the end of this step."""
+        """Update an obstacle's box in the spatial grid; a margin of 0.1 m covers its motion in this step."""
         (x, y, _), r = crate.pose, crate.reach + 0.1
         self._cells.put(crate.obstacle.name, (x - r, y - r, x + r, y + r))
 
@@ -118,7 +118,7 @@ class Contacts:
     # -- neighbours ----------------------------------------------------------------------------------------------
 
     def near(self, x: float, y: float, reach: float) -> Iterator[Body]:
-        """Yield the bodies whose circles are within `reach` [m] of a position."""
+        """Yield the bodies whose bounding circles are within `reach` [m] of a position."""
         for name in self._cells.near(x, y, reach):
             yield from self._if_near(self.bodies[name], x, y, reach)
         for body in self._roaming.values():
@@ -130,7 +130,7 @@ class Contacts:
         return (body,) if math.hypot(px - x, py - y) <= reach + body.reach else ()
 
     def neighbours(self, bodies: Iterable[Body], reach: float) -> list[Body]:
-        """Return the bodies whose circles are within `reach` [m] of the circle of any of the given bodies."""
+        """Return the bodies whose bounding circles are within `reach` [m] of that of any of the given bodies."""
         places = [(*body.owner.pose[:2], body.reach) for body in bodies]
         found: dict[Body, None] = {}
         if self._cells:
@@ -161,7 +161,7 @@ class Contacts:
         return next(self._in_the_way(pieces, pose, ignoring, 0.0, model.height, model.reach), None)
 
     def obstruction_of(self, obstacle: Obstacle, pose: Pose) -> str | None:
-        """Describe a body, not fixed, that an obstacle would overlap at `pose`; None if there is room."""
+        """Describe a body that is not fixed and that an obstacle would overlap at `pose`; None if there is room."""
         pieces, reach = pieces_of(obstacle.shape), self.reach_of(obstacle)
         bottom, top = obstacle.bottom, obstacle.height
         return next(self._in_the_way(pieces, pose, obstacle.name, bottom, top, reach), None)
@@ -183,7 +183,10 @@ class Contacts:
                     yield body.description()
 
     def is_blocked(self, name: str, pose: Pose, keep: float) -> bool:
-        """Return True if a mover at `pose` would be nearer to a body that is not fixed than now and than `keep`."""
+        """Return True if a move to `pose` brings a mover closer than `keep` [m] to a body, and closer than it is now.
+
+        Fixed bodies are ignored.
+        """
         body = self.bodies[name]
         now, then = body.owner.pose, pose
         for other in self.near(pose[0], pose[1], body.reach + keep + math.dist(now[:2], then[:2])):
@@ -225,7 +228,7 @@ class Contacts:
         return found
 
     def _force(self, body: Body, other: str, mate: Body | None, normal: tuple[float, float]) -> float:
-        """Return the force of the other object on a body along a normal [N]."""
+        """Return the force [N] of the other object on a body along a normal."""
         until, forces = self.forces
         if body.kind == ROBOT and (mate is None or mate.name not in self.loose):
             nx, ny = normal
@@ -236,7 +239,7 @@ class Contacts:
         return sum(force for one, two, force in forces if {one, two} == {body.name, other})
 
     def set_surface(self, surface: Surface) -> None:
-        """Use other friction coefficients and gravity from now on."""
+        """Set the friction coefficients and gravity."""
         self.surface = surface
 
     def obstacles(self) -> tuple[Obstacle, ...]:
@@ -245,7 +248,7 @@ class Contacts:
 
 
 def _pressed(body: Body, nx: float, ny: float, surface: Surface) -> float:
-    """Return the force of slipping wheels against an obstacle: the part of Coulomb's mu m g along the normal."""
+    """Return the force [N] of slipping wheels against an obstacle: Coulomb friction, mu m g, along the normal."""
     if not isinstance(body.owner, Robot):
         return 0.0
     sx, sy = body.owner.slip
@@ -265,7 +268,7 @@ def _contact(a: Piece, b: Piece, least: float) -> Contact:
 
 
 def _overlap(one: list[Piece], other: list[Piece], around: float = 0.0) -> float:
-    """Return the deepest overlap of two sets of pieces [m], the first grown by `neighbours`; 0 without an overlap."""
+    """Return the deepest overlap [m] of two sets of pieces, `one` enlarged by `around` [m]; 0 without an overlap."""
     hits = (_contact(a, b, -around) for a in one for b in other)
     deep = (max(hit[3], hit[6]) if hit[0] == 2 else hit[3] for hit in hits if hit[0])
     return max((each + around for each in deep), default=0.0)

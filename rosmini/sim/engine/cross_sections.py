@@ -52,9 +52,9 @@ def _placed(shape: Box | Polygon, pose: Pose) -> Floats:
 
 
 def obstacle_section(obstacle: Obstacle, height: float, pose: Pose | None = None) -> CrossSection:
-    """Return the cross-section of an obstacle at `height` [m] above the ground, at `pose` or where it is.
+    """Return the cross-section of an obstacle at `height` [m] above the ground, at `pose` or its own pose.
 
-    An obstacle that lasers cannot see has an empty one.
+    It is empty for an obstacle that lasers cannot see.
     """
     if not obstacle.seen_by_lasers or not obstacle.bottom <= height <= obstacle.height:
         return NOTHING
@@ -74,7 +74,7 @@ def robot_section(model: RobotModel, height: float) -> CrossSection:
 
 
 def stack(cuts: Sequence[CrossSection]) -> CrossSection:
-    """Return several cross-sections as one."""
+    """Concatenate several cross-sections."""
     if len(cuts) == 1:
         return cuts[0]
     return (
@@ -98,13 +98,13 @@ def at_each_pose(template: CrossSection, poses: Floats) -> CrossSection:
 
 
 def obstacle_part(obstacle: Obstacle, pose: Pose | None = None) -> Part:
-    """Return an obstacle as a part of the world, at `pose` or where it is."""
+    """Return the `Part` of the world for an obstacle, at `pose` or its own pose."""
     where = obstacle.pose if pose is None else pose
     return Part(obstacle.shape, where, obstacle.bottom, obstacle.height, obstacle.colour, obstacle.name)
 
 
 def robot_parts(robot: Robot) -> list[Part]:
-    """Return the parts of a robot at its present pose."""
+    """Return the parts of a robot at its current pose."""
     height = robot.model.height
     return [
         replace(

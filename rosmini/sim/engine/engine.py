@@ -177,7 +177,7 @@ class Engine:
         return self.robots[name]
 
     def place(self, name: str, pose: Pose) -> None:
-        """Lift a robot and put it down elsewhere, at rest; its encoders do not change.
+        """Move a robot to a pose at once, where it is at rest; its encoders do not change.
 
         Raises `WorldError` and `RobotGone`.
         """
@@ -185,7 +185,7 @@ class Engine:
         self.put(name, pose)
 
     def put(self, name: str, pose: Pose, velocity: Velocity = (0.0, 0.0, 0.0)) -> None:
-        """Lift a robot or an obstacle and put it down elsewhere, with a velocity in the frame map [m/s, m/s, rad/s].
+        """Move a robot or an obstacle to a pose at once, with a velocity in the map frame [m/s, m/s, rad/s].
 
         The robot's command becomes zero, so it slows down as its drive allows. A robot on two wheels ignores a sideways
         velocity, a fixed obstacle any velocity. Raises `WorldError` if something is in the way or the obstacle moves by
@@ -246,10 +246,11 @@ class Engine:
         self._stepper.discard_clearances()
 
     def command(self, name: str, v: float, w: float, timeout: float = 0.0, *, vy: float = 0.0) -> None:
-        """Command a robot's wheels: v [m/s] ahead, w [rad/s] to the left, vy [m/s] to its left side, within its limits.
+        """Command a velocity: v [m/s] ahead, w [rad/s] to the left, vy [m/s] to the left side, within its limits.
 
         After `timeout` seconds without another command the robot stops; 0: never. A robot on two wheels ignores vy.
-        Raises `RosminiError` for a number that is not finite, and for an object without a drive.
+        Raises `RosminiError` for a number that is not finite, and for any but a zero command to a robot without a
+        drive.
         """
         told = self.robot(name)
         if not math.isfinite(v + w + vy):
@@ -281,7 +282,7 @@ class Engine:
         free = (start for start in starts if self.obstruction(model, start) is None)
         return next(free, None) or self._free_pose(model, starts[0])
 
-    # -- things --------------------------------------------------------------------------------------------------
+    # -- obstacles -----------------------------------------------------------------------------------------------
 
     def insert(self, obstacle: Obstacle) -> None:
         """Insert an obstacle at run time: fixed, movable, or moving by itself.
@@ -344,7 +345,7 @@ class Engine:
         return obstacle.pose if crate is None else crate.pose
 
     def velocity(self, name: str) -> Velocity:
-        """Return the current velocity of a robot or an obstacle in the frame map [m/s, m/s, rad/s].
+        """Return the current velocity of a robot or an obstacle in the map frame [m/s, m/s, rad/s].
 
         Raises `RobotGone`.
         """
@@ -376,7 +377,7 @@ class Engine:
     def set_surface(self, **changes: float) -> None:
         """Change friction coefficients or gravity: see `rosmini.sim.engine.bodies.Surface`.
 
-        Raises `WorldError`.
+        Raises `WorldError` for a number that is negative or not finite.
         """
         for what, value in changes.items():
             if not (math.isfinite(value) and value >= 0):
@@ -395,12 +396,12 @@ class Engine:
     def predict_pose(self, name: str, when: float) -> Pose:
         """Return a robot's pose at a time in the near future, without advancing time.
 
-        If something may be in its way by then, the answer is its current pose. Raises `RobotGone`.
+        Return its current pose if an object may be in its way by then. Raises `RobotGone`.
         """
         return self._stepper.predict_pose(self.robot(name), to_ns(when))
 
     def state(self) -> EngineState:
-        """Return a state from which `restore` reproduces the further run to the last bit."""
+        """Return a state from which `restore` continues the simulation with identical results, to the last bit."""
         return EngineState(
             now_ns=self._population.instant.ns,
             now=self.now,
@@ -453,7 +454,10 @@ class Engine:
     # -- sensing -------------------------------------------------------------------------------------------------
 
     def scenery(self, name: str, lidar: LidarModel | None = None) -> tuple[Floats, Floats]:
-        """Return what a robot's laser can see in the frame map, with other robots: segments (n, 4), discs (m, 3)."""
+        """Return the cross-section that a robot's laser can see, in the map frame: segments (n, 4) and discs (m, 3).
+
+        It includes the other robots.
+        """
         viewer = self.robot(name)
         return self.laser_view.of(
             lidar or viewer.model.laser,
@@ -487,7 +491,7 @@ class Engine:
         return self._sweeps.scan(viewer, viewer.model.laser if lidar is None else lidar, beam_time, noise)
 
     def visible(self, name: str = "") -> list[Part]:
-        """Return all parts in the world now except thin walls, with poses in the frame map and their owners' names.
+        """Return all parts now in the world, except thin walls; each has a pose in the map frame and its owner's name.
 
         The parts of the robot `name` are left out, because a camera does not see its own robot.
         """

@@ -14,7 +14,7 @@ from .trails import Leg
 
 @dataclass(frozen=True)
 class RobotState:
-    """A robot's model, pose and wheels, and the random generator of its slip."""
+    """A robot's name, its model, and its `state`, as returned by `Robot.state`."""
 
     name: str
     model: RobotModel

@@ -1,8 +1,7 @@
 """The drives: a robot's path in closed form, from its commanded velocity.
 
-A wheel's rim has a speed u [m/s] and changes to the target speed at the rate a [m/s2]: a linear ramp. So
-no result depends on the time step. With b the wheel separation, v and w the speed ahead
-[m/s] and to the left [rad/s]:
+A wheel's rim has a speed u [m/s] and changes to the target speed at the rate a [m/s2]: a linear ramp. So results do not
+depend on the time step. With b the wheel separation, v and w the speed ahead [m/s] and to the left [rad/s]:
 
     u_left = v - w b / 2,   u_right = v + w b / 2;   v = (u_left + u_right) / 2,   w = (u_right - u_left) / b
 
@@ -44,7 +43,7 @@ def limited(v: float, w: float, max_linear: float, max_angular: float) -> tuple[
 
 
 def rim_speeds(v: float, w: float, separation: float) -> tuple[float, float]:
-    """Return the speeds of the left and right wheels' rims [m/s]."""
+    """Return the speeds [m/s] of the left and the right wheel at the rim."""
     half = w * separation / 2
     return (v - half, v + half)
 
@@ -72,7 +71,7 @@ def ramp(speed: float, target: float, acceleration: float, dt: float) -> tuple[f
 def phases(
     left: float, right: float, left_target: float, right_target: float, acceleration: float, dt: float
 ) -> list[Phase]:
-    """Divide `dt` seconds, in which the rims approach their targets, at each arrival: one to three phases."""
+    """Divide `dt` seconds into one to three phases, at the times when the rims reach their target speeds."""
     rises = (left_target - left, right_target - right)
     ends = [abs(rise) / acceleration for rise in rises]
     found: list[Phase] = []
@@ -97,7 +96,7 @@ def limited_phases(
     limits: tuple[float, float, float],
     dt: float,
 ) -> list[Phase]:
-    """Divide `dt` seconds, in which a robot's v and w approach their targets within limits: one to three phases.
+    """Divide `dt` seconds into one to three phases in which a robot's v and w approach their targets within limits.
 
     The limits are those of v [m/s2], of w [rad/s2] and of a rim [m/s2].
     """
@@ -130,7 +129,7 @@ Speeds = tuple[float, float, float]
 
 
 def ramps(speeds: Speeds, targets: Speeds, limits: Speeds, dt: float) -> list[tuple[float, Speeds]]:
-    """Divide `dt` seconds, in which each speed approaches its target at its limit, into durations and rates."""
+    """Divide `dt` seconds into phases in which each speed approaches its target at its limit: durations and rates."""
     rises = tuple(target - speed for speed, target in zip(speeds, targets, strict=True))
     ends = [abs(rise) / limit for rise, limit in zip(rises, limits, strict=True)]
     found: list[tuple[float, Speeds]] = []

@@ -77,7 +77,7 @@ class Cells:
 
 
 class FixedPiece(NamedTuple):
-    """A convex piece of a fixed object, in the frame map."""
+    """A convex piece of a fixed object, in the map frame."""
 
     order: tuple[int, int]
     """Sort key of the pieces."""

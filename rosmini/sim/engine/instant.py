@@ -10,14 +10,14 @@ SECOND = 1_000_000_000
 """One second [ns]."""
 
 STEP_NS = 5_000_000
-"""Duration of one physics step [ns]: step k begins at k times that."""
+"""Duration of one physics step [ns]: step k starts at k * STEP_NS."""
 
 STEP = STEP_NS / SECOND
 """The same [s]."""
 
 
 class Instant:
-    """The current time, shared by everything in an engine."""
+    """The current time, shared by all objects of an engine."""
 
     def __init__(self) -> None:
         self.ns = 0
@@ -36,7 +36,7 @@ class Placed(Protocol):
 
 
 def between_poses(begin: Pose, end: Pose, part: float) -> Pose:
-    """Return the pose at the fraction `part`, from 0 to 1, of a straight motion."""
+    """Interpolate linearly between two poses; `part` is from 0 (`begin`) to 1 (`end`). Headings are not wrapped."""
     x, y, theta = (a + part * (b - a) for a, b in zip(begin, end, strict=True))
     return (x, y, theta)
 

@@ -2,9 +2,9 @@
 
 All bodies are convex outlines with a radius: see `rosmini.sim.engine.outlines`.
 
-Collisions and pushes are sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) that
-start from zero in each step, with a fixed number of iterations over the contacts in the order of the bodies' names.
-Nothing is remembered, and a distant body changes nothing, not even the last bit.
+Collisions and pushes are sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) that start
+from zero in each step, with a fixed number of iterations over the contacts in the order of the bodies' names. No data
+is kept between steps, and a distant body does not change a result, not even in the last bit.
 
 The functions are plain Python, which runs without numba; `compiled` makes machine code of them with
 the same results to the last bit.
@@ -29,7 +29,7 @@ Ints = NDArray[np.int64]
 Scene = tuple[
     Floats, Floats, Floats, Floats, Ints, Ints, Floats, Ints, Ints, Floats, Ints, Floats, Ints, Ints
 ]
-"""Bodies and what is near them, as made by `rosmini.sim.engine.scene`:
+"""Tables of bodies and of the outlines near them, as made by `rosmini.sim.engine.scene`:
 
 for n bodies the poses (n, 3) and properties (n, 13); the corners of their outlines in the body's frame and in the
 world, the start of each outline, the first outline of each body, and the radius of each outline; the fixed
@@ -120,19 +120,19 @@ def update_corners(i: int, scene: Scene) -> None:
 
 
 def may_touch_fixed(i: int, m: int, more: float, bodies: Floats, boxes: Floats) -> bool:
-    """Return True if a fixed outline may be within `more` [m] of a body's circle."""
+    """Return True if a fixed outline may be within `more` [m] of a body's bounding circle."""
     x, y, r = bodies[i, X], bodies[i, Y], bodies[i, RADIUS] + more
     return bool(boxes[m, 0] - r <= x <= boxes[m, 2] + r and boxes[m, 1] - r <= y <= boxes[m, 3] + r)
 
 
 def may_touch(i: int, j: int, more: float, bodies: Floats) -> bool:
-    """Return True if the circles of two bodies are within `more` [m]."""
+    """Return True if the bounding circles of two bodies are within `more` [m] of each other."""
     dx, dy = bodies[j, X] - bodies[i, X], bodies[j, Y] - bodies[i, Y]
     r = bodies[i, RADIUS] + bodies[j, RADIUS] + more
     return bool(dx * dx + dy * dy <= r * r)
 
 
-# -- robots make way -------------------------------------------------------------------------------------------------
+# -- position correction of robots -----------------------------------------------------------------------------------
 
 
 def push_along(i: int, part: float, nx: float, ny: float, hit: Contact, slack: float, scene: Scene) -> None:
@@ -151,7 +151,8 @@ def push_along(i: int, part: float, nx: float, ny: float, hit: Contact, slack: f
 def push_out(i: int, nearly: float, fair: bool, scene: Scene) -> int:
     """Resolve a robot's deepest overlap; return the other robot moved, or itself, or -1 if there was none.
 
-    Of two robots the one whose wheels grip less gives way; if both grip alike or `fair` is set, both by half.
+    Of two robots only the lighter one moves, because its wheels grip less; if they have the same mass or `fair` is set,
+    each moves by half. Overlaps of less than `nearly` [m] with other robots are ignored.
     """
     _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
     worst, who, slack, hit = TOUCH, i, 0.0, NONE
@@ -218,11 +219,12 @@ def resolve_overlaps(queue: Ints, scene: Scene, moved: Ints) -> None:
             break
 
 
-# -- things are pushed -----------------------------------------------------------------------------------------------
+# -- contact impulses ------------------------------------------------------------------------------------------------
 
 FIRST, SECOND, NX, NY, PX, PY, DEPTH, SPEED, BOUNCE, ALONG, ACROSS, PUSH_IMPULSE, RUB_IMPULSE = range(13)
-"""Columns of a contact: the bodies, the normal, the point, the depth, the opening speed, its target, the masses
-along and across the normal, and the impulses."""
+"""Columns of a contact: the bodies, the normal, the point, the depth, the opening speed, its target, the effective
+masses along and across the normal, and the impulses.
+"""
 
 
 def lever_arm(i: int, x: float, y: float, scene: Scene) -> tuple[float, float]:
@@ -275,7 +277,7 @@ def append_contact(found: Contact, i: int, j: int, hits: Floats, count: int) -> 
 
 
 def inverse_mass(i: int, rx: float, ry: float, nx: float, ny: float, bodies: Floats) -> float:
-    """Return the inverse effective mass of a body at a point, along a direction."""
+    """Return a body's inverse effective mass along (nx, ny) at (rx, ry) [m] from its centre of mass."""
     if i < 0 or bodies[i, KIND] == KINEMATIC:
         return 0.0
     lever = rx * ny - ry * nx
@@ -283,14 +285,14 @@ def inverse_mass(i: int, rx: float, ry: float, nx: float, ny: float, bodies: Flo
 
 
 def speed_at(i: int, rx: float, ry: float, nx: float, ny: float, motion: Floats) -> float:
-    """Return the speed of a body's point along a direction."""
+    """Return the speed [m/s] along (nx, ny) of a body's point at (rx, ry) [m] from its centre of mass."""
     if i < 0:
         return 0.0
     return float((motion[i, 0] - motion[i, 2] * ry) * nx + (motion[i, 1] + motion[i, 2] * rx) * ny)
 
 
 def apply_impulse(i: int, rx: float, ry: float, px: float, py: float, bodies: Floats, motion: Floats) -> None:
-    """Apply an impulse at a body's point."""
+    """Apply an impulse (px, py) [N s] to a body at (rx, ry) [m] from its centre of mass."""
     if i >= 0 and bodies[i, KIND] != KINEMATIC:
         motion[i, 0] += px / bodies[i, MASS]
         motion[i, 1] += py / bodies[i, MASS]
@@ -423,7 +425,7 @@ def separate(dt: float, bodies: Floats, hits: Floats, count: int, late: Floats, 
 def integrate(
     i: int, dt: float, late: float, out: Floats, poses: Floats, bodies: Floats, before: Floats, motion: Floats
 ) -> None:
-    """Move a thing by its velocities before and after a step, with an impact `late` seconds before the step."""
+    """Move a body by its velocities before and after a step; an impact was `late` seconds before it (-1: no impact)."""
     vx, vy, w = motion[i, 0], motion[i, 1], motion[i, 2]
     if abs(vx) <= REST_SPEED and abs(vy) <= REST_SPEED and abs(w) <= REST_SPEED:
         motion[i, 0] = motion[i, 1] = motion[i, 2] = 0.0
@@ -440,11 +442,11 @@ def integrate(
     poses[i, 0], poses[i, 1], poses[i, 2] = mx - c * cx + s * cy, my - s * cx - c * cy, theta
 
 
-# -- room ------------------------------------------------------------------------------------------------------------
+# -- clearances ------------------------------------------------------------------------------------------------------
 
 
 def clearances(robots: Ints, view: float, scene: Scene, rooms: Floats) -> None:
-    """Compute how far robots can move before a contact, at most `view` [m]; two movers share a gap by half."""
+    """Compute how far robots can move before a contact, at most `view` [m]; two moving bodies share a gap equally."""
     _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
     for i in range(bodies.shape[0]):
         update_corners(i, scene)

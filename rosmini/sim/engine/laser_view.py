@@ -1,7 +1,7 @@
 """The part of a world that each laser can see, with caches.
 
-What does not change is computed once: the cross-section of fixed obstacles at each height, and that of each robot
-model in the model's own frame. Robots at one moment are placed once, for all lasers.
+Cross-sections that do not change are computed once: that of the fixed obstacles at each height, and that of each robot
+model in the model's own frame. Those of all robots at one time are computed once for all lasers.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class RobotSections:
         self.discs, self.owner_of_disc = np.vstack(discs_of), np.concatenate(owner_of_disc)
 
     def around(self, x: float, y: float, radius: float, own: int) -> CrossSection:
-        """Return the parts of the other robots within `radius` [m] of a position."""
+        """Return the sections of the robots within `radius` [m] of a position, except robot number `own` (-1: none)."""
         away = np.hypot(self.positions[:, 0] - x, self.positions[:, 1] - y)
         near = away <= radius + self.radii
         if own >= 0:
@@ -128,7 +128,7 @@ class LaserView:
         self._around = {key: kept for key, kept in self._around.items() if key[0] != name}
 
     def solid(self, height: float) -> CrossSection:
-        """Return all fixed obstacles and walls at this height."""
+        """Return the cross-section of all fixed obstacles and walls at this height [m]."""
         if height not in self._solid:
             world = self.world
             cuts = [self._cut(obstacle, height) for obstacle in self._fixed.values()]
@@ -138,7 +138,7 @@ class LaserView:
         return self._solid[height]
 
     def fixed_around(self, viewer: str, x: float, y: float, height: float, radius: float) -> CrossSection:
-        """Return the fixed obstacles at this height within `radius` [m] of a laser, and possibly some more."""
+        """Return the fixed obstacles at this height within `radius` [m] of a laser, and some that are farther away."""
         segments, discs = self.solid(height)
         if len(segments) <= MANY or math.isinf(radius):
             return segments, discs
@@ -168,7 +168,10 @@ class LaserView:
         return self._templates[key][1]
 
     def robots(self, moment: Hashable, height: float, robots: Sequence[Robot]) -> RobotSections:
-        """Return the robots at one moment, computed once for each height; `moment` changes whenever any pose does."""
+        """Return the cross-sections of all robots, computed once for each height and `moment`.
+
+        `moment` is a value that changes whenever a pose does.
+        """
         if self._robots[0] != moment:
             self._robots = (moment, {})
         by_height = self._robots[1]
@@ -188,16 +191,17 @@ class LaserView:
         moment: Hashable,
         moved: float = 0.0,
     ) -> CrossSection:
-        """Return what a robot's laser can see within its range, in the frame map, other robots included.
+        """Return the cross-section of all objects within range of a robot's laser, in the map frame.
 
-        `moved` [m] is the distance it may have moved during the measurement.
+        It includes the other robots. `moved` is the distance [m] that the robot may have moved during the measurement.
         """
         x, y, theta = viewer.pose
         c, s = math.cos(theta), math.sin(theta)
         mx, my, height = laser.mount
         x, y = x + c * mx - s * my, y + s * mx + c * my
         radius = laser.range_max + 6 * laser.noise
-        # the margin of the cache covers all but high speeds
+        # The margin in `fixed_around` covers a `moved` below MARGIN, as at normal speeds; enlarge the radius only by
+        # whole MARGINs, so that cache entries are reused.
         found = [self.fixed_around(viewer.name, x, y, height, radius + math.floor(moved / MARGIN) * MARGIN)]
         found += [self.movable(crate.obstacle, height, crate.pose) for crate in crates]
         found += [self.movable(mover.obstacle, height, mover.pose) for mover in movers]

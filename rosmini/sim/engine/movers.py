@@ -1,4 +1,4 @@
-"""Obstacles that move by themselves, and wait or turn back when something is in their way."""
+"""Obstacles that move by themselves, and wait or turn back when a body is in their way."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DELTA = 1e-4
 
 
 class Mover:
-    """A walker or a door; its own clock stops while something is in its way."""
+    """A walker or a door; its own clock stops while a body is in its way."""
 
     def __init__(self, obstacle: Obstacle, motion: Walk | Door, instant: Instant) -> None:
         self.obstacle = obstacle
@@ -50,7 +50,7 @@ class Mover:
 
     @property
     def velocity(self) -> tuple[float, float, float]:
-        """Its velocity in the frame map [m/s, m/s, rad/s]."""
+        """Its velocity in the map frame [m/s, m/s, rad/s]."""
         if self.waiting:
             return (0.0, 0.0, 0.0)
         before, after = self.pose, self.predict(DELTA)
@@ -63,7 +63,7 @@ class Mover:
             self._clock, self._since_ns, self.waiting = self.clock, self._instant.ns, waiting
 
     def predict(self, dt: float) -> Pose:
-        """Return its pose in `dt` seconds if nothing stops it."""
+        """Return its pose `dt` seconds from now if it does not stop."""
         return self.obstacle.at(self.clock + self.rate * dt)
 
     @property
@@ -78,19 +78,22 @@ class Mover:
         return (self.clock, -self.pace) if walks else None
 
     def turn_back(self, clock: float, pace: int) -> None:
-        """Continue from a clock that gives the same pose, at this pace."""
+        """Continue from `clock` [s] of its own motion, which gives the same pose, at this pace."""
         self._clock, self._since_ns, self.waiting, self.pace = clock, self._instant.ns, False, pace
 
     def clearance_at(self, ns: int) -> float:
-        """Return the distance that any of its points can still move at `ns` [m]."""
+        """Return the distance [m] that any of its points can still move from time `ns` on."""
         return self.clearance - self.top_speed * (ns - self.clearance_ns) / SECOND
 
     def free_distance_at(self, ns: int) -> float:
-        """Return the distance it can still move at `ns` [m] before it may have to stop for something."""
+        """Return the distance [m] that it can still move from time `ns` on before it may have to stop for a body."""
         return self.clearance_at(ns) - self.keep
 
     def leg(self) -> tuple[float, Pose, float, tuple[int, int]]:
-        """Return the current leg of its trail: start time [s], pose, its clock, its rate and when that began."""
+        """Return the current leg of its trail: start time [s], pose, clock [s], and course.
+
+        The course is its rate and the time [ns] at which the rate last changed.
+        """
         course = (self.rate, self._since_ns)
         return (self._since_ns / SECOND, self.obstacle.at(self._clock), self._clock, course)
 

@@ -7,10 +7,10 @@ d = r 2 pi ticks / N, and
     x += ds cos(theta + dtheta / 2),   y += ds sin(theta + dtheta / 2),   theta += dtheta
 
 TurtleBot3's firmware does this 30 times a second (`calcOdometry` of `turtlebot3_core` in
-https://github.com/ROBOTIS-GIT/OpenCR), with one difference: it takes dtheta from the orientation that its IMU
-reports, and the line that uses the wheels is commented out. Its v is ds / dt, and its w dtheta / dt. (It does not
-wrap the difference of two orientations, so one step is wrong each time its heading passes 180 degrees; here
-no step is.) Gazebo's plugin uses the wheels.
+https://github.com/ROBOTIS-GIT/OpenCR), with one difference: it takes dtheta from the orientation that its IMU reports,
+and the line that uses the wheels is commented out. Its v is ds / dt, and its w dtheta / dt. (It does not wrap the
+difference of two orientations, so one step is wrong each time its heading passes 180 degrees; rosmini does not copy
+this fault.) Gazebo's plugin uses the wheels.
 
 r and b are nominal values. The real wheels are a little larger, smaller or farther apart, and they
 slip: so the estimate drifts away from the truth, without bound (Borenstein and Feng, Measurement and correction
@@ -43,7 +43,7 @@ def ticks(angle: float, ticks_per_turn: int) -> int:
 def dead_reckoning(
     pose: Pose, left: float, right: float, separation: float, turn: float | None = None
 ) -> Pose:
-    """Return the pose after the wheels have rolled `left` and `right` [m]: the equations above.
+    """Return the pose after the wheels have rolled `left` and `right` [m], by the equations of this module's docstring.
 
     `turn` [rad] overrides dtheta, for example with a gyroscope's value.
     """
@@ -61,7 +61,7 @@ class Odometry:
 
     model: RobotModel
     pose: Pose = (0.0, 0.0, 0.0)
-    """In the frame odom, whose origin is the robot's pose at power-on."""
+    """In the odom frame, whose origin is the robot's pose at power-on."""
     v: float = 0.0
     w: float = 0.0
     left: float = 0.0
@@ -74,7 +74,7 @@ class Odometry:
     _right_ticks: int = 0
 
     def update(self, left_ticks: int, right_ticks: int, dt: float, turn: float | None = None) -> None:
-        """Update with the encoders `dt` seconds later and, with a gyroscope, its rotation since then [rad]."""
+        """Update from the encoder counts after `dt` seconds, and optionally the rotation by a gyroscope [rad]."""
         model = self.model
         tick = 2 * math.pi / model.ticks_per_turn
         left, right = (left_ticks - self._left_ticks) * tick, (right_ticks - self._right_ticks) * tick

@@ -22,7 +22,7 @@ def free_pose(
     """Return `pose` as floats if a robot of this model has room there.
 
     `obstruction(pose)` describes the object in the way, and `taken(pose)` does the same for movable bodies. Raises
-    `WorldError`, which names the nearest free position, also for numbers that are not finite.
+    `WorldError` if there is no room, with the nearest free position, and if a number is not finite.
     """
     if not all(math.isfinite(part) for part in pose):
         raise WorldError(f"a robot cannot be placed at {pose}: x, y and heading must be finite numbers")

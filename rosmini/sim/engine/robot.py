@@ -65,10 +65,10 @@ class Robot:
         self._instant = instant
         self.stop(pose)
         self._past: tuple[Leg | None, Trajectory] = (None, self._trajectory)
-        """The leg of its trail that was last asked for, and the path on it."""
+        """The leg that was last passed to `pose_on_leg`, and the path on it."""
 
     def stop(self, pose: Pose) -> None:
-        """Stop at a pose, with encoders at zero and no command."""
+        """Reset it to rest at `pose`, with encoders at zero and without a command."""
         self._set_trajectory(
             self._instant.ns, self._new_trajectory(pose, self.drive.initial_state, self.drive.targets)
         )
@@ -79,10 +79,10 @@ class Robot:
         self.contact_velocity: Speeds = (0.0, 0.0, 0.0)
         """Its velocity (ahead, left [m/s], rate of turn [rad/s]) in the last step with a contact."""
         self.slip = (0.0, 0.0)
-        """Slip velocity of its wheels over the ground in that step [m/s], in the frame map."""
+        """Slip velocity of its wheels over the ground in that step [m/s], in the map frame."""
         self._rates = (0.0, 0.0)
 
-    # -- its way -------------------------------------------------------------------------------------------------
+    # -- trajectory ----------------------------------------------------------------------------------------------
 
     def _set_trajectory(self, ns: int, trajectory: Trajectory) -> None:
         """Follow another path from a time on."""
@@ -121,7 +121,7 @@ class Robot:
         return self._point
 
     def at(self, ns: int) -> TrajectoryPoint:
-        """Return its pose and wheel state at a time, unless anything changes before."""
+        """Return its pose and wheel state at time `ns`, assuming that its path does not change before."""
         step = self._step
         if step is None:
             return self._trajectory.at((ns - self._since_ns) / SECOND)
@@ -132,7 +132,7 @@ class Robot:
         return TrajectoryPoint(between_poses(step.begin, step.end, part), point.state, point.rates)
 
     def clearance_at(self, ns: int) -> float:
-        """Return the distance it can still move at `ns` [m]."""
+        """Return the distance [m] that any of its corners can still move from time `ns` on."""
         return self.clearance - self.top_speed * (ns - self.clearance_ns) / SECOND
 
     def leg(self) -> tuple[float, Pose, WheelState, tuple[Numbers, Numbers]]:
@@ -155,11 +155,11 @@ class Robot:
             self._past = (leg, Trajectory(self.drive, pose, state, targets, wheel_factors))
         return self._past[1].at(dt).pose
 
-    # -- where it is ---------------------------------------------------------------------------------------------
+    # -- current state -------------------------------------------------------------------------------------------
 
     @property
     def pose(self) -> Pose:
-        """Its true pose in the frame map; the heading is not wrapped."""
+        """Its true pose in the map frame; the heading is not wrapped."""
         return self._point.pose if self._point_ns == self._instant.ns else self._current().pose
 
     @property
@@ -228,7 +228,7 @@ class Robot:
         )
 
     def world_velocity(self) -> Speeds:
-        """Return its current velocity: along x and y of the frame map [m/s], and rate of turn to the left [rad/s]."""
+        """Return its current velocity: along x and y of the map frame [m/s], and rate of turn to the left [rad/s]."""
         v, vy, w = self.velocity
         c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
         return (c * v - s * vy, s * v + c * vy, w)
@@ -240,7 +240,7 @@ class Robot:
     # -- commands ------------------------------------------------------------------------------------------------
 
     def command(self, v: float, vy: float, w: float) -> None:
-        """Set the commanded speeds ahead and to the left side [m/s] and turn to the left [rad/s], within its limits.
+        """Command speeds ahead and to the left side [m/s] and a rate of turn to the left [rad/s], within its limits.
 
         An equal command changes nothing. During a contact, the command takes effect at the end of the step.
         """
@@ -263,14 +263,18 @@ class Robot:
         self.touching = False
 
     def draw_slip(self) -> None:
-        """Begin the next period of slip."""
+        """Draw the wheel slip of the next period."""
         self.wheels.slip()
         point = self._current()
         if self.drive.wheel_factors(self.wheels) != self._trajectory.wheel_factors:
             self._change(point.state, self._trajectory.targets)
 
     def set_contact_step(self, begin_ns: int, end_ns: int, wheels: TrajectoryPoint, end: Pose) -> None:
-        """Set the end of a step with a contact, whose wheels alone would lead to `wheels`, and record the velocity."""
+        """Record a step in which a contact keeps the robot from its path.
+
+        The step ends at `end` instead of `wheels`, the point that the wheels alone would reach. Also updates the
+        velocity and the slip of the wheels.
+        """
         begin = self.pose
         dt = (end_ns - begin_ns) / SECOND
         before = self.velocity
@@ -290,11 +294,11 @@ class Robot:
         self.clearance = 0.0
 
     def end_contact(self) -> None:
-        """Record that no contact keeps it from its path in a step."""
+        """Record that the contact has ended."""
         self.touching = False
         self.slip = (0.0, 0.0)
 
-    # -- the same again ------------------------------------------------------------------------------------------
+    # -- saving and restoring -------------------------------------------------------------------------------------
 
     saved: tuple[str, ...] = (
         "start",
@@ -307,12 +311,12 @@ class Robot:
     )
 
     def state(self) -> dict[str, Any]:
-        """Return everything about it except its name and model; includes its wheels."""
+        """Return its complete state, including its wheels, except its name and model."""
         step = self._step
         return {
             **{name: getattr(self, name) for name in self.saved},
-            "pose": self.pose,  # for readers of a state
-            "way": self._trajectory.inputs(),
+            "pose": self.pose,  # not used by `restore`; for code that inspects a saved state
+            "trajectory": self._trajectory.inputs(),
             "step": None if step is None else (*step[:4], step.following.inputs()),
             "wheels": self.wheels.state(),
         }
@@ -320,7 +324,7 @@ class Robot:
     def restore(self, state: dict[str, Any]) -> None:
         """Restore what `state` returned."""
         self.wheels.restore(state["wheels"])
-        self._set_trajectory(self._instant.ns, Trajectory(self.drive, *state["way"]))
+        self._set_trajectory(self._instant.ns, Trajectory(self.drive, *state["trajectory"]))
         if state["step"] is not None:
             *step, following = state["step"]
             begin_ns, begin, end_ns, end = step
@@ -356,7 +360,7 @@ class PassiveRobot(Robot):
 
     @property
     def pose(self) -> Pose:
-        """Its true pose in the frame map; the heading is not wrapped."""
+        """Its true pose in the map frame; the heading is not wrapped."""
         return self.body.pose
 
     def motion(self) -> Motion:
@@ -374,7 +378,7 @@ class PassiveRobot(Robot):
         return self.contact_velocity
 
     def command(self, v: float, vy: float, w: float) -> None:
-        """Raise `RosminiError`, because it has no drive."""
+        """Ignore a zero command; raise `RosminiError` for any other, because it has no drive."""
         if v or vy or w:
             msg = f"{self.name!r} cannot go {v} m/s, {vy} m/s to its side and {w} rad/s: it has no drive"
             raise RosminiError(msg)
@@ -382,7 +386,7 @@ class PassiveRobot(Robot):
     _followed_ns = -1
 
     def follow(self, pose: Pose, velocity: Speeds, end_ns: int) -> None:
-        """Record the pose and velocity at the end of a step, in the frame map [m/s, m/s, rad/s]."""
+        """Record the pose and velocity at the end of a step, in the map frame [m/s, m/s, rad/s]."""
         (vx, vy, w), c, s = velocity, math.cos(pose[2]), math.sin(pose[2])
         before, self.contact_velocity = self.contact_velocity, (c * vx + s * vy, c * vy - s * vx, w)
         self._rates = ((self.contact_velocity[0] - before[0]) / STEP, (w - before[2]) / STEP)

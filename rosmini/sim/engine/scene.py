@@ -112,7 +112,11 @@ class Near:
         self.hits = np.zeros((2 * most, 13))
 
     def _mates(self, margin: float) -> tuple[Ints, Ints]:
-        """Find the bodies that may come near each body."""
+        """Return the pairs of bodies that may come near each other.
+
+        The bodies near body i are `mates[starts[i]:starts[i + 1]]` (indices; `starts` and `mates` are returned). This
+        holds as long as no body moves farther than `margin` [m].
+        """
         x, y = self.poses[:, 0], self.poses[:, 1]
         reach = np.array([body.reach for body in self.bodies])
         low, high = np.array([(b.bottom, b.top) for b in self.bodies]).reshape(-1, 2).T
@@ -136,7 +140,7 @@ class Near:
         return [(*pair, force) for pair, force in found.items()]
 
     def resolve_overlaps(self, queue: list[int]) -> list[int]:
-        """Resolve the overlaps of robots, these first; return the indices of those that were moved."""
+        """Resolve the overlaps of robots, those in `queue` first; return the indices of the robots that were moved."""
         moved = np.zeros(len(self.bodies), dtype=np.int64)
         self._loops.run(
             "resolve_overlaps", len(self.bodies), np.array(queue, dtype=np.int64), self.scene, moved
@@ -144,7 +148,7 @@ class Near:
         return np.flatnonzero(moved).tolist()
 
     def clearances(self, robots: list[int], view: float) -> list[float]:
-        """Return how far each of `robots` can move before a contact; for the other bodies inf, or an upper bound."""
+        """Return how far [m] each of `robots` can move before a contact; for other bodies inf, or an upper bound."""
         rooms = np.full(len(self.bodies), np.inf)
         numbers = np.array(robots, dtype=np.int64)
         self._loops.run("clearances", len(robots), numbers, view, self.scene, rooms)
@@ -152,7 +156,7 @@ class Near:
 
 
 def _around(body: Body, pose: Pose, ground: Ground, margin: float) -> list[FixedPiece]:
-    """Return the fixed pieces that may come near a body."""
+    """Return the fixed pieces that a body may come near if it moves by up to `margin` [m]; cached with the body."""
     x, y, _ = pose
     need = body.reach + margin
     if body.around is not None:

@@ -3,9 +3,9 @@
 Time is counted in whole nanoseconds since the engine began; step k always goes from k * STEP_NS to (k + 1) *
 STEP_NS.
 
-*Free motion* needs no steps. A robot follows a path in closed form from the last change
-(`rosmini.sim.engine.robot`), no matter how often its pose is asked for. Commands, slips and the expiry of
-commands change the path at exactly their time.
+*Free motion* needs no steps. A robot follows a path in closed form from the last change (`rosmini.sim.engine.robot`),
+no matter how often its pose is queried. A command, a change of slip or the expiry of a command changes the path at
+exactly its time.
 
 *Contact* is resolved at the points of the grid. In a step, first the objects that slide or are pushed move
 (by impulses, from their poses at its beginning), then robots that their wheels would take into an obstacle are
@@ -15,16 +15,15 @@ time first passes its beginning, and only from the state at its beginning. There
 
 - a pose within a step lies on the straight line between its beginning and its end, and is not stored;
 - a command within a step takes effect at the end of the step if a contact keeps the robot from its path;
-- an object put somewhere within a step is there at once and moves on evenly; it touches, rubs and is pushed from the
-  next step on;
+- an object placed within a step is there at once and moves at constant velocity; contacts and friction act on it from
+  the next step on;
 - a change of friction and gravity within a step takes effect from the next one on;
-- the solver remembers nothing from step to step, so a state consists of poses and velocities only.
+- the solver keeps no data between steps, so a state consists of poses and velocities only.
 
-*Which bodies are checked* matters only for speed. Each robot and each mover has a `clearance`: the distance
-that it can move, and the others with it, before a contact is possible; two movers share the gap between
-them. Bodies without clearance left are checked: every `PLAN` steps the bodies that may touch anything, and those
-near them, are determined. Checking more robots than necessary changes nothing: a robot without a contact stays
-on its path.
+*Which bodies are checked* matters only for speed. Each robot and each mover has a `clearance`: the distance that it can
+move, and the others with it, before a contact is possible; two movers share the gap between them. Bodies without
+clearance left are checked: every `PLAN` steps the bodies that may have contacts, and those near them, are determined.
+Checking more robots than necessary changes nothing: a robot without a contact stays on its path.
 """
 
 from __future__ import annotations
@@ -47,7 +46,7 @@ from .scene import Near
 from .wheel_drives import TrajectoryPoint
 
 PLAN = 10
-"""Number of steps for which the bodies that may touch anything are determined."""
+"""Number of steps for which the bodies that may have contacts are determined."""
 
 HORIZON = PLAN * STEP
 """Duration of `PLAN` steps [s]."""
@@ -122,7 +121,7 @@ class Stepper:
         self._change_ns = None
 
     def commanded(self, robot: Robot) -> None:
-        """Take notice of a new command to a robot."""
+        """Update the plan after a new command to a robot."""
         self._change_ns = None
         self._population.record_leg(robot)
         left = max(self._planned * STEP_NS - self._instant.ns, 0) / SECOND
@@ -130,23 +129,23 @@ class Stepper:
             self._plan_next()
 
     def invalidate_clearance(self) -> None:
-        """Take notice that a body was added, removed or put elsewhere."""
+        """Plan again, because a body was added, removed or put elsewhere."""
         self._drivers = self._population.drivers
         self._change_ns = None
         self._plan_next()
 
     def _plan_next(self) -> None:
-        """Determine at the next point of the grid which bodies may touch anything."""
+        """Determine at the next point of the grid which bodies may have contacts."""
         self._planned = self._tick = -(-self._instant.ns // STEP_NS)
 
     def discard_clearances(self) -> None:
-        """Discard all clearances: everything may be elsewhere."""
+        """Discard all clearances, because any body may have moved."""
         self._group = None
         for each in self._population.moving:
             each.clearance = 0.0
         self.invalidate_clearance()
 
-    # -- planning contacts ---------------------------------------------------------------------------------------
+    # -- contact prediction --------------------------------------------------------------------------------------
 
     def _advance_step(self, tick: int) -> None:
         """Advance from a point of the grid."""
@@ -159,14 +158,14 @@ class Stepper:
             self._tick = tick + 1
 
     def _plan(self, tick: int) -> None:
-        """Determine which bodies may touch anything from now on, and until when."""
+        """Determine which bodies may have contacts from now on, and until when this holds."""
         now, drivers, movers = self._instant.ns, self._drivers, list(self._population.movers.values())
         self._limit_clearances_outside()
         checked: set[Robot] = set()
         while short := [
             r for r in drivers if r not in checked and r.clearance_at(now) < r.top_speed * HORIZON
         ]:
-            # include those that will be short soon, to check rarely and many at once
+            # also measure robots whose clearance will soon be short, so that measurements are rare and batched
             short += [
                 r for r in drivers if r not in checked and r.clearance_at(now) < 3 * r.top_speed * HORIZON
             ]
@@ -202,7 +201,7 @@ class Stepper:
             self._planned = tick + max(int(min(steps, default=1e9)), PLAN)
 
     def _make_group(self, active: list[Body]) -> None:
-        """Make tables of the bodies that may touch anything, and of those near them."""
+        """Make tables of the bodies that may have contacts, and of those near them."""
         contacts = self._population.contacts
         speeds = [math.hypot(*c.velocity[:2]) + c.reach * abs(c.velocity[2]) for c in contacts.crates]
         farthest = max([self._top_speed, *speeds]) * HORIZON
@@ -258,7 +257,7 @@ class Stepper:
                 owner.clearance, owner.clearance_ns = clearance, now
 
     def _measure_mover_clearance(self, mover: Mover) -> None:
-        """Measure how far a mover can move without coming near anything, by bounding circles."""
+        """Measure how far a mover can move without coming near another body, using bounding circles."""
         now, contacts = self._instant.ns, self._population.contacts
         own = contacts.bodies[mover.obstacle.name]
         x, y, _ = mover.pose
@@ -312,7 +311,7 @@ class Stepper:
                 self._population.record_leg(robot)
 
     def _advance_mover(self, mover: Mover) -> None:
-        """Let a mover continue unless a body that can give way is in its path; then let it turn back if it can."""
+        """Let a mover continue unless a body that is not fixed is in its path; then let it turn back if it can."""
         mover.wait(waiting=self._is_stuck(mover, mover.clock, mover.pace))
         if mover.waiting:
             back = mover.return_course
@@ -321,7 +320,7 @@ class Stepper:
         self._population.record_leg(mover)
 
     def _is_stuck(self, mover: Mover, clock: float, pace: int) -> bool:
-        """Return True if a mover would come too near to a body that can give way, from this clock [s] on."""
+        """Return True if in a step from `clock` [s] on a mover would come too near to a body: see `is_blocked`."""
         return self._population.contacts.is_blocked(
             mover.obstacle.name, mover.obstacle.at(clock + pace * STEP), mover.keep
         )
@@ -365,7 +364,7 @@ class Stepper:
         if isinstance(thing, PassiveRobot):
             thing.follow(end, velocity, end_ns)
 
-    # -- looking ahead -------------------------------------------------------------------------------------------
+    # -- prediction ----------------------------------------------------------------------------------------------
 
     def predict_pose(self, robot: Robot, when_ns: int) -> Pose:
         """Return a robot's pose at a time if nothing can be in its way by then; otherwise its current pose."""
@@ -375,7 +374,7 @@ class Stepper:
         return robot.at(when_ns).pose if robot.clearance_at(when_ns) >= 0 else robot.pose
 
     def reset_clearances(self, bodies: Iterable[Body]) -> None:
-        """Reset the clearances of these bodies, because something was added or moved near them."""
+        """Reset the clearances of these bodies, because a body was added or moved near them."""
         for body in bodies:
             if isinstance(body.owner, (Robot, Mover)):
                 body.owner.clearance = 0.0

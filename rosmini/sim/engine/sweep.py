@@ -1,14 +1,14 @@
-"""Scans of a laser that takes time for a revolution: each beam starts from the robot's pose at its time.
+"""Scans of a laser that takes time for a revolution: each beam starts from the robot's pose at the time of the beam.
 
-Exact poses are computed at `GRID` + 1 times of a revolution, and moving objects are assumed to follow arcs
-between them. So beams start exactly where they should while speeds are constant; while they change, the error is
-at most a T^2 / (8 GRID^2), with a the acceleration and T the time of a revolution: a Burger that begins to turn with
-12.5 rad/s^2, its maximum, is off by 0.6 milliradians for a moment. Other moving objects are placed, for each
-`BEAMS_PER_POSE` beams, at their pose in the middle of them: an error of 2.2 ms of their motion, half a millimetre for a
-Burger, and 3 mm for a walker at 1.4 m/s.
+Exact poses are computed at `GRID` + 1 times of a revolution, and moving objects are assumed to follow arcs between
+them. So the origins of the beams are exact while speeds are constant; while speeds change, the error is at most a T^2 /
+(8 GRID^2), with a the acceleration and T the time of a revolution: a Burger that begins to turn with 12.5 rad/s^2, its
+maximum, is off by 0.6 milliradians for a moment. Other moving objects are placed, for each `BEAMS_PER_POSE` beams, at
+their pose in the middle of them: an error of 2.2 ms of their motion, half a millimetre for a Burger, and 3 mm for a
+walker at 1.4 m/s.
 
-Where machine code pays off, one function does all of it, `rosmini.sim.engine.sweep_kernel.sweep`; otherwise numpy,
-with the same ranges to the last bit.
+Where compilation pays off, one compiled function computes a sweep, `rosmini.sim.engine.sweep_kernel.sweep`; otherwise
+numpy does, with the same ranges to the last bit.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ NO_NOISE: Floats = np.empty(0)
 
 
 class Sweeps:
-    """The motion of all bodies during the last revolution, computed once for all lasers that turn in step."""
+    """The motion of all bodies during the last revolution, computed once for all lasers whose revolutions coincide."""
 
     def __init__(
         self, population: Population, scan: Callable[[str, Floats | None, LidarModel], Floats]
@@ -122,7 +122,7 @@ class Sweeps:
         places = np.column_stack([seen_from[:, 0] + c * mx - s * my, seen_from[:, 1] + s * mx + c * my])
         back = bool(angles[-1] < angles[0])
         middle = places[count - 1 - count // 2 if back else count // 2].copy()
-        places -= middle  # everything is relative to it, as in `sweep`
+        places -= middle  # all coordinates are relative to it, as in `sweep`
         moved = float(np.hypot(*places.T).max())
         away = np.hypot(*(self._around[:, :2] - middle).T) - self._around[:, 2]
         begins = np.arange(0, count, BEAMS_PER_POSE)
@@ -195,7 +195,7 @@ class Sweeps:
                 yield crate.obstacle.name, crate.pose, crate.reach, None
 
     def _stationary_section(self, viewer: Robot, lidar: LidarModel) -> CrossSection:
-        """Return the objects that did not move, as far as the laser can see them."""
+        """Return the cross-section of the objects that did not move, as far as the laser can see them."""
         robots, moved, moment = self._stationary_robots, 0.0, (self._moment, "")
         own = self._numbers.get(viewer.name)
         if own is not None:

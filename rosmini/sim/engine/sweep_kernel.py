@@ -25,10 +25,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 BEAMS_PER_POSE = 8
-"""Number of consecutive beams for which other moving bodies are treated as standing still."""
+"""Number of consecutive beams for which other moving bodies are treated as stationary."""
 
 
-def sweep(  # noqa: C901, PLR0912 - one function, for each that is compiled costs the first user time
+def sweep(  # noqa: C901, PLR0912 - one function, because compiling each costs the first user time
     own: int,
     now: float,
     beam_time: float,
@@ -46,7 +46,7 @@ def sweep(  # noqa: C901, PLR0912 - one function, for each that is compiled cost
     seen_from: Floats,
     ranges: Floats,
 ) -> None:
-    """Fill in `ranges` (beams,), and, unless the viewer stands (`own` is -1), `seen_from` (beams, 3).
+    """Fill in `ranges` (beams,), and, unless the viewer did not move (`own` is -1), `seen_from` (beams, 3).
 
     `laser` contains its position ahead and to the left, the angle of its first beam, the angle between two beams, its
     reach, and its shortest and longest range. `noise` may be empty.

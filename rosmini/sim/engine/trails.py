@@ -1,8 +1,8 @@
-"""Recent poses of everything that moves, for a laser that moves during a revolution, as other bodies do.
+"""Recent poses of all moving bodies, because the laser and other bodies move while a scan is measured.
 
-A trail is a list of legs. On a leg with a course a robot follows its command, so each pose follows exactly
-from the leg's start, regardless of any queries. For a body that is pushed, or pushes, the poses are those at
-the ends of the physics steps, with straight lines between them.
+A trail is a list of legs. On a leg with a course, a body follows one command, and any pose is computed exactly from the
+start of the leg, regardless of other queries. For a body in contact, the trail contains the poses at the ends of the
+physics steps, with straight lines between them.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SAME = 1e-11
 """Poses that differ by less [m, rad] count as equal."""
 
 PoseOnLeg = Callable[[Leg, float], Pose]
-"""Returns the pose so many seconds after the beginning of a leg with a course."""
+"""Returns the pose a number of seconds after the beginning of a leg with a course."""
 
 
 class Trails:
@@ -43,15 +43,15 @@ class Trails:
 
     def __init__(self) -> None:
         self.span = 0.0
-        """Duration that is kept [s]."""
+        """Duration [s] for which poses are kept."""
         self._legs: dict[str, list[Leg]] = {}
 
     def remember(self, seconds: float) -> None:
-        """Keep at least this duration [s]."""
+        """Keep the poses of at least this many seconds."""
         self.span = max(self.span, seconds)
 
     def set_course(self, name: str, now: float, pose: Pose, state: Any, course: Any) -> None:
-        """Record that a body is on a course from here, unless it was on it before."""
+        """Begin a leg with a course at `pose`, unless the current leg has the same course."""
         legs = self._legs.setdefault(name, [])
         if not legs or legs[-1][3] != course:
             self._add(legs, (now, pose, state, course))
@@ -66,7 +66,7 @@ class Trails:
             legs.pop(0)
 
     def forget(self, name: str) -> None:
-        """Delete a trail, as if the body had always been at its pose: it was added, removed or put elsewhere."""
+        """Delete the trail of a body that was added, removed or put elsewhere."""
         self._legs.pop(name, None)
 
     def clear(self) -> None:
@@ -76,10 +76,10 @@ class Trails:
     def track(
         self, name: str, times: Sequence[float], pose: Pose, pose_on_leg: PoseOnLeg | None
     ) -> tuple[Sequence[float], list[Pose]] | None:
-        """Return poses at enough of the ascending `times` to describe a body's path by arcs.
+        """Return poses at as many of the ascending `times` as are needed to describe a body's path by arcs.
 
-        Return None if it did not move. `pose` is its pose at the last of the times, which is now. Before its trail
-        begins, it was at the trail's first pose.
+        Return None if it did not move. `pose` is its pose at the last of the times, which is now. Before the beginning
+        of the trail, the first pose of the trail applies.
         """
         legs = self._legs.get(name)
         if not legs:
@@ -124,7 +124,10 @@ class Trails:
 def arc(
     x: float, y: float, theta: float, wx: float, wy: float, turn: float, part: float
 ) -> tuple[float, float, float]:
-    """Return the pose after a fraction of an arc that leads from (x, y, theta) by (wx, wy, turn)."""
+    """Return the pose at the fraction `part` (0 to 1) of a circular arc.
+
+    The arc starts at (x, y, theta) [m, rad], ends at (x + wx, y + wy) and turns by `turn` [rad].
+    """
     half = turn / 2 if turn != 0.0 else 1e-9  # an arc with a turn this small is numerically a line
     # chords are proportional to the sine of half the turn, and that of a partial arc is rotated back by half the rest
     scale, back = math.sin(part * half) / math.sin(half), (part - 1.0) * half

@@ -1,4 +1,4 @@
-"""Drives: from a wheel state and targets to a robot's path in closed form."""
+"""Drives: a robot's path in closed form, computed from a wheel state and targets."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .free_motion import (
 from .odometry import RealWheels
 
 WheelState = tuple[float, ...]
-"""The quantities that change as its wheels turn."""
+"""The quantities that change as a robot's wheels turn."""
 
 Numbers = tuple[float, ...]
 
@@ -47,7 +47,10 @@ class Cruise(NamedTuple):
 
 
 class Trajectory:
-    """A robot's path from a pose and a wheel state to its targets and beyond: phases with constant rates."""
+    """A robot's path from a pose and a wheel state.
+
+    Phases of constant acceleration until the wheel speeds reach their targets, then one of constant speed.
+    """
 
     def __init__(
         self, robot: Drive, pose: Pose, state: WheelState, targets: Numbers, wheel_factors: Numbers
@@ -74,7 +77,7 @@ class Trajectory:
             return point
         pose, state, rates = point
         pose, state = self._robot.after(pose, state, rates, dt - begin, self.wheel_factors)
-        return tuple.__new__(TrajectoryPoint, (pose, state, rates))  # half the time of Spot(...)
+        return tuple.__new__(TrajectoryPoint, (pose, state, rates))  # half the time of TrajectoryPoint(...)
 
     @property
     def cruise(self) -> Cruise | None:
@@ -103,7 +106,7 @@ class Drive(ABC):
 
     @abstractmethod
     def phases(self, state: WheelState, targets: Numbers) -> list[tuple[float, Numbers]]:
-        """Return how speeds reach their targets: each phase's duration [s], the last one infinite, and its rates."""
+        """Return the phases in which the speeds reach their targets: durations [s], the last one inf, and rates."""
 
     @abstractmethod
     def after(
@@ -125,7 +128,7 @@ class Drive(ABC):
 
     @abstractmethod
     def wheel_factors(self, wheels: RealWheels) -> Numbers:
-        """Return the real wheels' factors for the motion."""
+        """Return the factors that convert nominal motion to that of the real wheels."""
 
     @abstractmethod
     def velocity(self, state: Numbers, wheel_factors: Numbers) -> Speeds:
@@ -228,7 +231,7 @@ class DifferentialDrive(Drive):
 
 
 class HolonomicDrive(Drive):
-    """A holonomic drive: nominal speeds ahead, to the left and of the turn, and the pose reckoned from them."""
+    """A holonomic drive: nominal speeds ahead, to the left and of the turn, and the pose estimated from them."""
 
     initial_state = (0.0,) * 6
     targets = (0.0, 0.0, 0.0)

@@ -90,7 +90,8 @@ def eigenvector(matrix: Floats, value: float) -> Floats:
     Raises `ValueError` if that is not one of its eigenvalues.
     """
     rows = matrix - value * np.identity(3)
-    # It is perpendicular to all rows: along the longest cross product of two of them, unless all are parallel.
+    # The eigenvector is perpendicular to all rows: parallel to the longest cross product of two, unless all are
+    # parallel.
     row = rows[int(norms(rows).argmax())]
     size = norm(row)
     products = np.cross(rows, np.roll(rows, -1, axis=0))
