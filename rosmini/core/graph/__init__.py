@@ -4,8 +4,8 @@ The kernel, in the order in which it is best read:
 
 1. how a message travels: ``publisher``, ``connection``, ``lanes``, ``callbacks``, ``subscription``;
 2. what runs it: ``scheduler``, ``event_queue``;
-3. who knows whom: ``master``, ``parameters``, ``master_port``, ``transport``, ``local_transport``;
-4. what users hold: ``service``, ``node``, ``graph``.
+3. how nodes find each other: ``master``, ``parameters``, ``master_port``, ``transport``, ``local_transport``;
+4. the interface for users: ``service``, ``node``, ``graph``.
 
 The other modules support these: clock, log messages, slave API, threads, Jupyter. ``observers`` watch the graph.
 """

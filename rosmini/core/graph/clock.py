@@ -1,7 +1,7 @@
 """The clocks of a node, and Rate and Timer, which wait for them.
 
 A node normally uses the graph's time. With the parameter ``/use_sim_time`` set, it uses the time published on the topic
-``/clock`` instead, as in ROS (http://wiki.ros.org/Clock): time stands still until a message arrives.
+``/clock`` instead, as in ROS (http://wiki.ros.org/Clock): time does not advance until a message arrives.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .scheduler import Scheduler
 
 CLOCK_PATIENCE_NS = 2 * 10**9
-"""Time without ``/clock`` after which a node says why its sleeps hang."""
+"""Time without ``/clock`` after which a node logs why its sleeps hang [ns]."""
 
 
 class GraphClock:
@@ -131,7 +131,7 @@ class Rate:
         return self._last + self._period - now
 
     def sleep(self) -> None:
-        """Sleep until the end of this cycle; if the cycle took far too long, start afresh.
+        """Sleep until the end of this cycle; if the cycle took more than two periods too long, restart it.
 
         Raises ``ROSInterruptException`` if the node shuts down, and ``ROSTimeMovedBackwardsException`` if its clock
         jumps back.

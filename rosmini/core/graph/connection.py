@@ -88,7 +88,7 @@ class Observer:
 
 
 def _tell(observers: Iterable[Observer], frozen: Any) -> None:
-    """Show a message to the observers before the callbacks get it; None means that the callbacks have returned."""
+    """Pass a message to the observers before the callbacks get it; None means that the callbacks have returned."""
     for observer in observers:
         if frozen is None:
             observer.after()
@@ -187,7 +187,7 @@ class QueuedSender:
             self._receiver.closed()
 
     def drop(self) -> None:
-        """Close from the subscriber's side: nothing more arrives, and the publisher is notified."""
+        """Close from the subscriber's side: no further message arrives, and the publisher is notified."""
         if not self._closed:
             self._closed = True
             self.on_closed()
@@ -375,7 +375,7 @@ class Connection:
         return self.subscription.queue_size
 
     def observe(self) -> None:
-        """Ask the graph for the observers of this connection; called again when they change."""
+        """Get the observers of this connection from the graph; called again when they change."""
         self._observers = tuple(self.subscription.observers(self))
         self._filters = tuple(observer for observer in self._observers if observer.holds_back)
         self.route = None

@@ -90,7 +90,7 @@ T = TypeVar("T")
 
 
 class Sleeper(Protocol):
-    """Lets the reader sleep outside the inbox, so that other things can wake it too."""
+    """Lets the reader sleep outside the inbox, so that other events can wake it too."""
 
     is_asleep: bool
 
@@ -200,14 +200,14 @@ class EventQueue:
         return self._timed.add(when_ns, callback)
 
     def call_soon(self, callback: Callable[[], object]) -> None:
-        """Call ``callback`` after everything that is due now. It must not block; use a lane for code that may."""
+        """Call ``callback`` after all events that are due now. It must not block; use a lane for code that may."""
         if get_ident() == self.thread:
             self.ready.append(callback)
         else:
             self._inbox.put(callback)
 
     def call_last(self, callback: Callable[[], object]) -> None:
-        """Call ``callback`` as soon as nothing else is due. Only from the scheduler's thread."""
+        """Call ``callback`` as soon as no other event is due. Only from the scheduler's thread."""
         self._last.append(callback)
 
     def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
@@ -241,12 +241,12 @@ class EventQueue:
         self._inbox.put(let_go)
 
     def count_remote(self, change: int) -> None:
-        """Change the number of waits for something outside this process, which may take any time. From any thread."""
+        """Change the number of waits for other processes, which may take any time. Safe in any thread."""
         with self._hold_lock:
             self._remote_waits += change
 
     def quiet(self) -> bool:
-        """Return True if nothing is due at this moment."""
+        """Return True if no event is due now."""
         due = self._timed.next_ns()
         return (
             not self.ready and not self._last and self._inbox.empty() and (due is None or due > self.now_ns())
@@ -270,7 +270,7 @@ class EventQueue:
         self._timed.take_due(self.now_ns(), self.ready)
 
     def count_rounds(self, rounds: int) -> None:
-        """Count a lane's work at this instant in addition to the loop's rounds. For lanes only."""
+        """Count a lane's work at this instant in addition to the loop's rounds. Called only by lanes."""
         self._rounds += rounds
 
     def _take_last(self) -> None:

@@ -105,7 +105,7 @@ class Graph:
         self.nodes: dict[str, Node] = {}
         """The nodes in this process, by name."""
         self.gates = Gates(self.scheduler)
-        """The gates that messages pass on their way to subscribers."""
+        """The injected faults that messages pass on their way to subscribers."""
         self.closing = False
         """True while the whole graph shuts down."""
         self.log_class = message_class("rosgraph_msgs/Log")
@@ -128,7 +128,7 @@ class Graph:
         self._online: Any = None
         self._recordings = 0
         self.faults = Faults(self)
-        """The faults that were requested; it does the same as `%fault`."""
+        """Injects and lists faults; `%fault` uses it too."""
         if rosout and self.master.is_local:
             self.start_rosout()
 
@@ -171,7 +171,7 @@ class Graph:
         return Time.from_nsec(self.scheduler.now_ns())
 
     def run(self, duration: float | None = None, until: Callable[[], bool] | None = None) -> RunReport:
-        """Run the graph for ``duration`` seconds of its time, until ``until()`` is true, or until nothing is left.
+        """Run the graph for ``duration`` seconds of its time, until ``until()`` is true, or until no event is left.
 
         If the graph is strict, exceptions of callbacks are raised here. Ctrl-C stops the run and leaves the graph
         consistent. Raises ``RosminiError`` if the duration is not a finite number of at least zero.
@@ -199,7 +199,7 @@ class Graph:
         return self._anonymous.make(base, self.scheduler.now_ns())
 
     def who_publishes(self, topic: str) -> str:
-        """Return a clause that says who publishes a topic."""
+        """Return a clause for error messages that names the publishers of a topic."""
         return self.ask_as("/graph").who_publishes(topic)
 
     @property
@@ -257,7 +257,7 @@ class Graph:
     # -- driving -------------------------------------------------------------------------------------------------
 
     def live(self, rate: float = 1.0) -> LiveDrive:
-        """Let the graph run by itself in a notebook, ``rate`` seconds of its time per second, beside cells and widgets.
+        """Run the graph in the background of a notebook, ``rate`` seconds of its time per second.
 
         Call ``stop()`` on the result to stop it. Raises ``RosminiError`` if no event loop runs: use :meth:`run`
         in a program.
@@ -278,9 +278,9 @@ class Graph:
         Others reach the nodes at ``ROS_IP`` or ``ROS_HOSTNAME`` of ``environ`` (by default ``os.environ``); only this
         machine can if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set.
 
-        In a notebook the graph runs by itself, as after :meth:`live`; elsewhere drive it with :meth:`run`, which
-        now takes one second per second of simulated time, since other processes use it. With ``live`` False it runs
-        only while it is driven, and as fast as possible.
+        In a notebook the graph runs in the background, as after :meth:`live`; elsewhere drive it with :meth:`run`,
+        which now takes one second per second of simulated time, since other processes use it. With ``live`` False it
+        runs only while it is driven, and as fast as possible.
 
         Raises ``MasterUnreachable`` if no Master answers and none can be served on this machine, or if the process
         that listens there does not answer within ten seconds (the graph then stays offline), and

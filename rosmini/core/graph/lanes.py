@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 PATIENCE_S = 2.0
-"""Time for which a call waits in another thread before it asks why."""
+"""Time after which a call that waits in another thread reports why it waits [s]."""
 
 LOOK_S = 0.05
 """Interval at which a waiting thread checks, in wall time, whether the driver has stopped and it must take over [s]."""
@@ -160,7 +160,7 @@ class Lane:
         return True
 
     def kill(self) -> None:
-        """End the lane: forget its queued tasks and throw :class:`LaneExit` where it is parked."""
+        """End the lane: drop its queued tasks and throw :class:`LaneExit` where it is parked."""
         if self.dead:
             return
         self.dead = True

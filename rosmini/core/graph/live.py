@@ -150,7 +150,7 @@ class LiveDrive(LoopDrive):
             self._kernel.events.unregister("pre_run_cell", self._warn_of_sleep)
 
     def _warn_of_sleep(self, info: Any) -> None:
-        """Warn, before a cell runs that calls Python's own sleep, that the graph stands still meanwhile."""
+        """Warn, before a cell runs that calls Python's own sleep, that the graph is paused meanwhile."""
         if self.running and SLEEP.search(info.raw_cell or ""):
             sys.stderr.write(
                 "time.sleep() keeps the kernel busy, so the live graph stands still meanwhile. "

@@ -79,12 +79,14 @@ class LocalTransport:
         return [self.protocol, self._place] if caller in self._endpoints else None
 
     def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
-        """Return the connection parameters of a topic."""
+        """Return [protocol, uri] if the node is attached and the offer comes from the same process and graph, else
+        None.
+        """
         is_here = offer in ([self.protocol], [self.protocol, self._place]) and uri in self._endpoints
         return [self.protocol, uri] if is_here else None
 
     def endpoint(self, uri: str) -> Node:
-        """Return the node with this address of its slave API or its services."""
+        """Return the node with this address of its slave API or its services. Raises ``TransportTerminated``."""
         found = self._endpoints.get(slave_uri(uri))
         if found is None:
             raise TransportTerminated(f"no node answers at {uri}: it has been shut down")

@@ -44,16 +44,16 @@ class Notifier(Protocol):
         """Send the node at ``caller_api`` the slave URIs of all current publishers of ``topic``."""
 
     def param_update(self, caller_api: str, key: str, value: Any) -> None:
-        """Tell the node at ``caller_api`` that a parameter has changed; ``{}`` means that it was deleted."""
+        """Notify the node at ``caller_api`` that a parameter has changed; ``{}`` means that it was deleted."""
 
     def shutdown(self, caller_api: str, reason: str) -> None:
         """Ask the node at ``caller_api`` to shut down."""
 
     def registrations_changed(self) -> None:
-        """Called when a node has registered or unregistered something."""
+        """Called after each registration and each removal of one."""
 
 
-# ---- the checks that arguments go through; each returns the argument, resolved if it is a name ----
+# ---- argument checks; each returns the argument, resolved if it is a name ----
 
 
 class _Invalid(Exception):
@@ -380,14 +380,14 @@ class Master(MasterPort):
 
     @_api(0, _key, _given)
     def setParam(self, caller_id: str, key: str, value: Any) -> Triple:
-        """Set a parameter; a dictionary replaces everything under ``key``."""
+        """Set a parameter; a dictionary replaces the whole namespace ``key``."""
         self._parameters.set(key, value)
         self._tell_param_subscribers(key, wire_copy(value, key), setter=caller_id)
         return [1, f"parameter {key} set", 0]
 
     @_api(0, _key)
     def getParam(self, caller_id: str, key: str) -> Triple:
-        """Return a parameter, or everything under ``key`` as a dictionary."""
+        """Return a parameter, or the namespace ``key`` as a dictionary."""
         try:
             return [1, f"Parameter [{key}]", self._parameters.get(key)]
         except KeyError:
@@ -395,12 +395,12 @@ class Master(MasterPort):
 
     @_api(False, _key)
     def hasParam(self, caller_id: str, key: str) -> Triple:
-        """Return True if a parameter, or anything under ``key``, is set."""
+        """Return True if ``key`` is a parameter that is set, or a namespace."""
         return [1, key, key in self._parameters]
 
     @_api(0, _key)
     def deleteParam(self, caller_id: str, key: str) -> Triple:
-        """Delete a parameter, or everything under ``key``."""
+        """Delete a parameter, or the whole namespace ``key``."""
         try:
             self._parameters.delete(key)
         except KeyError:

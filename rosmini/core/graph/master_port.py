@@ -100,7 +100,7 @@ class MasterProxy:
         self._caller_id = caller_id
         self._why_over = why_over
         self.is_mute = False
-        """True if registrations are not taken back, because the caller is dead."""
+        """True if the caller was killed, so that :meth:`unregister` has no effect."""
         self._has_registered = False
         self._lock = threading.Lock()
         self._busy = False
@@ -108,7 +108,7 @@ class MasterProxy:
         self._moved: dict[str, str] = {}
 
     def moved(self, addresses: Mapping[str, str]) -> None:
-        """Take new addresses, by the old ones: calls that still wait for the Master register the new addresses.
+        """Replace old addresses of the caller by new ones in calls that still wait for the Master.
 
         Otherwise the Master would see another node of the same name and would shut this one down.
         """
@@ -190,7 +190,7 @@ class MasterProxy:
         return self._value(method, self.insist(method, *arguments, warn=warn))
 
     def unregister(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> None:
-        """Take a registration back; after failed attempts only ``warn``, once for all nodes that end at that time.
+        """Remove a registration; after failed attempts only ``warn``, once for all nodes that end at that time.
 
         It is not an error if the Master has forgotten the registration.
         """
@@ -224,7 +224,7 @@ class MasterProxy:
                     return
 
     def who_publishes(self, topic: str) -> str:
-        """Return a clause that says who publishes a topic."""
+        """Return a clause for error messages that names the publishers of a topic."""
         try:
             names = self._publishers(topic)
         except MasterUnreachable:
@@ -274,4 +274,4 @@ class MasterProxy:
 
 
 def _silent(_text: str) -> None:
-    """Say nothing."""
+    """Ignore a warning."""

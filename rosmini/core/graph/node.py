@@ -107,7 +107,7 @@ class Node:
         self.is_registered = False
         """True once the node has registered at the Master."""
         self.on_exit: Callable[[], object] | None = None
-        """Called once, when the node has been shut down and the Master has forgotten it."""
+        """Called once, when the node has been shut down and unregistered."""
         self.process: Any = None
         """The object that runs the node and can ``kill()`` it, or None."""
         self.program: Any = None
@@ -241,9 +241,9 @@ class Node:
         ``queue_size`` limits the messages that wait while a callback blocks (None: no limit; the oldest are dropped).
         ``numpy`` gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both:
         see ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once.
-        ``skip_own_mismatch`` allows this node itself to publish the topic with another type, as roscpp
-        does. All subscribers of this node to one topic get the same object, in the form that the first one asked for.
-        Raises ``TypeMismatch`` for a type whose md5 sum differs from that of the first subscriber.
+        ``skip_own_mismatch`` allows this node itself to publish the topic with another type, as roscpp does. All
+        subscribers of this node to one topic get the same object, in the form that the first one requested. Raises
+        ``TypeMismatch`` for a type whose md5 sum differs from that of the first subscriber.
         """
 
         def make() -> Subscriber:
@@ -303,14 +303,14 @@ class Node:
             subscription.update_publishers(uris)
 
     def drop_publication(self, publication: Publication) -> None:
-        """Leave a topic. For the publisher handles only."""
+        """Stop publishing a topic. Called only by the publisher handles."""
         self.publications.pop(publication.topic, None)
         self.slave.topics_changed()
         publication.close()
         self.master.unregister("unregisterPublisher", publication.topic, self.uri, warn=self.logwarn)
 
     def drop_subscription(self, subscription: Subscription) -> None:
-        """Leave a topic. For the subscriber handles only."""
+        """Unsubscribe from a topic. Called only by the subscriber handles."""
         self.subscriptions.pop(subscription.topic, None)
         self.slave.topics_changed()
         subscription.close()
@@ -550,9 +550,10 @@ class Node:
         failure: Callable[[], str],
         look_again: Callable[[], bool] = lambda: False,
     ) -> None:
-        """Block until ``is_so()``, which asks the Master, returns True.
+        """Block until ``is_so()``, which queries the Master, returns True.
 
-        It is called after each change there, and periodically if the Master is elsewhere or while ``look_again()``.
+        It is called after each change there, and periodically if the Master is in another process, or while
+        ``look_again()`` returns True.
 
         Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
         """
@@ -596,7 +597,7 @@ class Node:
     # -- lanes and callbacks -------------------------------------------------------------------------------------
 
     def spawn(self, name: str, task: Callable[[], object] | None = None) -> Lane:
-        """Return a lane of this node; ``task`` may block in it."""
+        """Start a lane of this node and return it; if given, ``task`` runs in it and may block."""
         lane = Lane(self.scheduler, name, node=self, context=self.context, on_error=self._lane_error)
         if task is not None:
             lane.submit(task)
@@ -607,7 +608,7 @@ class Node:
         return self.spawn(name or f"{self.name} {getattr(task, '__name__', 'task')}", task)
 
     def guarded(self, callback: Callable[..., object], *arguments: Any, what: str) -> None:
-        """Call a user's callback; report an exception and do not pass it on."""
+        """Call a user's callback; report an exception instead of raising it."""
         try:
             callback(*arguments)
         except Exception as error:
@@ -622,7 +623,7 @@ class Node:
         *,
         service: bool = False,
     ) -> None:
-        """Report an exception of a callback, with the user's own frame, its place, and the message."""
+        """Report an exception of a callback, with the line of the user's code, ``where`` and the message."""
         if self._is_by_shutdown(error):
             return
         problem = describe_failure(error, callback, where, message, self.name)
@@ -766,7 +767,7 @@ class Node:
         return self.slave.call(method, *arguments)
 
     def accept_subscriber(self, header: Header, sender: Sender) -> Header:
-        """Accept a subscriber's connection."""
+        """Accept a subscriber's connection. Raises ``TransportInitError`` if the node does not publish the topic."""
         publication = None if self._stopped else self.publications.get(header.get("topic", ""))
         if publication is None:
             raise TransportInitError(
@@ -776,7 +777,7 @@ class Node:
         return publication.accept(header, sender)
 
     def accept_client(self, header: Header) -> Session:
-        """Accept a service client's connection."""
+        """Accept a service client's connection. Raises ``TransportInitError`` if the node lacks the service."""
         return self.services.accept(header)
 
     def next_connection_id(self) -> int:

@@ -74,7 +74,7 @@ class CellOutput:
         self._context.run(_cell.set, self._parent)
 
     def lend(self, worker: greenlet) -> None:
-        """Give the driver's context to a greenlet that is running no user code, before it continues."""
+        """Give a copy of the driver's context to an idle worker greenlet before it continues."""
         worker.gr_context = self._context.copy()
 
     def arrive(self) -> None:

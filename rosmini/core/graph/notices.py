@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Changes:
-    """Conditions that waiters wait for; each is evaluated whenever something changes."""
+    """Conditions that waiters wait for; each is evaluated whenever the graph changes."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
@@ -44,7 +44,7 @@ class Changes:
         self._watched.append((_always, waiter))
 
     def notify(self) -> None:
-        """Evaluate the conditions soon, because something has changed. Safe in any thread."""
+        """Evaluate the conditions soon, because the graph has changed. Safe in any thread."""
         if self._watched and not self._check_queued:
             self._check_queued = True
             self._scheduler.call_soon(self._check)
@@ -95,7 +95,7 @@ class Notices:
         self._post(caller_api, "publisherUpdate", topic, uris)
 
     def param_update(self, caller_api: str, key: str, value: Any) -> None:
-        """Tell a node that a parameter to which it subscribes has changed."""
+        """Notify a node that a parameter to which it subscribes has changed."""
         self._post(caller_api, "paramUpdate", key, value)
 
     def shutdown(self, caller_api: str, reason: str) -> None:
@@ -141,7 +141,7 @@ class Notices:
 
 
 def _keep_latest(waiting: deque[Notice]) -> None:
-    """Drop the notices that later ones about the same thing replace."""
+    """Drop the notices that a later one about the same topic or parameter replaces."""
     latest = {(method, arguments[0]): arguments for method, arguments in reversed(waiting)}
     waiting.clear()
     waiting.extend((method, arguments) for (method, _), arguments in reversed(latest.items()))

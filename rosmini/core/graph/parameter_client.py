@@ -32,14 +32,14 @@ UNSET: Any = object()
 def check_value(name: str, value: Any) -> Any:
     """Return ``value`` in a form that the Parameter Server can store.
 
-    Raises ``ParameterError``, which says where the value is wrong.
+    Raises ``ParameterError``, which names the invalid part.
     """
     if hasattr(value, "tolist"):  # numpy scalars and arrays
         return check_value(name, value.tolist())
     if isinstance(value, bool):
         return value
     if isinstance(value, str):
-        return str.__str__(value)  # an enumeration's member is its value
+        return str.__str__(value)  # a member of an enumeration becomes its value
     if type(value).__name__ == "Binary" and hasattr(
         value, "data"
     ):  # xmlrpc.client's, which rospy's scripts use
@@ -79,7 +79,7 @@ def check_value(name: str, value: Any) -> Any:
 def expected(name: str, value: Any, kinds: tuple[type, ...], wanted: str = "") -> Any:
     """Return a parameter's ``value`` if it has one of these types; an int is accepted for a float.
 
-    Raises ``ParameterError``, which names the ``wanted`` value (by default the types).
+    Raises ``ParameterError``; ``wanted`` describes the expected value in its text (by default the types).
     """
     if float in kinds and isinstance(value, int) and not isinstance(value, bool):
         return float(value)
@@ -171,7 +171,7 @@ class ParameterClient:
         return sorted(self._node.master.ask("getParamNames"))
 
     def watch(self, name: str, callback: Callable[[Any], object]) -> Any:
-        """Call ``callback(value)`` when a parameter, or anything in a tree of them, changes; return its current value.
+        """Call ``callback(value)`` when a parameter, or any parameter in a tree, changes; return its current value.
 
         ``{}`` means that the parameter is not set, as in ROS. The node is not notified of values that it sets
         itself, and setting a parameter to its current value is not a change.
@@ -261,6 +261,6 @@ class ParameterClient:
         )
 
     def _leave(self) -> None:
-        """Take back all subscriptions at the Master when the node ends."""
+        """Remove all parameter subscriptions at the Master when the node shuts down."""
         for name in list(self._callbacks):
             self.unwatch(name)

@@ -117,7 +117,7 @@ def updates(subscribed: list[str], key: str, value: Any) -> list[Update]:
 
 
 def closed(key: str) -> str:
-    """Return ``key`` with a closing slash, so that ``/a/`` is a prefix of ``/a/b/`` but not of ``/ab/``."""
+    """Return ``key`` with a trailing slash, so that ``/a/`` is a prefix of ``/a/b/`` but not of ``/ab/``."""
     return key if key == "/" else canonicalize(key) + "/"
 
 
@@ -125,7 +125,7 @@ def wire_copy(value: Any, key: str = "") -> Any:
     """Return a copy of ``value`` as XML-RPC would deliver it: tuples become lists.
 
     ROS parameters are bool, int (32 bits), float, str, bytes, datetime, lists, and dictionaries with str keys. Raises
-    ``ParameterError``, which names the place (``/robot/sizes[2]``), on other types.
+    ``ParameterError``, which names the place (``/robot/sizes[2]``), for other types.
     """
     kind = type(value)
     if kind in (bool, float, str, bytes, datetime):
@@ -165,7 +165,7 @@ def _leaves(key: str, tree: Tree) -> list[str]:
 
 
 def _subtrees(key: str, tree: Tree) -> Tree:
-    """Return everything below ``key``, by names with a closing slash."""
+    """Return all namespaces and values below ``key``, by names with a trailing slash."""
     found: Tree = {}
     for name, value in tree.items():
         full = join(key, name) + "/"

@@ -129,7 +129,7 @@ class Publication:
         return message if factory.is_frozen else self._freeze(message)
 
     def _number(self, message: Any) -> None:
-        """Set the number of a header, and the frame if it was never set, as rospy does."""
+        """Set the sequence number of a header, and the frame if it was never set, as rospy does."""
         header = message.header
         if header.frame_id is None:
             header.frame_id = "0"
@@ -151,7 +151,7 @@ class Publication:
         self._header = None if self._only is None else self._only.header
 
     def _hand_out(self, frozen: Any, to: str) -> None:
-        """Give a frozen message to the connections. Runs in the scheduler's thread."""
+        """Pass a frozen message to the connections. Runs in the scheduler's thread."""
         history = self._scheduler.history
         if history is not None:
             history.published(self.node.name, self.topic, frozen)

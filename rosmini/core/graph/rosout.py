@@ -105,7 +105,7 @@ class LogOptions(TypedDict, total=False):
 
 
 class LogGates:
-    """The earlier log calls, by their place in the program."""
+    """Decides by the earlier log calls at the same place in the program whether a message is suppressed."""
 
     def __init__(self) -> None:
         self._times: dict[Hashable, int] = {}

@@ -36,7 +36,7 @@ T = TypeVar("T")
 E = TypeVar("E", bound=BaseException)
 
 ROUNDS_PER_LOOK = 16
-"""Number of rounds that lanes that only wake one another run before timers and other threads are checked."""
+"""Number of rounds after which timers and other threads are checked while lanes only wake one another."""
 
 TICKS_PER_YIELD = 1_000
 """Ticks, about a microsecond each, that a polling loop uses before the other lanes run."""
@@ -196,7 +196,7 @@ class Scheduler(EventQueue):
             context.keeps_polling()
 
     def give_way(self) -> None:
-        """Let everything else that is due run before the caller continues. Does nothing in another thread."""
+        """Let all other due events and lanes run before the caller continues. No effect in another thread."""
         if self.is_hub_thread():
             waiter = Waiter(self, "its turn")
             waiter.done = waiter.queued = True
@@ -249,7 +249,7 @@ class Scheduler(EventQueue):
         self._root_waiter = None
 
     def park(self, waiter: Waiter) -> bool:
-        """Park the caller until ``waiter`` resumes it, and run the queue meanwhile. For waiters only.
+        """Park the caller until ``waiter`` resumes it, and run the queue meanwhile. Called only by waiters.
 
         Return False at once if another thread has just begun to drive.
         """
@@ -323,7 +323,7 @@ class Scheduler(EventQueue):
     # -- called by lanes and waiters -----------------------------------------------------------------------------
 
     def enter_lane(self, lane: Lane) -> None:
-        """Make ``lane`` the running one, with its context. For lanes and the scheduler only."""
+        """Make ``lane`` the running one, with its context. Called only by lanes and the scheduler."""
         self._current = lane
         self._ticks = TICKS_PER_YIELD
         self._turns = self._charged = 0
@@ -340,7 +340,7 @@ class Scheduler(EventQueue):
             context.enter()
 
     def lane_failed(self, lane: Lane, error: BaseException) -> None:
-        """Report an exception of a task of ``lane``. For lanes only."""
+        """Report an exception of a task of ``lane``. Called only by lanes."""
         if isinstance(error, KeyboardInterrupt) and self._interrupts.noted:
             if lane.context is not None:
                 lane.context.cut_short()

@@ -107,7 +107,7 @@ class Services(dict[str, "ServiceServer"]):
         return True
 
     def accept(self, header: Header) -> Session:
-        """Accept a service client's connection."""
+        """Accept a service client's connection. Raises ``TransportInitError`` if the node lacks the service."""
         server = None if self._node.is_shutdown() else self.get(header.get("service", ""))
         if server is None:
             raise TransportInitError(f"[{self._node.name}] is not a provider of [{header.get('service')}]")
@@ -204,7 +204,7 @@ class ServiceServer:
 
 
 def receiver(message_class: Any, *, numpy: bool) -> Callable[[Any, Header], Any]:
-    """Return a function that makes a frozen request or response the receiver's own and sets its connection header."""
+    """Return a function that converts a frozen request or response to the receiver's object and sets its header."""
     thaw = message_class._thawer(numpy=numpy)
 
     def receive(frozen: Any, header: Header) -> Any:
@@ -285,7 +285,7 @@ class Session:
             history.act_on(None)
 
     def close(self) -> None:
-        """Called when the client has gone."""
+        """Called when the client has closed the connection."""
         if self in self.server.sessions:
             self.server.sessions.remove(self)
 

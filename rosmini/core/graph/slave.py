@@ -54,7 +54,7 @@ class SlaveApi:
         self._connections = _Connections()
         self._is_stale = False
 
-    # -- the snapshot, renewed in the hub's thread ---------------------------------------------------------------
+    # -- the snapshot, updated in the scheduler's thread ---------------------------------------------------------
 
     def topics_changed(self) -> None:
         """Update the snapshot of the topics that the node publishes and subscribes to."""
@@ -197,7 +197,7 @@ class SlaveApi:
         return [1, "", 0]
 
     def requestTopic(self, caller_id: str, topic: str, protocols: list[list[Any]]) -> Triple:
-        """Tell a subscriber how to connect to a topic that this node publishes."""
+        """Return the connection parameters of a topic that this node publishes, for the first protocol that suits."""
         problem = _name_problem("topic", topic)
         if not problem and not (
             isinstance(protocols, list) and protocols and all(map(_is_protocol, protocols))

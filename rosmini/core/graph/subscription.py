@@ -57,7 +57,7 @@ class Subscription:
         return "*" not in sums and sums[0] != sums[1]
 
     def update_publishers(self, uris: Iterable[str]) -> None:
-        """Connect to new publishers, as ``publisherUpdate`` asks.
+        """Connect to new publishers after a ``publisherUpdate``.
 
         As in rospy, a connection outlives its registration: the publisher closes it after its last message, which may
         still be on its way, as may its answer to a node that has just connected.
@@ -147,7 +147,7 @@ class Subscription:
     def add(self, handle: Subscriber) -> None:
         """Add a subscriber of this node; it gets the latched messages of connected publishers.
 
-        All subscribers of a node get the same object, in the form that the first one asked for, as in rospy.
+        All subscribers of a node get the same object, in the form that the first one requested, as in rospy.
         """
         first = self._first = self._first or handle
         self.handles.append(handle)
@@ -247,7 +247,7 @@ class Subscriber(TopicHandle):
         return f"<Subscriber {self.topic} [{self.message_class._type}] of {self.node.name}>"
 
     def thaw_for(self, message_class: Any) -> Callable[[Any], Any] | None:
-        """Return a function that makes this subscriber's own object of a frozen message; None if it stays as it is."""
+        """Return a function that converts a frozen message to this subscriber's own object; None if none is needed."""
         if self.receipt is not None:
             return self.receipt(message_class)
         thaw: Callable[[Any], Any] | None = message_class._thawer(numpy=self._numpy)
@@ -255,7 +255,7 @@ class Subscriber(TopicHandle):
 
     @property
     def wish(self) -> str:
-        """The requested kind of messages, in words."""
+        """A description of the requested messages."""
         if self.message_class._type == "*":
             return "messages of any type"
         arrays = " with numpy arrays" if self._numpy or self.receipt is not None else ""

@@ -83,9 +83,9 @@ _get_handler, _set_handler, _SIGINT = _signal.getsignal, _signal.signal, int(SIG
 class InterruptGuard:
     """Turns the first SIGINT during a drive into a flag that the scheduler checks between two events.
 
-    A second SIGINT before the scheduler has seen the first is raised in place, because the running callback does not
-    return. Until then a thread reports what it waits for, because nothing else can. Outside the main thread Python
-    delivers no signals, and the guard does nothing.
+    If the running callback does not return, a timer thread reports this, and a second SIGINT raises
+    ``KeyboardInterrupt`` in the callback. Outside the main thread Python delivers no signals, and the guard does
+    nothing.
 
     ``wake`` makes the scheduler check the flag; ``running`` names the running code.
     """
@@ -222,7 +222,7 @@ def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], b
 
 
 def in_thread(scheduler: Scheduler, function: Callable[[], T]) -> T:
-    """Return ``function()``, run in a helper thread; the calling lane is parked and simulated time stands still."""
+    """Return ``function()``, run in a helper thread; the calling lane is parked, and simulated time is held."""
     waiter = Waiter(scheduler, "the operating system")
     scheduler.hold()
 

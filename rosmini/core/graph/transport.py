@@ -139,7 +139,7 @@ class Transport(Protocol):
         """
 
     def close(self) -> None:
-        """Close everything that is open, because the graph has been shut down; the transport may be used again."""
+        """Close all connections, because the graph has been shut down; the transport may be used again."""
 
     def connect_topic(
         self, caller: str, parameters: list[Any], header: Header, receiver: Connection
@@ -195,7 +195,7 @@ class Transports:
             way.detach(uri)
 
     def add(self, way: Transport, here: Mapping[str, Node]) -> dict[str, str]:
-        """Add a transport, which gives the addresses from now on.
+        """Add a transport, which determines the addresses of nodes from now on.
 
         ``here`` contains the nodes of this process by their URIs; return their new URIs, and those of their services,
         by the old ones. Connections stay open.
@@ -278,10 +278,10 @@ class Transports:
         return self._way_to(uri).retry(seconds, function)
 
     def close(self) -> None:
-        """Close everything that is open, because the graph has been shut down."""
+        """Close all connections, because the graph has been shut down."""
         for way in self.ways:
             way.close()
 
     def _way_to(self, uri: str) -> Transport:
-        """Return the first transport that reaches a node, or the last one, which reports best why there is none."""
+        """Return the first transport that reaches a node, or the last one, whose error explains best why none does."""
         return next((way for way in self.ways if way.reaches(uri)), self.ways[-1])

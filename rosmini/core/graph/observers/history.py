@@ -135,7 +135,7 @@ class History:
         self._lines: dict[tuple[CodeType, int], Place] = {}
         self._callbacks: dict[CodeType, Place] = {}
 
-    # -- asking --------------------------------------------------------------------------------------------------
+    # -- queries -------------------------------------------------------------------------------------------------
 
     @property
     def next_number(self) -> int:
@@ -143,7 +143,7 @@ class History:
         return self._next
 
     def between(self, start: int, end: int) -> list[Event]:
-        """Return the kept events with numbers from ``start`` to ``end``, without ``end``."""
+        """Return the kept events with numbers from ``start`` up to, but excluding, ``end``."""
         return [event for event in self._events if start <= event.number < end]
 
     def event(self, number: int | None) -> Event | None:
@@ -282,7 +282,7 @@ class History:
 
     @staticmethod
     def same(copy: Any, frozen: Any) -> None:
-        """Mark a message as a copy of another."""
+        """Give a copy of a message the number of the original's event."""
         cause = _cause_of(frozen)
         if cause is not None:
             _set_cause(copy, cause)
@@ -342,7 +342,7 @@ class History:
         """Set the number of the event on which the caller's lane acts from now on; None for no event."""
         self._scheduler.current().cause = number
 
-    # -- whose line it is ----------------------------------------------------------------------------------------
+    # -- source lines --------------------------------------------------------------------------------------------
 
     def _caller(self) -> Place | None:
         frame: FrameType | None = sys._getframe(2)  # noqa: SLF001 - the documented way to find a caller

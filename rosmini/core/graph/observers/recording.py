@@ -19,8 +19,11 @@ if TYPE_CHECKING:
 Call = tuple[str, str, str, str | None]
 """(caller, callee, text, the answer or None), the form that a sequence diagram needs."""
 
-EVERY_NODES = ("/get_loggers", "/set_logger_level")
-EVERYBODYS = ("/rosout", "/use_sim_time")
+STANDARD_SERVICES = ("/get_loggers", "/set_logger_level")
+"""Endings of the names of the services that every node offers."""
+
+STANDARD_NAMES = ("/rosout", "/use_sim_time")
+"""The topic and the parameter that every node uses."""
 
 
 class Recording:
@@ -98,7 +101,7 @@ def _about(events: Iterable[Event], names: tuple[str, ...]) -> list[Event]:
 def _is_wanted(event: Event, nodes: set[str], subjects: set[str]) -> bool:
     if subjects and event.about not in subjects:
         return False
-    if not subjects and (event.about in EVERYBODYS or event.about.endswith(EVERY_NODES)):
+    if not subjects and (event.about in STANDARD_NAMES or event.about.endswith(STANDARD_SERVICES)):
         return False
     ends = {event.who, event.whom} - {MASTER, ""}
     return not nodes or (ends <= nodes if len(nodes) > 1 else bool(ends & nodes))
