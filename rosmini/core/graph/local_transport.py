@@ -79,9 +79,7 @@ class LocalTransport:
         return [self.protocol, self._place] if caller in self._endpoints else None
 
     def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
-        """Return [protocol, uri] if the node is attached and the offer comes from the same process and graph, else
-        None.
-        """
+        """Return [protocol, uri] if the node is attached and the offer comes from this process and graph, else None."""
         is_here = offer in ([self.protocol], [self.protocol, self._place]) and uri in self._endpoints
         return [self.protocol, uri] if is_here else None
 

@@ -26,7 +26,7 @@ Form = Literal["cube", "log"]
 
 @dataclass(frozen=True)
 class BeamMixture:
-    """Frequencies of the causes of a range, see http://wiki.ros.org/amcl#Laser_model_parameters."""
+    """Mixture weights of the causes of a measured range, see http://wiki.ros.org/amcl#Laser_model_parameters."""
 
     z_hit: float = 0.95
     z_short: float = 0.1
@@ -149,6 +149,6 @@ def scores(
 
 @kernel(scores)
 def compiled_scores(numba: Any) -> Any:
-    """Return the signature of `scores`."""
+    """Return `scores`, compiled if numba is available; the body returns its signature for the decorator."""
     number, table = numba.float64, numba.float64[:, ::1]
     return numba.void(numba.float32[:, ::1], number, number, number, number, table, table, numba.float64[::1])

@@ -112,7 +112,10 @@ class ParticleFilter:
     # -- the sensor ----------------------------------------------------------------------------------------------
 
     def weigh(self, log_likelihoods: Floats) -> None:
-        """Multiply the weights by likelihoods (n,) and normalise them; if no likelihood is above 0, make them equal."""
+        """Multiply the weights by likelihoods, given as logarithms (n,), and normalise them.
+
+        If all likelihoods are 0, the weights become equal.
+        """
         top = float(log_likelihoods.max())
         if not math.isfinite(top):
             self.weights = np.full(len(self.weights), 1 / len(self.weights))

@@ -100,7 +100,7 @@ class LaserModel:
 
 
 def _ends(scan: Scan, ranges: Floats, bearings: Floats) -> Floats:
-    """Return the ends (b, 2) of the beams that hit something, in the robot's frame."""
+    """Return the ends (b, 2) [m] of the beams with a hit, in the robot's frame."""
     hit = ranges < scan.range_max
     points = np.column_stack([ranges[hit] * np.cos(bearings[hit]), ranges[hit] * np.sin(bearings[hit])])
     return transform_points(scan.laser, points)

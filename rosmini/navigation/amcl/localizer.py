@@ -1,4 +1,4 @@
-"""amcl's procedure: when to move, weigh and resample particles, from odometry and scans to poses, without a graph."""
+"""amcl's procedure without a graph: move, weight and resample particles, and estimate the pose from them."""
 
 from __future__ import annotations
 

@@ -39,12 +39,15 @@ class AmclConfig(Parameters):
     max_particles: int = parameter(5000, "maximum number of particles", minimum=0, maximum=10000)
     kld_err: float = parameter(
         0.01,
-        "the divergence that may remain between true and estimated distribution",
+        "maximum divergence between the true and the estimated distribution",
         minimum=0.0,
         maximum=1.0,
     )
     kld_z: float = parameter(
-        0.99, "the normal quantile of the probability that it is met", minimum=0.0, maximum=1.0
+        0.99,
+        "normal quantile of the probability that the divergence is below kld_err",
+        minimum=0.0,
+        maximum=1.0,
     )
     resample_interval: int = parameter(2, "number of updates between resamplings", minimum=0, maximum=20)
     selective_resampling: bool = parameter(
@@ -56,7 +59,7 @@ class AmclConfig(Parameters):
     recovery_alpha_fast: float = parameter(
         0.0, "decay rate of the short-term average likelihood; 0: no recovery", minimum=0.0, maximum=1.0
     )
-    laser_model_type: str = parameter("likelihood_field", "how scans are weighed", choices=LASERS)
+    laser_model_type: str = parameter("likelihood_field", "the measurement model of scans", choices=LASERS)
     laser_min_range: float = parameter(
         -1.0,
         "beams up to this length count as the longest; -1: the scan's range_min",
@@ -73,7 +76,7 @@ class AmclConfig(Parameters):
     )
     laser_max_beams: int = parameter(30, "number of beams of a scan that are used", minimum=0, maximum=250)
     laser_z_hit: float = parameter(
-        0.95, "share of beams that hit what is in the map", minimum=0.0, maximum=1.0
+        0.95, "share of beams that hit an obstacle in the map", minimum=0.0, maximum=1.0
     )
     laser_z_short: float = parameter(
         0.1, "share of beams that end early (beam only)", minimum=0.0, maximum=1.0
@@ -104,7 +107,7 @@ class AmclConfig(Parameters):
     )
     tf_broadcast: bool = parameter(True, "publish the transform from the map to the odometry's frame")
     transform_tolerance: float = parameter(
-        0.1, "how far that transform is dated in the future", unit="s", minimum=0.0, maximum=2.0
+        0.1, "how far the published transform is dated in the future", unit="s", minimum=0.0, maximum=2.0
     )
     force_update_after_initialpose: bool = parameter(
         False, "use the next scan after an initial pose even if the robot has not moved"
@@ -120,7 +123,7 @@ class AmclConfig(Parameters):
         maximum=100.0,
     )
     save_pose_rate: float = parameter(
-        0.5, "how often the pose is written to the parameters", unit="Hz", minimum=-1.0, maximum=10.0
+        0.5, "rate at which the pose is written to the parameters", unit="Hz", minimum=-1.0, maximum=10.0
     )
     use_map_topic: bool = parameter(False, "subscribe to map instead of calling static_map")
     first_map_only: bool = parameter(False, "use only the first map")
@@ -139,8 +142,12 @@ class AmclParameters(AmclConfig):
     std_warn_level_x: float = parameter(
         0.2, "standard deviation above which `/diagnostics` warns; negative: never", unit="m"
     )
-    std_warn_level_y: float = parameter(0.2, "the same along y", unit="m")
-    std_warn_level_yaw: float = parameter(0.1, "the same of the heading", unit="rad")
+    std_warn_level_y: float = parameter(
+        0.2, "standard deviation along y above which `/diagnostics` warns; negative: never", unit="m"
+    )
+    std_warn_level_yaw: float = parameter(
+        0.1, "standard deviation of the heading above which `/diagnostics` warns; negative: never", unit="rad"
+    )
     initial_pose_x: float = parameter(
         0.0, "where the robot is at the start", unit="m", minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
     )

@@ -49,7 +49,7 @@ def turn_to_goal(pose: Pose, goal: Pose) -> float:
 
 
 def is_stopped(velocity: Floats, theta_stopped_vel: float, trans_stopped_vel: float) -> bool:
-    """True if a velocity (3) counts as standing still."""
+    """Return True if a robot with this velocity (3) counts as stopped."""
     return bool(
         abs(velocity[2]) <= theta_stopped_vel
         and abs(velocity[0]) <= trans_stopped_vel

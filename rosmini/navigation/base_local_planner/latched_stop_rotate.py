@@ -41,7 +41,7 @@ class LatchedStopRotate:
         return False
 
     def is_goal_reached(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> bool:
-        """True if the robot has reached position and heading and is standing still."""
+        """True if the robot has reached position and heading and has stopped."""
         if not ((self.latch and self.reached) or distance_to_goal(pose, goal) <= limits.xy_goal_tolerance):
             return False
         self.reached = self.reached or self.latch

@@ -15,7 +15,7 @@ class LocalPlannerLimits(Parameters):
     """The limits of `base_local_planner/local_planner_limits`, all dynamic."""
 
     max_vel_trans: float = parameter(0.55, "the highest speed", unit="m/s", minimum=0.0)
-    min_vel_trans: float = parameter(0.1, "the minimum speed of driving", unit="m/s", minimum=0.0)
+    min_vel_trans: float = parameter(0.1, "the minimum translational speed", unit="m/s", minimum=0.0)
     max_vel_x: float = parameter(0.55, "the highest velocity ahead", unit="m/s")
     min_vel_x: float = parameter(
         0.0, "the lowest velocity ahead; negative values allow reversing", unit="m/s"
@@ -23,7 +23,7 @@ class LocalPlannerLimits(Parameters):
     max_vel_y: float = parameter(0.1, "the highest velocity to the left", unit="m/s")
     min_vel_y: float = parameter(-0.1, "the lowest velocity to the left; negative: to the right", unit="m/s")
     max_vel_theta: float = parameter(1.0, "the fastest turn", unit="rad/s", minimum=0.0)
-    min_vel_theta: float = parameter(0.4, "the minimum speed of turning", unit="rad/s", minimum=0.0)
+    min_vel_theta: float = parameter(0.4, "the minimum turning speed", unit="rad/s", minimum=0.0)
     acc_lim_x: float = parameter(2.5, "acceleration ahead", unit="m/s2", minimum=0.0, maximum=20.0)
     acc_lim_y: float = parameter(2.5, "acceleration to the side", unit="m/s2", minimum=0.0, maximum=20.0)
     acc_lim_theta: float = parameter(3.2, "acceleration of turns", unit="rad/s2", minimum=0.0, maximum=20.0)

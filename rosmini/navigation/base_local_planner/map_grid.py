@@ -56,7 +56,7 @@ def wavefront(
 
 @kernel(wavefront)
 def compiled_wavefront(numba: Any) -> Any:
-    """Return the signature of `wavefront`."""
+    """Return `wavefront`, compiled if numba is available; the body returns its signature for the decorator."""
     read = numba.types.Array(numba.uint8, 2, "C", readonly=True)
     return numba.void(read, read, numba.int32[:, ::1], numba.int32[::1], numba.int64)
 

@@ -25,7 +25,7 @@ from .trajectory_planner import TrajectoryPlanner, TrajectoryPlannerParameters
 Floats = NDArray[np.float64]
 
 STOPPED_SPEED = 1e-2
-"""Up to this speed [m/s] and turning speed [rad/s] the robot counts as standing still."""
+"""Up to this speed [m/s] and turning speed [rad/s] the robot counts as stopped."""
 
 RENAMED = {
     "acc_lim_th": "acc_lim_theta",
@@ -59,7 +59,7 @@ class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
     """All parameters of `base_local_planner/TrajectoryPlannerROS`, including those that are read only once."""
 
     controller_frequency: float | None = parameter(
-        None, "how often commands are computed; by default the value of move_base", unit="Hz"
+        None, "rate at which commands are computed; by default that of move_base", unit="Hz"
     )
     prune_plan: bool = parameter(True, "drop the part of the plan more than 1 m behind the robot")
     yaw_goal_tolerance: float = parameter(0.05, "tolerance of the heading at the goal", unit="rad")

@@ -266,7 +266,7 @@ def looked_up_distance(
 
 @kernel(footprint_cost, outline_cost, line_cost)
 def compiled_footprint_cost(numba: Any) -> Any:
-    """Return the signature of `footprint_cost`; decorated, return its compiled kernel (without numba, the function)."""
+    """Return `footprint_cost`, compiled if numba is available; the body returns its signature for the decorator."""
     number = numba.float64
     cells = numba.types.Array(numba.uint8, 1, "C", readonly=True)
     outline = numba.types.Array(number, 2, "C", readonly=True)
@@ -275,7 +275,7 @@ def compiled_footprint_cost(numba: Any) -> Any:
 
 @kernel(rollout, outline_cost, line_cost, cell_of, approached, looked_up_distance)
 def compiled_rollout(numba: Any) -> Any:
-    """Return the signature of `rollout`; decorated, return its compiled kernel (without numba, `rollout`)."""
+    """Return `rollout`, compiled if numba is available; the body returns its signature for the decorator."""
     number, whole, array = numba.float64, numba.int64, numba.types.Array
 
     def read(kind: Any, dimensions: int) -> Any:

@@ -67,7 +67,7 @@ class Samples:
         return {name: count for name, count in {**found, "generator": self.refused}.items() if count}
 
     def explain(self, number: int) -> dict[str, float | None]:
-        """Return each critic's scaled share of a trajectory's cost, None for the rejecting one, and the `total`."""
+        """Return each critic's scaled score of a trajectory, None for the rejecting critic, and the `total`."""
         row: dict[str, float | None] = {
             name: None if self.raw[number, i] < 0 else float(self.raw[number, i] * self.scales[i])
             for i, name in enumerate(self.critics)
@@ -144,7 +144,7 @@ REASONS: dict[tuple[str, int], str] = {
 
 
 def concatenated(first: Samples, *others: Samples, best: int | None = None) -> Samples:
-    """Return all samples as one, with the index `best` of the chosen one."""
+    """Concatenate samples; `best` is the index of the chosen one in the result."""
     parts = [first, *others]
     most = max(part.points.shape[1] for part in parts)
     points = [np.pad(part.points, ((0, 0), (0, most - part.points.shape[1]), (0, 0))) for part in parts]

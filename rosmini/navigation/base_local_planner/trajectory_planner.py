@@ -72,25 +72,33 @@ class TrajectoryPlannerParameters(Parameters):
         0.01, "weight of the costs under the footprint", minimum=0.0, maximum=5.0
     )
     oscillation_reset_dist: float = parameter(
-        0.05, "after this distance it may turn the other way again", unit="m", minimum=0.0, maximum=5.0
+        0.05,
+        "distance after which the robot may turn in the other direction again",
+        unit="m",
+        minimum=0.0,
+        maximum=5.0,
     )
     escape_reset_dist: float = parameter(
-        0.1, "after this distance it has escaped", unit="m", minimum=0.0, maximum=5.0
+        0.1, "distance after which the robot counts as having escaped", unit="m", minimum=0.0, maximum=5.0
     )
     escape_reset_theta: float = parameter(
-        math.pi / 4, "after this turn it has escaped", unit="rad", minimum=0.0, maximum=5.0
+        math.pi / 4,
+        "turn after which the robot counts as having escaped",
+        unit="rad",
+        minimum=0.0,
+        maximum=5.0,
     )
-    vx_samples: int = parameter(20, "how many velocities ahead are tried", minimum=1, maximum=300)
-    vtheta_samples: int = parameter(20, "how many turns are tried", minimum=1, maximum=300)
+    vx_samples: int = parameter(20, "number of forward velocities to sample", minimum=1, maximum=300)
+    vtheta_samples: int = parameter(20, "number of turning speeds to sample", minimum=1, maximum=300)
     heading_lookahead: float = parameter(
-        0.325, "how far ahead a turn on the spot is judged", unit="m", minimum=0.0, maximum=5.0
+        0.325, "distance ahead at which a turn on the spot is scored", unit="m", minimum=0.0, maximum=5.0
     )
     holonomic_robot: bool = parameter(True, "whether the robot can move sideways")
     escape_vel: float = parameter(-0.1, "the velocity of backing up", unit="m/s", minimum=-2.0, maximum=2.0)
     dwa: bool = parameter(False, "try only velocities within reach of one cycle, not of sim_time")
     heading_scoring: bool = parameter(False, "score the heading, and distances at one point only")
     heading_scoring_timestep: float = parameter(
-        0.1, "the time of that point", unit="s", minimum=0.0, maximum=1.0
+        0.1, "time of the point that heading_scoring uses", unit="s", minimum=0.0, maximum=1.0
     )
     simple_attractor: bool = parameter(False, "drive straight to the end of the plan, without path distances")
     y_vels: str = parameter("-0.3,-0.1,0.1,-0.3", "sideways velocities to try if nothing else is possible")
@@ -240,7 +248,10 @@ class TrajectoryPlanner:
     def _best_of(
         self, grid: Costmap2D, samples: Samples, ahead: int, turns: Floats, step: float
     ) -> tuple[int | None, float]:
-        """Return the best forward sample or turn on the spot; turns towards open space are preferred."""
+        """Return the best forward sample or turn on the spot, and the goal distance [cells] ahead of the chosen turn.
+
+        The index is None if all are rejected, the distance inf without a turn. Turns towards open space are preferred.
+        """
         best = _cheapest(samples, ahead)
         nearest = math.inf
         for i, turn in enumerate(turns, start=ahead):
@@ -403,7 +414,7 @@ def _cheapest(samples: Samples, count: int) -> int | None:
 
 
 def _totals(raw: Floats, where: Ints, scales: Floats) -> tuple[Floats, Ints]:
-    """Return costs and rejecting critics: the critic of the earliest point, and at the same point the obstacle."""
+    """Return costs and rejecting critics: that of the earliest rejected point; at the same point, the obstacle's."""
     first = np.where(raw < 0, where, np.iinfo(np.int64).max)
     critic = np.argmin(first, axis=1)
     rejected = (raw < 0).any(axis=1)

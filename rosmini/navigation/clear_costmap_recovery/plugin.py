@@ -25,7 +25,7 @@ class ClearCostmapParameters(Parameters):
     )
     invert_area_to_clear: bool = parameter(False, "clear the inside of the square instead")
     force_updating: bool = parameter(False, "update the costmaps immediately, not at the next period")
-    affected_maps: str = parameter("both", "which costmaps: local, global or both")
+    affected_maps: str = parameter("both", "the costmaps to clear: local, global or both")
     layer_names: tuple[str, ...] = parameter(("obstacles",), "the layers that are cleared")
 
 

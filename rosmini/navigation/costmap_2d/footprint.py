@@ -61,7 +61,7 @@ def _is_finite(value: Any) -> bool:
 
 
 def footprint_from_text(text: str, name: str) -> Footprint:
-    """Parse the text of such a list, `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`, as costmap_2d does.
+    """Parse a footprint parameter such as `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`, as costmap_2d does.
 
     Commas and spaces are both separators, and `.5`, `1.` and `+1` are valid numbers. Raises `ParameterError`.
     """

@@ -9,7 +9,7 @@ The cost as a function of the distance d to the nearest lethal cell, measured be
 | at most the inflation radius | 252 exp(-cost_scaling_factor (d - inscribed radius)), truncated |
 
 The inflation radius is rounded up to whole cells. The distances are exact; those of costmap_2d's propagation are off by
-a fraction of a cell in a few places. Everything is vectorised with numpy, which is as fast here as compiled code.
+a fraction of a cell in a few places. The loops are vectorised with numpy, which is as fast here as compiled code.
 """
 
 from __future__ import annotations

@@ -79,7 +79,7 @@ class Bounds:
 
     @property
     def is_empty(self) -> bool:
-        """True if nothing has changed."""
+        """True if no cell has changed."""
         return self.max_x < self.min_x or self.max_y < self.min_y
 
     def touch(self, x: float, y: float) -> None:
@@ -94,7 +94,7 @@ class Bounds:
             self.touch(*grid.map_to_world(window.xn - 1, window.yn - 1))
 
     def touch_all(self) -> None:
-        """Extend the bounds to include everything."""
+        """Make the bounds unlimited."""
         self.touch(-FAR, -FAR)
         self.touch(FAR, FAR)
 

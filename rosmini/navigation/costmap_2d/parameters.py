@@ -52,7 +52,7 @@ class PluginEntry(Parameters):
     """One layer in the `plugins` list."""
 
     name: str = parameter("", "the name of the layer")
-    type: str = parameter("", "its type, such as costmap_2d::StaticLayer")
+    type: str = parameter("", "the type of the layer, such as costmap_2d::StaticLayer")
 
 
 @dataclass(frozen=True)
@@ -203,8 +203,8 @@ class SourceParameters(Parameters):
     min_obstacle_height: float = parameter(0.0, "points below are ignored", unit="m")
     max_obstacle_height: float = parameter(2.0, "points above are ignored", unit="m")
     inf_is_valid: bool = parameter(False, "whether a beam without a hit clears cells")
-    clearing: bool = parameter(False, "whether its rays clear")
-    marking: bool = parameter(True, "whether its points are obstacles")
+    clearing: bool = parameter(False, "whether cells along its rays are cleared")
+    marking: bool = parameter(True, "whether its points are marked as obstacles")
     obstacle_range: float | None = parameter(
         None,
         "points up to this distance are obstacles; by default that of a parent namespace, or 2.5",
@@ -227,6 +227,6 @@ def name_above(node: Node, namespace: str, name: str) -> str | None:
 
 
 def parameter_above(node: Node, namespace: str, name: str, kind: type, default: Any) -> Any:
-    """Return the value of a parameter found this way, or the default. Raises `ParameterError` for a wrong type."""
+    """Return the value of a parameter that `name_above` finds, or `default`. Raises `ParameterError`."""
     found = name_above(node, namespace, name)
     return default if found is None else node.get_param(found, expect=kind)

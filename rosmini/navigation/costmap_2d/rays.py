@@ -111,7 +111,7 @@ def clear_rays(
 
 @kernel(clear_rays, clip_end)
 def compiled_clear_rays(numba: Any) -> Any:
-    """Return the signature of `clear_rays`."""
+    """Return `clear_rays`, compiled if numba is available; the body returns its signature for the decorator."""
     types = numba.types
     number, real = types.int64, types.float64
     return types.UniTuple(number, 4)(

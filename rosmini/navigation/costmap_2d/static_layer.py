@@ -148,7 +148,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         self._subscribers = []
 
     def reset(self) -> None:
-        """Reread the map."""
+        """Receive the map again; with `first_map_only`, write the known one again."""
         if self._settings.first_map_only:
             self._changed = self._whole_window()
         else:

@@ -152,7 +152,7 @@ def clear_voxels(
 
 @kernel(clear_voxels, bit_count, ray_fraction)
 def compiled_clear_voxels(numba: Any) -> Any:
-    """Return the signature of `clear_voxels`."""
+    """Return `clear_voxels`, compiled if numba is available; the body returns its signature for the decorator."""
     types = numba.types
     number, line = types.int64, types.float64[::1]
     return types.UniTuple(number, 4)(

@@ -42,19 +42,19 @@ class DWAPlannerParameters(LocalPlannerLimits):
     twirling_scale: float = parameter(0.0, "weight of turning", minimum=0.0)
     stop_time_buffer: float = parameter(0.2, "not used, as in ROS", unit="s", minimum=0.0)
     oscillation_reset_dist: float = parameter(
-        0.05, "after this distance it may reverse direction again", unit="m", minimum=0.0
+        0.05, "distance after which the robot may reverse its direction again", unit="m", minimum=0.0
     )
     oscillation_reset_angle: float = parameter(
-        0.2, "after this turn it may turn back again", unit="rad", minimum=0.0
+        0.2, "turn after which the robot may turn back again", unit="rad", minimum=0.0
     )
     forward_point_distance: float = parameter(
         0.325, "distance from the centre to the nose, which should be on the plan", unit="m"
     )
     scaling_speed: float = parameter(0.25, "the footprint grows above this speed", unit="m/s", minimum=0.0)
     max_scaling_factor: float = parameter(0.2, "maximum growth, as a fraction of the footprint", minimum=0.0)
-    vx_samples: int = parameter(3, "how many velocities ahead are tried", minimum=1)
-    vy_samples: int = parameter(10, "how many velocities to the side are tried", minimum=1)
-    vth_samples: int = parameter(20, "how many turns are tried", minimum=1)
+    vx_samples: int = parameter(3, "number of forward velocities to sample", minimum=1)
+    vy_samples: int = parameter(10, "number of sideways velocities to sample", minimum=1)
+    vth_samples: int = parameter(20, "number of turning speeds to sample", minimum=1)
     use_dwa: bool = parameter(True, "try only velocities within reach of one cycle, not of sim_time")
     restore_defaults: bool = parameter(False, "reset all parameters to their initial values")
 

@@ -51,7 +51,7 @@ class DWAPlannerSettings(DWAPlannerParameters):
     """All parameters of `dwa_local_planner/DWAPlannerROS`, including those that are read only once."""
 
     controller_frequency: float | None = parameter(
-        None, "how often commands are computed; by default the value of move_base", unit="Hz"
+        None, "rate at which commands are computed; by default that of move_base", unit="Hz"
     )
     latch_xy_goal_tolerance: bool = parameter(False, "having reached the goal's position once is sufficient")
     odom_topic: str = parameter("odom", "the topic of the odometry")
@@ -134,7 +134,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
         self.following.set_plan(plan)
 
     def is_goal_reached(self) -> bool:
-        """True if the robot has reached the end of the plan and its heading, and stands still."""
+        """True if the robot has reached the end of the plan and its heading, and has stopped."""
         pose = planar_pose(self.costmap.robot_pose())
         if not self.latch.is_goal_reached(
             pose, self.odometry.velocity, self.following.goal(), self.parameters

@@ -31,6 +31,6 @@ class Weights:
 def ranked(
     frontiers: Sequence[Frontier], weights: Weights, resolution: float
 ) -> list[tuple[float, Frontier]]:
-    """Return cost and frontier of all that are large enough, cheapest first."""
+    """Return the cost and the frontier of each one with at least the minimum size, cheapest first."""
     large = [one for one in frontiers if one.size * resolution >= weights.min_size]
     return sorted(((weights.cost(one, resolution), one) for one in large), key=lambda pair: pair[0])

@@ -40,7 +40,7 @@ class ExploreParameters(Parameters):
     costmap_topic: str = parameter("costmap", "the topic of a map or costmap")
     costmap_updates_topic: str = parameter("costmap_updates", "and its updates")
     visualize: bool = parameter(False, "whether frontiers are published on ~frontiers")
-    planner_frequency: float = parameter(1.0, "how often a goal is chosen", unit="Hz", minimum=1e-3)
+    planner_frequency: float = parameter(1.0, "rate at which a goal is chosen", unit="Hz", minimum=1e-3)
     progress_timeout: float = parameter(30.0, "a goal without progress for this time is given up", unit="s")
     potential_scale: float = parameter(1e-3, "the weight of a frontier's distance")
     orientation_scale: float = parameter(0.0, "has no effect, as in ROS")

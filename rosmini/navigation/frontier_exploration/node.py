@@ -59,7 +59,7 @@ class ExploreServerParameters(Parameters):
     allowed: ClassVar[tuple[str, ...]] = ("explore_costmap",)
 
     frequency: float = parameter(
-        0.0, "how often to look for the next frontier; 0: when the last is reached", unit="Hz"
+        0.0, "rate of the search for the next frontier; 0: when the last is reached", unit="Hz"
     )
     goal_aliasing: float = parameter(
         0.1, "a goal within half of this distance of the last one is not sent", unit="m"

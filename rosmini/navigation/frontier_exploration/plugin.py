@@ -50,7 +50,7 @@ class BoundedExploreParameters(LayerConfig):
 
     explore_clear_space: bool = parameter(
         True,
-        "whether everything inside the boundary is unknown initially, so that known space is explored again",
+        "whether all cells inside the boundary are unknown initially, so that known space is explored again",
     )
     resize_to_boundary: bool = parameter(True, "whether the costmap gets the size of the boundary")
     frontier_travel_point: str = parameter(
@@ -150,7 +150,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         self._is_drawn = False
 
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
-        """Include everything after the boundary has changed."""
+        """Make the bounds unlimited after the boundary has changed."""
         del robot
         self.use_extra_bounds(bounds)
         if self._has_changed:

@@ -109,7 +109,7 @@ def best_first(
 
 @kernel(best_first, interpolated, push, sift)
 def compiled_best_first(numba: Any) -> Any:
-    """Return the signature of `best_first`."""
+    """Return `best_first`, compiled if numba is available; the body returns its signature for the decorator."""
     types = numba.types
     number, floats = types.int64, types.float32[::1]
     arrays = (types.uint8[::1], floats, floats, types.int32[::1], floats, types.int64[::1])

@@ -64,8 +64,8 @@ class GlobalPlannerParameters(GlobalPlannerConfig):
 class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
     """Plans with Dijkstra's algorithm or A*, interpolated or not, down the gradient or from cell to cell.
 
-    Topics: `~NAME/plan` (nav_msgs/Path), `~NAME/potential` (nav_msgs/OccupancyGrid; -1 where the search has not been).
-    Service: `~NAME/make_plan` (nav_msgs/GetPlan). The costs can be changed with dynamic_reconfigure.
+    Topics: `~NAME/plan` (nav_msgs/Path), `~NAME/potential` (nav_msgs/OccupancyGrid; -1 for cells that were not
+    reached). Service: `~NAME/make_plan` (nav_msgs/GetPlan). The costs can be changed with dynamic_reconfigure.
     """
 
     def _read_parameters(self) -> None:

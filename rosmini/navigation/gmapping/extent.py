@@ -47,7 +47,7 @@ def first_extent(xmin: float, ymin: float, xmax: float, ymax: float, delta: floa
 
 
 def grown(extent: Extent, seen: Extent, delta: float) -> Extent:
-    """Return the extent enlarged to contain what was seen."""
+    """Return the extent enlarged to contain the cells `seen`, with `GROWTH_MARGIN` [m] on each side that grows."""
     if not (seen.width and seen.height):
         return extent
     column, width = _grown(extent.column, extent.width, seen.column, seen.width, delta)

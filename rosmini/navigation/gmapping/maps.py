@@ -255,7 +255,7 @@ def register(pool: Any, scan: Any, poses: Any, free: Any, first: int) -> int:
 
 @kernel(register, count, trace, copy_patch)
 def compiled_register(numba: Any) -> Any:
-    """Return the signature of `register`."""
+    """Return `register`, compiled if numba is available; the body returns its signature for the decorator."""
     record = numba.types.NamedTuple
     cells, beams = numba.int32[:, :, ::1], numba.float64[::1]
     grids = cells, cells, cells, numba.float64[:, :, :, ::1], numba.int64[:, ::1], numba.int64[::1]

@@ -253,7 +253,7 @@ def match(grids: Any, beams: Any, rule: Any, minimum: float, poses: Any, result:
 
 @kernel(match, aim, window, fit, climb)
 def compiled_match(numba: Any) -> Any:
-    """Return the signature of `match`."""
+    """Return `match`, compiled if numba is available; the body returns its signature for the decorator."""
     record = numba.types.NamedTuple
     number, count, beam, pairs = numba.float64, numba.int64, numba.float64[::1], numba.float64[:, ::1]
     grids = record(

@@ -29,7 +29,7 @@ class GmappingParameters(Parameters):
         0.05, "interval between two transforms from map to odom; 0: none", unit="s", minimum=0.0
     )
     tf_delay: float | None = parameter(
-        None, "how far they are dated in the future; by default transform_publish_period", unit="s"
+        None, "how far the transforms are dated in the future; by default transform_publish_period", unit="s"
     )
     maxRange: float | None = parameter(
         None, "longer ranges count as no hit; by default 1 cm less than the scan's range_max", unit="m"
@@ -49,8 +49,10 @@ class GmappingParameters(Parameters):
     str: float = parameter(0.1, "error of translation from rotation", minimum=0.0)
     stt: float = parameter(0.2, "error of rotation from rotation", minimum=0.0)
     linearUpdate: float = parameter(1.0, "a scan is processed after this much driving", unit="m")
-    angularUpdate: float = parameter(0.5, "or after this much turning", unit="rad")
-    temporalUpdate: float = parameter(-1.0, "or after this much time; negative: never", unit="s")
+    angularUpdate: float = parameter(0.5, "a scan is processed after this much turning", unit="rad")
+    temporalUpdate: float = parameter(
+        -1.0, "a scan is processed after this much time; negative: never", unit="s"
+    )
     resampleThreshold: float = parameter(
         0.5, "resample when the effective fraction of particles is below this"
     )

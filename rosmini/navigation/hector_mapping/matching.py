@@ -69,7 +69,7 @@ def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> M
 def surface(probabilities: Any, x: float, y: float) -> tuple[float, float, float]:
     """Return the map's (h, w) interpolated probability at x, y [cells], and its derivatives along x and y [1/cell].
 
-    The interpolation is bilinear between the centres of four cells; outside the map everything is 0.
+    The interpolation is bilinear between the centres of four cells; outside the map all three are 0.
     """
     height, width = probabilities.shape
     if not (0.0 <= x < width - 1.0 and 0.0 <= y < height - 1.0):
@@ -127,7 +127,7 @@ def climb(probabilities: Any, ends: Any, pose: Any, max_steps: int, result: Any)
 
 @kernel(climb, surface)
 def compiled_climb(numba: Any) -> Any:
-    """Return the signature of `climb`."""
+    """Return `climb`, compiled if numba is available; the body returns its signature for the decorator."""
     return numba.void(
         numba.float32[:, ::1], numba.float64[:, ::1], numba.float64[::1], numba.int64, numba.float64[::1]
     )

@@ -21,7 +21,9 @@ class HectorMappingParameters(Parameters):
     map_frame: str = parameter("map", "the map's frame")
     odom_frame: str = parameter("odom", "the odometry's frame; without odometry, the same as base_frame")
     map_resolution: float = parameter(0.025, "the side of a cell of the finest map", unit="m", minimum=1e-3)
-    map_size: int = parameter(1024, "number of cells along each side of that map", minimum=2, maximum=16384)
+    map_size: int = parameter(
+        1024, "number of cells along each side of the finest map", minimum=2, maximum=16384
+    )
     map_start_x: float = parameter(0.5, "the start in the map: 0 left, 1 right", minimum=0.0, maximum=1.0)
     map_start_y: float = parameter(0.5, "the start in the map: 0 bottom, 1 top", minimum=0.0, maximum=1.0)
     map_multi_res_levels: int = parameter(
@@ -30,7 +32,9 @@ class HectorMappingParameters(Parameters):
     map_update_distance_thresh: float = parameter(
         0.4, "the maps are updated after this much driving", unit="m"
     )
-    map_update_angle_thresh: float = parameter(0.9, "or after this much turning", unit="rad")
+    map_update_angle_thresh: float = parameter(
+        0.9, "the maps are updated after this much turning", unit="rad"
+    )
     map_pub_period: float = parameter(2.0, "interval between two maps", unit="s", minimum=1e-3)
     update_factor_free: float = parameter(
         0.4,
@@ -51,7 +55,7 @@ class HectorMappingParameters(Parameters):
     pub_map_odom_transform: bool = parameter(True, "publish the transform from map_frame to odom_frame")
     pub_map_scanmatch_transform: bool = parameter(True, "publish the transform from map_frame to the robot")
     tf_map_scanmatch_transform_frame_name: str = parameter(
-        "scanmatcher_frame", "the robot's frame in that transform"
+        "scanmatcher_frame", "the robot's frame in the transform of pub_map_scanmatch_transform"
     )
     pub_odometry: bool = parameter(False, "also publish the pose on scanmatch_odom")
     advertise_map_service: bool = parameter(True, "offer dynamic_map")
@@ -61,7 +65,7 @@ class HectorMappingParameters(Parameters):
     use_tf_pose_start_estimate: bool = parameter(
         False, "start the search at the pose from tf, not at the last one"
     )
-    map_with_known_poses: bool = parameter(False, "use that pose without matching, and only map")
+    map_with_known_poses: bool = parameter(False, "use the pose from tf without matching, and only map")
     output_timing: bool = parameter(False, "log the processing time of each scan")
     scan_subscriber_queue_size: int = parameter(5, "queue size for scans", minimum=0)
     scan_topic: str = parameter("scan", "the topic of scans")

@@ -4,8 +4,8 @@
     rosrun map_server map_server house.pgm 0.05
 
 The second form is also deprecated in ROS. The map is latched on `map`, its metadata on `map_metadata`; `static_map`
-returns the map, and `change_map` loads another. Facts: main.cpp of https://github.com/ros-planning/navigation.
-Unlike there, the result of `change_map` tells errors apart (there it is 255). As there, its response has no map.
+returns the map, and `change_map` loads another. Facts: main.cpp of https://github.com/ros-planning/navigation. Unlike
+there, the result of `change_map` distinguishes errors (there it is 255). As there, its response has no map.
 """
 
 from __future__ import annotations

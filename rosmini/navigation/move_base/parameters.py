@@ -25,13 +25,13 @@ class MoveBaseConfig(Parameters):
     )
     planner_frequency: float = parameter(
         0.0,
-        "how often to plan; 0: for a new goal, and when the robot is stuck",
+        "planning rate; 0: for a new goal, and when the robot is stuck",
         unit="Hz",
         minimum=0.0,
         maximum=100.0,
     )
     controller_frequency: float = parameter(
-        20.0, "how often to command the base", unit="Hz", minimum=0.0, maximum=100.0
+        20.0, "rate of velocity commands", unit="Hz", minimum=0.0, maximum=100.0
     )
     planner_patience: float = parameter(
         5.0, "how long to try to plan before recovering", unit="s", minimum=0.0, maximum=100.0
@@ -40,7 +40,7 @@ class MoveBaseConfig(Parameters):
         15.0, "how long to go without a command before recovering", unit="s", minimum=0.0, maximum=100.0
     )
     max_planning_retries: int = parameter(
-        -1, "how often to retry planning before recovering; -1: no limit", minimum=-1, maximum=1000
+        -1, "number of times to retry planning before recovering; -1: no limit", minimum=-1, maximum=1000
     )
     conservative_reset_dist: float = parameter(
         3.0,

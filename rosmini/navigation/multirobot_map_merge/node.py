@@ -37,8 +37,8 @@ class MapMergeParameters(Parameters):
     known_init_poses: bool = parameter(True, "whether the robots' init_pose parameters are set")
     merged_map_topic: str = parameter("map", "the topic of the merged map")
     world_frame: str = parameter("world", "the frame of the merged map")
-    merging_rate: float = parameter(4.0, "how often maps are merged", unit="Hz", minimum=1e-3)
-    discovery_rate: float = parameter(0.05, "how often robots are looked for", unit="Hz", minimum=1e-3)
+    merging_rate: float = parameter(4.0, "rate at which maps are merged", unit="Hz", minimum=1e-3)
+    discovery_rate: float = parameter(0.05, "rate of the search for new robots", unit="Hz", minimum=1e-3)
     estimation_rate: float = parameter(0.5, "not used: poses are not estimated", unit="Hz", minimum=1e-3)
     estimation_confidence: float = parameter(1.0, "not used: poses are not estimated", minimum=0.0)
 

@@ -193,7 +193,7 @@ def descend(
 
 @kernel(descend, slope, down, unreached_beside, lowest_around, surrounded, step_down, step_to_lowest)
 def compiled_descend(numba: Any) -> Any:
-    """Return the signature of `descend`."""
+    """Return `descend`, compiled if numba is available; the body returns its signature for the decorator."""
     types = numba.types
     number, real = types.int64, types.float64
     return number(types.float32[::1], number, real, real, real, real, number, types.float64[::1])

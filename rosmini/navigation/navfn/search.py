@@ -97,7 +97,7 @@ class Search(ABC):
 
     @property
     def potential(self) -> NDArray[np.float32]:
-        """The path cost of each cell (h, w); `HIGH` where the search has not been. This is not a copy."""
+        """The path cost of each cell (h, w); `HIGH` for cells that were not reached. This is not a copy."""
         return self.potential_with_rim.reshape(self.costs.shape)[1:-1, 1:-1]
 
     @property

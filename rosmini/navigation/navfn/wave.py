@@ -153,7 +153,7 @@ def wave(
 
 @kernel(wave, interpolated, enqueue)
 def compiled_wave(numba: Any) -> Any:
-    """Return the signature of `wave`."""
+    """Return `wave`, compiled if numba is available; the body returns its signature for the decorator."""
     types = numba.types
     number, real = types.int64, types.float64
     bytes_, floats = types.uint8[::1], types.float32[::1]
