@@ -1,7 +1,7 @@
 """Hash collisions: Python hashes numbers predictably, so a file can make its sets and dictionaries quadratic.
 
-``{i * (2**61 - 1) for i in range(20000)}`` compares each number with all the others. Strings are hashed with a secret,
-so nobody can make them collide.
+``{i * (2**61 - 1) for i in range(20000)}`` compares each number with all the others. Strings are hashed with a secret
+key, so collisions cannot be constructed.
 """
 
 from __future__ import annotations

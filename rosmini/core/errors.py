@@ -64,7 +64,7 @@ class RosminiError(Exception):
 
 
 class ROSException(RosminiError):
-    """Something went wrong in a ROS call: a timeout, a call before ``init_node``, a publish after shutdown."""
+    """A ROS call failed: a timeout, a call before ``init_node``, a publish after shutdown."""
 
 
 class ROSInitException(ROSException):

@@ -135,12 +135,12 @@ def _reason(char: str, at_start: bool, first: str, rest: str) -> str:
 
 
 def is_global(name: str) -> bool:
-    """True for ``/scan``."""
+    """Return True for a global name, such as ``/scan``."""
     return name[:1] == "/"
 
 
 def is_private(name: str) -> bool:
-    """True for ``~scan``."""
+    """Return True for a private name, such as ``~scan``."""
     return name[:1] == "~"
 
 
@@ -229,7 +229,7 @@ def resolve(
 
 
 def is_remapping(argument: str) -> bool:
-    """True for a command-line argument that ROS consumes: ``a:=b``, ``_rate:=10``, ``__name:=talker``."""
+    """Return True for a command-line argument that ROS consumes: ``a:=b``, ``_rate:=10``, ``__name:=talker``."""
     return REMAPPING.fullmatch(argument) is not None
 
 

@@ -85,7 +85,7 @@ class Parameters:
     """If True, every namespace inside this one may belong to other code, such as a plugin."""
 
     def others(self) -> Iterable[str]:
-        """Return more such names that depend on the values of parameters: those of plugins, for example."""
+        """Return additional allowed names that depend on the values of parameters, such as those of plugins."""
         return ()
 
     @classmethod

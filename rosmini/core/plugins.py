@@ -76,7 +76,7 @@ class Plugin:
 
     @classmethod
     def create(cls, name: str, *args: Any, **options: Any) -> Self:
-        """Create an instance of the plugin with this name. Raises as `named`, and the errors of its constructor."""
+        """Create an instance of the plugin with this name. Raises the errors of `named` and of its constructor."""
         return cls.named(name)(*args, **options)
 
     @classmethod

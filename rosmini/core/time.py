@@ -51,13 +51,13 @@ class TVal:
 
     @classmethod
     def from_sec(cls, float_secs: float) -> Self:
-        """Make one from seconds as a float, truncated to nanoseconds."""
+        """Return a time or duration from seconds as a float, truncated to nanoseconds."""
         secs = int(float_secs)
         return cls(secs, int((float_secs - secs) * NSECS_PER_SEC))
 
     @classmethod
     def from_nsec(cls, nsecs: int) -> Self:
-        """Make one from an integer number of nanoseconds."""
+        """Return a time or duration from an integer number of nanoseconds."""
         secs, rest = divmod(nsecs, NSECS_PER_SEC)
         return cls(secs, rest)
 

@@ -112,7 +112,7 @@ class ClientGoalHandle:
             client.node.logdebug(f"goal {self.id} is {self.get_comm_state().name}: cancel() has no effect")
 
     def reset(self) -> None:
-        """Stop following this goal: no callback is called any more. The goal itself continues."""
+        """Stop tracking this goal: its callbacks are no longer called. The goal itself continues."""
         self._following = False
         self._client.forget(self)
 
@@ -160,7 +160,7 @@ _STATUSES = frozenset(int(status) for status in Status)
 
 
 class ActionClient:
-    """Sends goals to an action server, any number at a time, and follows each with a handle.
+    """Sends goals to an action server, any number at a time, and tracks each with a handle.
 
     Args:
         node: the client's node.
@@ -168,7 +168,7 @@ class ActionClient:
         ActionSpec: the action's type, such as ``actionlib_tutorials.msg.FibonacciAction``.
         numpy: deliver numeric arrays in feedback and results as numpy arrays; if False, as rospy's tuples.
 
-    Raises ``ActionException`` if ``ActionSpec`` is not an action type. Goals are followed until they are done, or until
+    Raises ``ActionException`` if ``ActionSpec`` is not an action type. Goals are tracked until they are done, or until
     ``handle.reset()``.
 
     """
@@ -200,7 +200,7 @@ class ActionClient:
         return f"<{type(self).__name__} of {self.ns} in {self.node.name}>"
 
     def stop(self) -> None:
-        """Leave the five topics and stop following all goals."""
+        """Unregister from the five topics, and stop tracking all goals."""
         self._goals.clear()
         for end in (self._goal, self._cancel, self._status, self._result, self._feedback):
             end.unregister()
@@ -215,8 +215,8 @@ class ActionClient:
     ) -> ClientGoalHandle:
         """Send a goal and return its handle.
 
-        ``transition_cb(handle)`` is called for each state that the client enters, ``feedback_cb(handle,
-        feedback)`` on feedback. Raises ``ActionException`` for a goal of another type.
+        ``transition_cb(handle)`` is called for each state that the client enters, ``feedback_cb(handle, feedback)`` on
+        feedback. Raises ``ActionException`` if ``goal`` is not a message of the action's goal type.
         """
         return self.node.scheduler.on_hub(lambda: self._send(goal, transition_cb, feedback_cb))
 
@@ -236,7 +236,7 @@ class ActionClient:
         return handle
 
     def forget(self, handle: ClientGoalHandle) -> None:
-        """Stop following a goal. Called by its handle."""
+        """Stop tracking a goal. Called by its handle."""
         self._goals.pop(handle.id, None)
 
     def send_cancel(self, stamp: Time, goal_id: str) -> None:
@@ -246,11 +246,11 @@ class ActionClient:
         self._cancel.publish(message)
 
     def cancel_all_goals(self) -> None:
-        """Ask the server to cancel all its goals, also those of other clients."""
+        """Ask the server to cancel all its goals, including those of other clients."""
         self.send_cancel(Time(), "")
 
     def cancel_goals_at_and_before_time(self, time: Time) -> None:
-        """Ask the server to cancel all goals that were sent at ``time`` or before, also those of other clients."""
+        """Ask the server to cancel all goals that were sent at ``time`` or before, including those of other clients."""
         self.send_cancel(time, "")
 
     # -- the server ----------------------------------------------------------------------------------------------

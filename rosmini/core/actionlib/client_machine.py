@@ -129,7 +129,7 @@ class ClientMachine:
     def finish(self, status: int, text: str = "") -> None:
         """Handle the result, which contains the final status.
 
-        Raises ``IllegalTransition``, but is done nevertheless.
+        May raise ``IllegalTransition``; the goal is done in any case.
         """
         if self.state is CommState.DONE:
             raise IllegalTransition(
@@ -142,7 +142,7 @@ class ClientMachine:
             self._enter(CommState.DONE)
 
     def cancel(self) -> bool:
-        """Ask for cancellation; return False, without effect, if this state does not allow it."""
+        """Record a request for cancellation; return False, without effect, if this state does not allow it."""
         if self.state not in CANCELLABLE:
             return False
         self._enter(CommState.WAITING_FOR_CANCEL_ACK)

@@ -161,7 +161,7 @@ class ActionServer:
         return STATUS_HZ if found is None else float(node.get_param(found, expect=float))
 
     def stop(self) -> None:
-        """Leave the five topics; goals keep their status, which is no longer published."""
+        """Unregister from the five topics; goals keep their status, which is no longer published."""
         self.node.scheduler.on_hub(self._stop)
 
     def _stop(self) -> None:
@@ -176,7 +176,7 @@ class ActionServer:
     # -- outgoing messages ---------------------------------------------------------------------------------------
 
     def complain(self, error: ActionException) -> None:
-        """Raise an error of the server's user, or log it in rospy's style. Called by the handles."""
+        """Raise a user's error if the server is strict; otherwise log it, as rospy does. Called by the handles."""
         if self.strict:
             raise error
         self.node.logerr(error)
@@ -311,7 +311,7 @@ class ActionServer:
             self.node.guarded(self.cancel_callback, handle, what=f"a cancellation of {self.ns}")
 
     def _note_early(self, request: Any) -> None:
-        """Remember the cancellation of a goal that has not arrived yet: messages on two topics may change order."""
+        """Record the cancellation of a goal that has not arrived yet: messages on two topics may change order."""
         note = StatusTracker(self.id_generator, self.node.now(), request, Status.RECALLING)
         self.end(note)
         self._list(note)

@@ -1,4 +1,4 @@
-"""The action client that follows one goal at a time: http://wiki.ros.org/actionlib."""
+"""The action client that tracks one goal at a time: http://wiki.ros.org/actionlib."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["SimpleActionClient"]
 
 
 class SimpleActionClient:
-    """Sends goals and follows the latest.
+    """Sends goals and tracks the latest.
 
     Arguments and errors are those of ``ActionClient``. With ``strict`` (the graph's setting by default) a query
     before the first goal raises ``ActionException``; otherwise it is logged as an error, as in
@@ -66,7 +66,7 @@ class SimpleActionClient:
         self.node.scheduler.on_hub(lambda: self._send(goal, done_cb, active_cb, feedback_cb))
 
     def _send(self, goal: Any, done_cb: Any, active_cb: Any, feedback_cb: Any) -> None:
-        """Send a goal in one step on the hub, so that it cannot end before ``gh`` and the callbacks are set."""
+        """Send a goal in the scheduler's thread, so that it cannot end before ``gh`` and the callbacks are set."""
         self.stop_tracking_goal()
         self._done_cb, self._active_cb, self._feedback_cb = done_cb, active_cb, feedback_cb
         self.simple_state = SimpleGoalState.PENDING
@@ -143,7 +143,7 @@ class SimpleActionClient:
             self.gh.cancel()
 
     def stop_tracking_goal(self) -> None:
-        """Stop following the goal: no callback is called any more. The goal itself continues."""
+        """Stop tracking the goal: its callbacks are no longer called. The goal itself continues."""
         handle, self.gh = self.gh, None
         if handle is not None:
             handle.reset()

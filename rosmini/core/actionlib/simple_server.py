@@ -82,7 +82,7 @@ class SimpleActionServer:
         self.action_server.start()
 
     def stop(self) -> None:
-        """Leave the five topics."""
+        """Unregister from the five topics."""
         self.action_server.stop()
 
     def register_goal_callback(self, cb: Callable[[], object]) -> None:
@@ -117,7 +117,7 @@ class SimpleActionServer:
         return self.current_goal.state in (Status.ACTIVE, Status.PREEMPTING)
 
     def accept_new_goal(self) -> Any:
-        """Accept the waiting goal and return it; a goal still in work is preempted.
+        """Accept the waiting goal and return it; a goal that is still active is preempted.
 
         If no goal is waiting: raises ``ActionException`` if strict, otherwise logs an error and returns None.
         """
@@ -178,7 +178,7 @@ class SimpleActionServer:
         stamp = goal.get_goal_id().stamp
         rivals = [other for other in (self.current_goal, self.next_goal) if other.goal is not None]
         if any(stamp < other.get_goal_id().stamp for other in rivals):
-            goal.set_canceled(None, PREEMPTED_TEXT)  # it was sent before the present goal, but arrived later
+            goal.set_canceled(None, PREEMPTED_TEXT)  # it was sent before the current goal, but arrived later
             return
         if self.next_goal.goal is not None and self.next_goal != self.current_goal:
             self.next_goal.set_canceled(None, PREEMPTED_TEXT)

@@ -1,8 +1,8 @@
 """Parameters that are changed while a node runs (http://wiki.ros.org/dynamic_reconfigure).
 
-The object API, on a :class:`rosmini.core.graph.Node`. What scripts import as ``dynamic_reconfigure`` is the same in
-rospy's style, :mod:`rosmini.ros.rospy.aliases.dynamic_reconfigure`. What can be changed is described in
-:mod:`~rosmini.core.dynamic_reconfigure.description`.
+The object API, on a :class:`rosmini.core.graph.Node`. Scripts import the same in rospy's style as
+``dynamic_reconfigure``: :mod:`rosmini.ros.rospy.aliases.dynamic_reconfigure`.
+:mod:`~rosmini.core.dynamic_reconfigure.description` describes the parameters.
 """
 
 from __future__ import annotations

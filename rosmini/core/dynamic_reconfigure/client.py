@@ -91,15 +91,15 @@ class Client:
     def get_parameter_descriptions(self, timeout: float | None = None) -> list[dict[str, Any]] | None:
         """Return a dictionary for each parameter: name, type, default, min, max, level, description, edit_method.
 
-        Returns None as above.
+        Returns None after ``timeout`` seconds, or when the node shuts down.
         """
         self._wait(lambda: self.description is not None, timeout, "description")
         return None if self.description is None else [one.as_dict() for one in self.description.parameters]
 
     def get_group_descriptions(self, timeout: float | None = None) -> Config | None:
-        """Return the tree of groups: id, parent, name, type, state, ``parameters`` as above, and ``groups``.
+        """Return the tree of groups: id, parent, name, type, state, ``parameters``, and ``groups``.
 
-        Returns None as above.
+        Returns None after ``timeout`` seconds, or when the node shuts down.
         """
         self._wait(lambda: self.description is not None, timeout, "description")
         if self.description is None:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class DynamicReconfigureException(RosminiError):
-    """Base class of these errors."""
+    """Base class of dynamic_reconfigure's errors."""
 
 
 class DynamicReconfigureParameterException(DynamicReconfigureException):
@@ -100,7 +100,7 @@ class ReconfigurableParameter:
 class ParameterGroup:
     """A group of parameters, with subgroups.
 
-    ``type`` tells user interfaces how to show it (``collapse``, ``tab``, ``hide``...).
+    ``type`` determines how user interfaces show it (``collapse``, ``tab``, ``hide``...).
     """
 
     name: str

@@ -159,7 +159,7 @@ class Server:
         me = self.node.scheduler.current()
         if self._owner is me:
             raise DynamicReconfigureCallbackException(
-                "the callback of a server cannot call update_configuration: it must return the new hold"
+                "the callback of a server cannot call update_configuration: it must return the new configuration"
             )
         while self._owner is not None:
             waiter = self.node.waiter("another change of parameters to be done")

@@ -104,7 +104,7 @@ class Function:
 
 
 class Namespace:
-    """Names after a dot: ``math.pi``."""
+    """A namespace of names that follow a dot: ``math.pi``."""
 
     __slots__ = ("members", "name")
 

@@ -1,10 +1,9 @@
 """ROS's map files: a YAML file with the metadata, and an image with one pixel per cell.
 
-The fields and colours are described on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is
-silent, this does the same as map_server's image loader: alpha is averaged with the colours in the mode `trinary`, and
-means "unknown" if it is 0 in the mode `scale`; values are truncated, not rounded. Unlike there, a
-resolution of 0 and numbers that are not finite are errors here, and a useless map, such as one that is unknown
-everywhere, causes a warning.
+The fields and colours are described on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is silent,
+this follows map_server's image loader: alpha is averaged with the colours in the mode `trinary`, and means "unknown" if
+it is 0 in the mode `scale`; values are truncated, not rounded. Unlike there, a resolution of 0 and numbers that are not
+finite are errors here, and a useless map, such as one that is unknown everywhere, causes a warning.
 """
 
 from __future__ import annotations

@@ -90,7 +90,7 @@ class PackageIndex:
         return list(self._broken)
 
     def path(self, name: str) -> Path:
-        """Return the folder of a package, of whose manifest only the name is read. Raises as `find` does."""
+        """Return the folder of a package, of whose manifest only the name is read. Raises the same errors as `find`."""
         found = self._folders().get(name)
         if found is None:
             self.refresh()

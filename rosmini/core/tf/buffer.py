@@ -108,14 +108,14 @@ class BufferCore:
     def get_latest_common_time(self, source_frame: str, dest_frame: str) -> Time:
         """Return the latest time for which all transforms between two frames are known; 0 if all are static.
 
-        Raises as `FrameTree.lookup` does.
+        Raises the same errors as `FrameTree.lookup`.
         """
         return Time.from_nsec(self.tree.latest_common_time(source_frame, dest_frame))
 
     # -- contents ------------------------------------------------------------------------------------------------
 
     def all_frames_as_string(self) -> str:
-        """Return a sentence for each edge, in tf's words."""
+        """Return a sentence for each edge, as tf words it."""
         return "".join(
             f"Frame {frame} exists with parent {edge.newest.parent}.\n"
             for frame, edge in self.tree.edges.items()
@@ -261,7 +261,7 @@ class Buffer(BufferCore):
     ) -> Any:
         """Return the pose of `source_frame` in `target_frame`, a `TransformStamped`, after at most `timeout` [s].
 
-        Raises as `FrameTree.lookup` does, and `ROSInterruptException` when the node shuts down meanwhile.
+        Raises the same errors as `FrameTree.lookup`, and `ROSInterruptException` when the node shuts down meanwhile.
         """
         self.wait_for_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
@@ -294,7 +294,7 @@ class Buffer(BufferCore):
         fixed_frame: str,
         timeout: float | Duration = 0.0,
     ) -> Any:
-        """Return the same at another time, if `fixed_frame` does not move in between."""
+        """Like `transform`, but at `target_time`; `fixed_frame` must not move in between."""
         header = object_stamped.header
         found = self.lookup_transform_full(
             target_frame, target_time, header.frame_id.lstrip("/"), header.stamp, fixed_frame, timeout

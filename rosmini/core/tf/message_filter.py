@@ -90,7 +90,7 @@ class MessageFilter:
         return True
 
     def _newest(self, target: str, source: str) -> int:
-        """Return the latest time [ns] for which all between two frames is known; 0: none, or all times."""
+        """Return the latest time [ns] for which all transforms between two frames are known; 0: none, or all times."""
         try:
             return self.buffer.tree.latest_common_time(target, source)
         except TransformException:

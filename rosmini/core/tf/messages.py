@@ -44,7 +44,7 @@ def to_stamped(parent: str, child: str, transform: Rigid, stamp_ns: int) -> Any:
 
 @cache
 def _maker(cls: type[Any]) -> Callable[..., Any]:
-    """Return a factory of such messages, three times as fast as setting field by field."""
+    """Return a factory of `TransformStamped` messages, three times as fast as setting field by field."""
     varying = ["header.frame_id", "header.stamp.secs", "header.stamp.nsecs", "child_frame_id"]
     varying += [f"transform.translation.{axis}" for axis in "xyz"] + [
         f"transform.rotation.{axis}" for axis in "xyzw"

@@ -42,7 +42,7 @@ LOOKUPS_LOADED = 1_000
 
 
 class Found(NamedTuple):
-    """A transform and its time [ns]; 0 if nothing on the path moves."""
+    """A transform and its time [ns]; 0 if all edges on the path are static."""
 
     transform: Rigid
     stamp_ns: int
@@ -247,7 +247,7 @@ class FrameTree:
     def lookup_full(self, target: str, target_ns: int, source: str, source_ns: int, fixed: str) -> Found:
         """Return the pose of `source` at one time [ns] in `target` at another, if `fixed` does not move in between.
 
-        Raises as `lookup` does.
+        Raises the same errors as `lookup`.
         """
         for frame, role in ((target, "target_frame"), (source, "source_frame"), (fixed, "fixed_frame")):
             self._check(frame, role)
@@ -256,10 +256,10 @@ class FrameTree:
         return Found(compose(then.transform, seen.transform), then.stamp_ns)
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """Return the oldest of the newest samples [ns] between two frames; 0 if nothing on the path moves.
+        """Return the oldest of the newest samples [ns] between two frames; 0 if all edges on the path are static.
 
-        An edge may still be unknown then, if its only sample is newer. Raises as `lookup` does for names
-        and paths.
+        An edge may still be unknown then, if its only sample is newer. Raises the same errors as `lookup` for names and
+        paths.
         """
         if target == source and target in self:
             return self._newest(target)

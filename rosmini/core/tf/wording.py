@@ -81,7 +81,7 @@ class ErrorTexts:
         )
 
     def frames(self) -> str:
-        """Return every edge, in tf's words, with its sender."""
+        """Return a sentence for each edge, as tf words it, with its sender."""
         return "\n".join(
             f"Frame {frame} exists with parent {history.newest.parent}"
             + (f" (from {history.newest.authority})." if history.newest.authority else ".")

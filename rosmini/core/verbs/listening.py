@@ -15,18 +15,18 @@ SECOND = 1_000_000_000
 
 
 class Span(NamedTuple):
-    """The time in which a verb listens: its end, or None."""
+    """The period in which a verb listens, until the graph time `end_ns`; None for no end."""
 
     graph: Graph
     end_ns: int | None
 
     @classmethod
     def of(cls, graph: Graph, duration_ns: int | None) -> Self:
-        """Return the span that starts now."""
+        """Return the period that starts now."""
         return cls(graph, None if duration_ns is None else graph.scheduler.now_ns() + duration_ns)
 
     def is_over(self) -> bool:
-        """Return whether it is over."""
+        """Return whether the period is over."""
         return self.end_ns is not None and self.graph.scheduler.now_ns() >= self.end_ns
 
     def every(self, period_ns: int) -> Iterator[None]:

@@ -67,7 +67,7 @@ class Parser(OptionParser):
             self.error(problem)
 
     def parse(self, words: Sequence[str], /) -> Values:
-        """Return the options, with the arguments as ``words``, and everything as ``argv``. Raises ``UsageError``."""
+        """Return the options, the arguments as ``words``, and the command line as ``argv``. Raises ``UsageError``."""
         values, rest = self.parse_args(list(words))
         values.words, values.argv = rest, list(words)
         return values

@@ -130,7 +130,7 @@ class ArgumentParser(argparse.ArgumentParser):
 
 @dataclass(frozen=True)
 class Verb:
-    """One verb: its summary, its options, and the function that acts."""
+    """One verb: its summary, its options, and the function that runs it."""
 
     name: str
     summary: str
