@@ -6,19 +6,38 @@ import re
 import shlex
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
-from book.tools import notebooks, reading
+import pytest
+
+from book.tools import notebooks
 
 from ...processes import run
 
 NOTEBOOKS = Path(__file__).resolve().parents[3] / "notebooks"
 
 
-def prose_of(chapter: str) -> str:
-    """The text cells of a chapter."""
-    cells = notebooks.read(NOTEBOOKS / f"{chapter}.ipynb").cells
+@pytest.fixture(scope="module")
+def chapter(request):
+    """The notebook of the chapter that the module tests."""
+    [path] = NOTEBOOKS.glob(f"{request.module.__name__[-2:]}_*.ipynb")
+    return notebooks.read(path)
+
+
+@pytest.fixture(scope="module")
+def cells(chapter):
+    return chapter.cells
+
+
+@pytest.fixture(scope="module")
+def code(cells):
+    """The sources of its code cells."""
+    return [cell.source for cell in cells if cell.cell_type == "code"]
+
+
+@pytest.fixture(scope="module")
+def prose(cells):
+    """Its text cells, joined."""
     return "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
 
 
@@ -28,28 +47,9 @@ def printed(cells: Any, start: str) -> str:
     return "".join(output.get("text", "") for output in cell.outputs)
 
 
-def assert_short(cells: Any) -> None:
-    """A chapter has at most 2,300 words and 25 code cells before its exercises (DESIGN, section 7)."""
-    found, code_cells = reading.length(SimpleNamespace(cells=cells))
-    assert found <= 2300
-    assert code_cells <= 25
-
-
-def figure_numbers(chapter: str) -> list[int]:
-    """The numbers of a chapter's figures, in the order of its cells."""
-    cells = notebooks.read(NOTEBOOKS / f"{chapter}.ipynb").cells
-    code = [cell.source for cell in cells if cell.cell_type == "code"]
-    title = re.compile(rf"Figure {chapter[:2]}\.(\d+): ")
-    return [int(number) for source in code for number in title.findall(source)]
-
-
-def assert_figures_are_numbered(chapter: str, makers: tuple[str, ...]) -> None:
-    """The figures of a chapter are numbered 1, 2, 3...; there are as many as calls of their `makers` in its cells."""
-    cells = notebooks.read(NOTEBOOKS / f"{chapter}.ipynb").cells
-    calls = sum(cell.source.count(word) for cell in cells if cell.cell_type == "code" for word in makers)
-    numbers = figure_numbers(chapter)
-    assert numbers == list(range(1, len(numbers) + 1))
-    assert calls == len(numbers) > 0
+def all_printed(cells: Any) -> str:
+    """What all cells have printed."""
+    return "".join(output.get("text", "") for cell in cells for output in cell.get("outputs", ()))
 
 
 def write_scripts(prose: str, folder: Path) -> set[str]:

@@ -1,30 +1,16 @@
-"""Chapter 13: its scripts print what the page shows, its figures are numbered, and it is right about the tools."""
+"""Chapter 13: its scripts print what the page shows, and it is right about the tools."""
 
 from __future__ import annotations
 
 import re
-from pathlib import Path
-
-import pytest
 
 from rosmini.msgs import service_class
 
-from .conftest import assert_figures_are_numbered, assert_scripts_print_what_is_shown, prose_of
-
-CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "13_services.ipynb"
-
-
-@pytest.fixture(scope="module")
-def prose():
-    return prose_of(CHAPTER.stem)
+from .conftest import assert_scripts_print_what_is_shown
 
 
 def test_the_listed_scripts_print_what_is_shown(prose, tmp_path):
     assert_scripts_print_what_is_shown(prose, tmp_path, {"add_server.py", "add_client.py"})
-
-
-def test_every_figure_is_numbered_in_order():
-    assert_figures_are_numbered(CHAPTER.stem, (".show(",))
 
 
 def test_the_answers_of_rossrv_are_true(prose):

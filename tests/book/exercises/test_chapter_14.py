@@ -3,20 +3,10 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
-
-import pytest
 
 from rosmini.core.rosparam import load_str
 
-from .conftest import assert_figures_are_numbered, prose_of, run_rosmini
-
-CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "14_parameter_server.ipynb"
-
-
-@pytest.fixture(scope="module")
-def prose():
-    return prose_of(CHAPTER.stem)
+from .conftest import run_rosmini
 
 
 def test_the_listed_script_prints_what_is_shown(prose, tmp_path):
@@ -36,7 +26,3 @@ def test_the_files_in_the_boxes_are_what_is_got(prose):
     (before,), (after,) = load_str(given), load_str(saved)
     before.values["wheel"]["radius"] = 0.035  # as `rosparam set` in the box
     assert after.values == before.values
-
-
-def test_every_figure_is_numbered_in_order():
-    assert_figures_are_numbered(CHAPTER.stem, ("parameter_tree(", "console.show("))

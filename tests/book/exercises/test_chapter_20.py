@@ -1,42 +1,16 @@
-"""Chapter 20: its figures are numbered, its numbers are Stage's, and its solutions drive where they are said to."""
+"""Chapter 20: its numbers are Stage's, and its solutions drive where they are said to."""
 
 from __future__ import annotations
 
 import math
 import re
-from pathlib import Path
 
 import pytest
 
-from book.tools import notebooks, solutions
+from book.tools import solutions
 from rosmini import Graph, rosrun
 from rosmini.msgs import message_class
 from rosmini.sim.stage import load
-
-from .conftest import assert_figures_are_numbered
-
-CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "20_simulation_and_stage.ipynb"
-
-FIGURES = ("rqt_graph(", "world_picture(", ".show(", ".show3d(", ".replay(")
-
-
-@pytest.fixture(scope="module")
-def chapter():
-    return notebooks.read(CHAPTER)
-
-
-@pytest.fixture(scope="module")
-def prose(chapter):
-    return "\n\n".join(cell.source for cell in chapter.cells if cell.cell_type == "markdown")
-
-
-def test_every_figure_is_numbered_in_order():
-    assert_figures_are_numbered(CHAPTER.stem, FIGURES)
-
-
-def test_a_page_holds_few_moving_pictures(chapter):
-    code = "".join(cell.source for cell in chapter.cells if cell.cell_type == "code")
-    assert sum(code.count(word) for word in (".show3d(", ".replay(", ".replay3d(")) == 2
 
 
 def test_parameters_that_the_text_names_exist(chapter):

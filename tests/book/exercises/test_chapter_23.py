@@ -1,44 +1,13 @@
-"""Chapter 23: its figures are numbered; what its tables and boxes name exists."""
+"""Chapter 23: what its tables and boxes name exists."""
 
 from __future__ import annotations
 
 import re
 
-import pytest
-
-from book.tools import notebooks
 from rosmini.core.markup import parse_file
 from rosmini.core.packages import PackageIndex
 from rosmini.sim.gazebo import plugin_class
 from rosmini.sim.verbs.gz import TOOL
-
-from .conftest import NOTEBOOKS, figure_numbers, prose_of
-
-NAME = "23_gazebo"
-FIGURES = ("rqt_graph(", ".show(", ".show3d(", "plot(", "image_picture(")
-
-
-@pytest.fixture(scope="module")
-def code():
-    return [
-        cell.source for cell in notebooks.read(NOTEBOOKS / f"{NAME}.ipynb").cells if cell.cell_type == "code"
-    ]
-
-
-@pytest.fixture(scope="module")
-def prose():
-    return prose_of(NAME)
-
-
-def test_every_figure_is_numbered_in_order(code):
-    numbers = figure_numbers(NAME)
-    assert numbers == list(range(1, len(numbers) + 1))
-    drawn = [source for source in code if any(word in source for word in FIGURES)]
-    assert len(drawn) == len(numbers) > 0
-
-
-def test_a_page_holds_few_views_to_be_turned(code):
-    assert "".join(code).count("show3d(") <= 2
 
 
 def test_the_verbs_of_gz_exist_as_they_are_written(prose):

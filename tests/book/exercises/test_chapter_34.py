@@ -1,38 +1,16 @@
-"""Chapter 34: its figures are numbered, and what it says of its planners is what its cells print."""
+"""Chapter 34: what it says of its planners is what its cells print."""
 
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
-from book.tools import notebooks
 from rosmini.book.exercises.chapter_34 import search
 
-from .conftest import assert_short, figure_numbers
-
-CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "34_global_planners.ipynb"
+from .conftest import all_printed
 
 
-def printed() -> str:
-    return "".join(
-        output.text
-        for cell in notebooks.read(CHAPTER).cells
-        if cell.cell_type == "code"
-        for output in cell.outputs
-        if output.output_type == "stream"
-    )
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be():
-    assert_short(notebooks.read(CHAPTER).cells)
-
-
-def test_every_figure_is_numbered_in_order():
-    assert figure_numbers(CHAPTER.stem) == [1, 2, 3, 4, 5, 6, 7, 8]
-
-
-def test_what_the_text_says_is_printed():
-    said = printed()
+def test_what_the_text_says_is_printed(cells):
+    said = all_printed(cells)
     trust = {
         float(a): (int(b), int(c))
         for a, b, c in re.findall(r"^ *([\d.]+) +(\d+) +(\d+)$", said, re.MULTILINE)

@@ -1,4 +1,4 @@
-"""Chapter 35: its size, its figures, and that its cells show what its text says of them."""
+"""Chapter 35: its cells show what its text says of them."""
 
 from __future__ import annotations
 
@@ -6,25 +6,9 @@ import re
 
 import pytest
 
-from book.tools import notebooks
 from rosmini.book.checks import Status, find
 
-from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed
-
-CHAPTER = NOTEBOOKS / "35_local_planners.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells)
-
-
-def test_its_figures_are_numbered():
-    assert_figures_are_numbered(CHAPTER.stem, (".replay(", ".show(", "plot("))
+from .conftest import printed
 
 
 def test_only_the_true_acceleration_predicts_the_drive(cells):

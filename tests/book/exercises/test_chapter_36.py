@@ -1,27 +1,10 @@
-"""Chapter 36: its size, its figures, and that its robot is found, lost and found as the text says."""
+"""Chapter 36: its robot is found, lost and found as the text says."""
 
 from __future__ import annotations
 
 import pytest
 
-from book.tools import notebooks
-
-from .conftest import NOTEBOOKS, assert_short, figure_numbers, printed
-
-CHAPTER = NOTEBOOKS / "36_amcl.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells)
-
-
-def test_every_figure_is_numbered_in_order():
-    assert figure_numbers(CHAPTER.stem) == list(range(1, 7))
+from .conftest import printed
 
 
 def test_amcl_finds_the_robot_and_so_does_the_filter_by_hand(cells):

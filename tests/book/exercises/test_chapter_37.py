@@ -1,29 +1,10 @@
-"""Chapter 37 is as long as it may be, and its outputs are what the text says of them."""
+"""Chapter 37: its outputs are what the text says of them."""
 
 from __future__ import annotations
 
 import re
 
-import pytest
-
-from book.tools import notebooks
-
-from .conftest import NOTEBOOKS, assert_short, figure_numbers, printed
-
-CHAPTER = NOTEBOOKS / "37_gmapping.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells)
-
-
-def test_every_figure_is_numbered_in_order():
-    assert figure_numbers(CHAPTER.stem) == list(range(1, 7))
+from .conftest import printed
 
 
 def test_the_served_map_has_whole_blocks(cells):

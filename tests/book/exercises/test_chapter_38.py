@@ -1,29 +1,10 @@
-"""Chapter 38: its size, its figures, and that what the text says of its experiments is what its cells print."""
+"""Chapter 38: what the text says of its experiments is what its cells print."""
 
 from __future__ import annotations
 
 import re
 
-import pytest
-
-from book.tools import notebooks
-
-from .conftest import NOTEBOOKS, assert_short, figure_numbers, printed
-
-CHAPTER = NOTEBOOKS / "38_hector_mapping.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells)
-
-
-def test_every_figure_is_numbered_in_order():
-    assert figure_numbers(CHAPTER.stem) == list(range(1, 9))
+from .conftest import printed
 
 
 def test_the_node_hears_no_odometry(cells):

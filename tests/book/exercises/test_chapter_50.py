@@ -1,29 +1,10 @@
-"""Chapter 50: its size, its figures, and that its terminals answer what the text says."""
+"""Chapter 50: its terminals answer what the text says."""
 
 from __future__ import annotations
 
 import re
 
-import pytest
-
-from book.tools import notebooks
-
-from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed
-
-CHAPTER = NOTEBOOKS / "50_environment.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells)
-
-
-def test_its_figures_are_numbered():
-    assert_figures_are_numbered("50_environment", (".replay(", "%rqt_graph"))
+from .conftest import printed
 
 
 def test_a_second_terminal_has_to_source_for_itself(cells):

@@ -1,4 +1,4 @@
-"""Chapter 51: its size, its figures, that its cheat sheet agrees with the page of commands, and what its cells say."""
+"""Chapter 51: its cheat sheet agrees with the page of commands, and its cells with the text."""
 
 from __future__ import annotations
 
@@ -6,24 +6,7 @@ import re
 
 import pytest
 
-from book.tools import notebooks
-
-from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed
-
-CHAPTER = NOTEBOOKS / "51_command_line.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells)
-
-
-def test_its_figures_are_numbered():
-    assert_figures_are_numbered("51_command_line", (".replay(",))
+from .conftest import NOTEBOOKS, printed
 
 
 def test_the_cheat_sheet_agrees_with_the_page_of_commands(cells):

@@ -1,28 +1,12 @@
-"""Chapter 63: its size, its figures, what its cells say, and other right answers."""
+"""Chapter 63: what its cells say, and other right answers."""
 
 from __future__ import annotations
 
 import pytest
 
-from book.tools import notebooks
 from rosmini.book.checks import Status, find
 
-from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed
-
-CHAPTER = NOTEBOOKS / "63_many_machines.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells)
-
-
-def test_its_figures_are_numbered():
-    assert_figures_are_numbered("63_many_machines", (".show(", "%rqt_graph"))
+from .conftest import printed
 
 
 def test_one_teleop_drives_both_turtles_and_a_namespace_parts_them(cells):

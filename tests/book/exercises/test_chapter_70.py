@@ -1,29 +1,11 @@
-"""Chapter 70: its size, its figures, and what its cells say."""
+"""Chapter 70: what its cells say, and another right answer."""
 
 from __future__ import annotations
 
-import pytest
-
-from book.tools import notebooks
 from rosmini.book.checks import Script, Status, find
 
-from .conftest import NOTEBOOKS, assert_short, figure_numbers, printed
+from .conftest import printed
 from .mistakes.chapter_70 import WAITER
-
-CHAPTER = NOTEBOOKS / "70_navigation_goal.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells)
-
-
-def test_its_figures_are_numbered():
-    assert figure_numbers(CHAPTER.stem) == [1, 2, 3, 4, 5, 6, 7, 8]
 
 
 def test_goals_of_all_kinds_are_reached(cells):

@@ -1,22 +1,15 @@
-"""Chapter 73: its figures are numbered; what it says of slips and counts holds."""
+"""Chapter 73: what it says of slips and counts holds."""
 
 from __future__ import annotations
 
 import re
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 
-from book.tools import notebooks
-
 from ...interop.conftest import SYSTEM_PYTHON, need_ros
 from ...processes import run
-from .conftest import assert_figures_are_numbered
-
-CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "73_many_turtlebots.ipynb"
-
-FIGURES = ("%rqt_graph", "tf_tree(", ".show(", ".replay(")
+from .conftest import all_printed
 
 SLIP = """<launch><node pkg="gazebo_ros" type="spawn_model" name="spawn_urdf" arg="-urdf -model tb3_0"/></launch>"""
 
@@ -28,36 +21,6 @@ loader.load(sys.argv[1], config, verbose=False)
 print(*config.config_errors)
 print([node.args for node in config.nodes])
 """
-
-
-@pytest.fixture(scope="module")
-def chapter():
-    return notebooks.read(CHAPTER)
-
-
-@pytest.fixture(scope="module")
-def code(chapter):
-    return [cell.source for cell in chapter.cells if cell.cell_type == "code"]
-
-
-def printed(chapter) -> str:
-    """All that its cells print."""
-    return "".join(
-        output.text
-        for cell in chapter.cells
-        if cell.cell_type == "code"
-        for output in cell.outputs
-        if output.output_type == "stream"
-    )
-
-
-def test_every_figure_is_numbered_in_order():
-    assert_figures_are_numbered(CHAPTER.stem, FIGURES)
-
-
-def test_a_page_holds_one_moving_picture(code):
-    assert "".join(code).count(".replay(") == 1
-    assert CHAPTER.stat().st_size < 1_500_000
 
 
 def test_nobody_of_those_who_changed_places_was_in_the_others_way(chapter):
@@ -80,8 +43,8 @@ def test_nobody_of_those_who_changed_places_was_in_the_others_way(chapter):
     assert (other_x, other_y) == pytest.approx((-3.0, 1.0), abs=0.2)
 
 
-def test_the_slip_is_told_and_survived(chapter):
-    said = printed(chapter)
+def test_the_slip_is_told_and_survived(cells):
+    said = all_printed(cells)
     assert "unknown <node> attribute 'arg'; did you mean args?" in said
     assert "process[teleop_twist_keyboard_tb3_0-1]: started" in said
 
@@ -96,15 +59,15 @@ def test_real_roslaunch_says_of_the_slip_what_ours_says(tmp_path):
     assert arguments == "['']"
 
 
-def test_what_is_heard_grows_as_the_text_says(chapter):
-    rows = re.findall(r"(\d+) robots: +(\d+) own messages, +(\d+) transforms", printed(chapter))
+def test_what_is_heard_grows_as_the_text_says(cells):
+    rows = re.findall(r"(\d+) robots: +(\d+) own messages, +(\d+) transforms", all_printed(cells))
     assert len(rows) == 4
     for robots, own, transforms in rows:
         assert int(own) == 35 * int(robots)
         assert int(transforms) == 30 * int(robots) ** 2
 
 
-def test_the_scans_of_the_nameless_come_in_turn(chapter):
-    (found,) = re.findall(r"ahead: (.*)", printed(chapter))
+def test_the_scans_of_the_nameless_come_in_turn(cells):
+    (found,) = re.findall(r"ahead: (.*)", all_printed(cells))
     metres = [float(each) for each in found.split()]
     assert all(abs(a - b) > 0.5 for a, b in pairwise(metres))

@@ -1,33 +1,21 @@
-"""Chapter 74: its figures are numbered, and what it says of the three graphs holds."""
+"""Chapter 74: what it says of the three graphs holds."""
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-from book.tools import notebooks
-
-from .conftest import assert_figures_are_numbered
-
-CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "74_beyond.ipynb"
-
-FIGURES = ("rqt_graph(before", "rqt_graph(\n", ".replay(")
+from .conftest import all_printed
 
 
 @pytest.fixture(scope="module")
-def figures():
+def figures(cells):
     return [
         "".join(output.data.get("text/plain", ""))
-        for cell in notebooks.read(CHAPTER).cells
+        for cell in cells
         if cell.cell_type == "code"
         for output in cell.outputs
         if output.output_type != "stream"
     ]
-
-
-def test_every_figure_is_numbered_in_order():
-    assert_figures_are_numbered(CHAPTER.stem, FIGURES)
 
 
 def test_the_robot_arrived_on_a_map_that_grew(figures):
@@ -46,13 +34,7 @@ def test_what_the_explorer_and_the_teleoperation_add(figures):
     )
 
 
-def test_the_master_says_why_the_older_nodes_ended():
-    said = "".join(
-        output.text
-        for cell in notebooks.read(CHAPTER).cells
-        if cell.cell_type == "code"
-        for output in cell.outputs
-        if output.output_type == "stream"
-    )
+def test_the_master_says_why_the_older_nodes_ended(cells):
+    said = all_printed(cells)
     for name in ("turtlebot3_slam_gmapping", "move_base"):
         assert f"[/{name}] Reason: new node registered with same name" in said

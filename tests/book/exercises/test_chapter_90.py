@@ -1,24 +1,14 @@
-"""Chapter 90: its size, its figures, and other right answers."""
+"""Chapter 90: other right answers."""
 
 from __future__ import annotations
 
 import pytest
 
-from book.tools import notebooks
 from rosmini.book.checks import Status, find
 
-from .conftest import NOTEBOOKS, assert_short, figure_numbers
 from .mistakes.chapter_90 import POLYGON, VISIT
 
 CLIMB = "to climb :n :s\nif :n = 0 [stop]\nfd :s rt 90 fd :s lt 90\nclimb :n - 1 :s * 3 / 4\nend"
-
-
-def test_it_is_as_short_as_a_chapter_has_to_be():
-    assert_short(notebooks.read(NOTEBOOKS / "90_logo.ipynb").cells)
-
-
-def test_its_figures_are_numbered():
-    assert figure_numbers("90_logo") == list(range(1, 9))
 
 
 @pytest.mark.parametrize(

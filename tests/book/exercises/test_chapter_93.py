@@ -1,35 +1,8 @@
-"""Chapter 93: its figures are numbered, and its two tables of results say what its cells found."""
+"""Chapter 93: its two tables of results say what its cells found."""
 
 from __future__ import annotations
 
-import re
-from pathlib import Path
-
-import pytest
-
-from book.tools import notebooks
-
-from .conftest import figure_numbers
-
-CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "93_publish_subscribe.ipynb"
-
-
-@pytest.fixture(scope="module")
-def cells():
-    return notebooks.read(CHAPTER).cells
-
-
-def printed(cells, word):
-    """What the one cell prints whose source has this word."""
-    (cell,) = [cell for cell in cells if cell.cell_type == "code" and word in cell.source]
-    return "".join(output.text for output in cell.outputs if output.output_type == "stream")
-
-
-def test_every_figure_is_numbered_in_order(cells):
-    code = [cell.source for cell in cells if cell.cell_type == "code"]
-    numbers = figure_numbers(CHAPTER.stem)
-    assert numbers == list(range(1, len(numbers) + 1))
-    assert sum(len(re.findall(r"\b(?:rqt_graph|plot)\(", source)) for source in code) == len(numbers) > 0
+from .conftest import printed
 
 
 def test_the_numbers_of_the_prose_are_those_of_the_queues(cells):
