@@ -61,11 +61,8 @@ def _clipped_lines(lines: Lines, projection: Perspective) -> Lines:
 
 def rectangles(texture: Texture, projection: Perspective, most: int) -> Iterator[tuple[Floats, list[Floats]]]:
     """Yield each colour (4,) of a map, 0 to 1 and opaque, with its outlines (n, 2) [px]: at most `most` of them."""
-    outlines: dict[bytes, list[Floats]] = {}
-    for pixels in _coarser(texture.pixels):
-        outlines = _outlines(pixels, texture, projection)
-        if sum(map(len, outlines.values())) <= most:
-            break
+    attempts = (_outlines(pixels, texture, projection, most) for pixels in _coarser(texture.pixels))
+    outlines = next((found for found in attempts if found is not None), {})
     for colour, several in sorted(outlines.items()):
         yield np.append(np.frombuffer(colour, dtype=np.uint8) / 255, 1.0), several
 
@@ -82,10 +79,13 @@ def _coarser(pixels: Pixels) -> Iterator[Pixels]:
         yield reduced
 
 
-def _outlines(pixels: Pixels, texture: Texture, projection: Perspective) -> dict[bytes, list[Floats]]:
-    """Return the outlines of each colour within the picture."""
+def _outlines(
+    pixels: Pixels, texture: Texture, projection: Perspective, most: int
+) -> dict[bytes, list[Floats]] | None:
+    """Return the outlines of each colour within the picture, or None if there are more than `most`."""
     cell = np.array(texture.size) / (pixels.shape[1], pixels.shape[0])
     outlines: dict[bytes, list[Floats]] = {}
+    count = 0
     for x0, y0, x1, y1 in _rectangles(pixels):
         flat = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]) * cell
         corners = (
@@ -98,6 +98,8 @@ def _outlines(pixels: Pixels, texture: Texture, projection: Perspective) -> dict
         if (outline.max(axis=0) > 0).all() and (
             outline.min(axis=0) < (projection.width, projection.height)
         ).all():
+            if (count := count + 1) > most:
+                return None
             outlines.setdefault(pixels[y0, x0, :3].tobytes(), []).append(outline)
     return outlines
 
