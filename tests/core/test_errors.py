@@ -141,15 +141,9 @@ def test_what_else_is_shown(value: Any, text: str) -> None:
 def test_showing_a_huge_value_needs_no_memory() -> None:
     text = "a" * 20_000_000
     values: list[Any] = [
-        text,
-        text.encode(),
-        bytearray(text.encode()),
-        [1.5] * 1_000_000,
-        {"key": [text]},
-        message_class("std_msgs/String")(text),
-        np.array([text], object),
-        np.array([text[:1_000_000]]),
-    ]
+        text, text.encode(), bytearray(text.encode()), [1.5] * 1_000_000, {"key": [text]},
+        message_class("std_msgs/String")(text), np.array([text], object), np.array([text[:1_000_000]]),
+    ]  # fmt: skip
     tracemalloc.start()
     try:
         for value in values:

@@ -120,15 +120,9 @@ def test_namespace_and_join() -> None:
 
 def test_remappings_from_a_command_line() -> None:
     argv = [
-        "talker.py",
-        "chatter:=/robot1/chatter",
-        "--verbose",
-        "__name:=t2",
-        "__ns:=robot1",
-        "_rate:=10",
-        "x=1",
+        "talker.py", "chatter:=/robot1/chatter", "--verbose", "__name:=t2", "__ns:=robot1", "_rate:=10", "x=1",
         "a b:=c",
-    ]
+    ]  # fmt: skip
     found = Remappings.from_argv(argv)
     assert found.names == {"chatter": "/robot1/chatter"}
     assert found.node_name == "t2"

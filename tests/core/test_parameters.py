@@ -114,31 +114,6 @@ class Layer(Parameters):
 
 
 @dataclass(frozen=True)
-class Source(Parameters):
-    """One of the `observation_sources` of a layer."""
-
-    topic: str = parameter("", "where the data come from")
-    data_type: str = parameter(
-        "PointCloud", "what they are", choices=("PointCloud", "PointCloud2", "LaserScan")
-    )
-    sensor_frame: str = parameter("", "overrides the frame of the data")
-    marking: bool = parameter(False, "whether they add obstacles")
-    clearing: bool = parameter(False, "whether they remove obstacles")
-    inf_is_valid: bool = parameter(False, "whether inf means that nothing was hit")
-    obstacle_range: float = parameter(2.5, "obstacles farther away are not marked", unit="m", minimum=0.0)
-
-
-@dataclass(frozen=True)
-class Obstacles(Parameters):
-    observation_sources: str = parameter("", "names of sources, with spaces between them")
-    enabled: bool = parameter(True, "whether it takes part")
-    track_unknown_space: bool = parameter(True, "whether the unknown is different from the free")
-
-    def others(self):
-        return self.observation_sources.split()
-
-
-@dataclass(frozen=True)
 class Inflation(Parameters):
     strict = True
 
@@ -176,13 +151,6 @@ class MoveBase(Parameters):
 
 
 @dataclass(frozen=True)
-class Dwa(Parameters):
-    max_vel_x: float = parameter(0.55, "the fastest forwards", unit="m/s", minimum=0.0)
-    acc_lim_x: float = parameter(2.5, "the strongest acceleration", unit="m/s2", minimum=0.0)
-    vx_samples: int = parameter(3, "how many speeds are tried", minimum=1)
-
-
-@dataclass(frozen=True)
 class Amcl(Parameters):
     odom_model_type: str = parameter("diff", "the robot's kind", choices=("diff", "omni", "diff-corrected"))
     min_particles: int = parameter(100, "how few particles", minimum=0)
@@ -208,18 +176,8 @@ global_costmap:
       type: costmap_2d::ObstacleLayer
     - {name: inflation_layer, type: "costmap_2d::InflationLayer"}
   static_layer: {map_topic: /map}
-  scans:
-    observation_sources: front rear
-    front: {sensor_frame: base_scan, data_type: LaserScan, topic: scan, marking: true, clearing: true}
-    rear: {data_type: PointCloud2, topic: depth/points, marking: true, obstacle_range: 4}
+  scans: {observation_sources: front, front: {data_type: LaserScan, topic: scan, marking: true}}
   inflation_layer: {inflation_radius: 0.9, cost_scaling_factor: 3}
-"""
-
-AMCL_YAML = """
-odom_model_type: diff
-min_particles: 500
-laser_max_range: 3.5
-initial_cov: [0.25, 1]
 """
 
 
@@ -241,22 +199,9 @@ def test_a_parameter_file_of_the_real_move_base(move_base):
     assert [layer.name for layer in costmap.plugins] == ["static_layer", "scans", "inflation_layer"]
     assert costmap.inflation_layer == Inflation(inflation_radius=0.9, cost_scaling_factor=3.0)
     assert (costmap.update_frequency, costmap.width, costmap.rolling_window) == (8.0, 12, False)
-    # What is in the namespaces of plugins is theirs to read.
-    assert Dwa.read(move_base, "~DWAPlannerROS") == Dwa(0.26, 2.0, 20)
-    obstacles = Obstacles.read(move_base, "~global_costmap/scans")
-    sources = [
-        Source.read(move_base, f"~global_costmap/scans/{name}")
-        for name in obstacles.observation_sources.split()
-    ]
-    assert sources == [
-        Source("scan", "LaserScan", "base_scan", True, True),
-        Source("depth/points", "PointCloud2", marking=True, obstacle_range=4.0),
-    ]
-
-
-def test_a_parameter_file_of_the_real_amcl(node):
-    node.set_param("~", yaml.safe_load(AMCL_YAML))
-    assert Amcl.read(node) == Amcl("diff", 500, 3.5, (0.25, 1.0))
+    # The namespace of a plugin is read by the plugin itself.
+    layer = Inflation.read(move_base, "~global_costmap/inflation_layer")
+    assert layer == costmap.inflation_layer
 
 
 @pytest.mark.parametrize(

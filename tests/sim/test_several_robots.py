@@ -279,25 +279,6 @@ def test_errors_of_spawning_say_what_to_do_and_change_nothing(graph):
     assert len(ears.heard["odom"]) == count + 15
 
 
-def test_a_company_changes_no_noise():
-    def run(company: bool) -> dict[str, list[bytes]]:
-        with Graph(seed=5) as graph:
-            simulator = start(graph, noise=1.0)
-            if company:
-                simulator.spawn("far", pose=(50.0, 50.0, 0.0))
-            ears = Ears(graph, "", tf=False)
-            ears.command("", 0.2, 0.4)
-            graph.run(0.5)
-            if company:
-                simulator.delete("far")
-            graph.run(2.0)
-            return ears.bytes()
-
-    alone = run(company=False)
-    assert len(alone["imu"]) > 400
-    assert run(company=True) == alone
-
-
 def test_two_runs_with_coming_and_going_are_equal_to_the_last_byte():
     def run() -> dict[str, list[bytes]]:
         with Graph(seed=7) as graph:
@@ -338,22 +319,6 @@ def test_what_is_put_into_the_world_is_in_it(graph):
 
 
 # -- commands --------------------------------------------------------------------------------------------------------
-
-
-def test_a_command_that_is_no_number_stops_that_robot_alone(graph, capsys):
-    simulator = start(graph, robots=2)
-    ears = Ears(graph)
-    ears.command("tb3_0", 0.2)
-    ears.command("tb3_1", 0.2)
-    graph.run(1.0)
-    ears.command("tb3_1", math.nan)
-    graph.run(0.5)
-    stopped = simulator.truth("tb3_1")
-    before = simulator.truth("tb3_0")
-    graph.run(1.0)
-    assert simulator.truth("tb3_1") == stopped
-    assert math.dist(simulator.truth("tb3_0")[:2], before[:2]) == pytest.approx(0.2, abs=1e-6)
-    assert capsys.readouterr().err.count("linear.x = nan on /tb3_1/cmd_vel") == 1
 
 
 # -- saving and restoring --------------------------------------------------------------------------------------------

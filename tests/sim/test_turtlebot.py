@@ -137,12 +137,12 @@ def errors(odometry: str, seconds: float, v: float, w: float, seeds: range) -> n
 
 
 def test_a_robot_that_stands_drifts_by_its_gyroscope_and_not_by_its_wheels():
-    off = errors("imu", 20.0, 0.0, 0.0, range(12))
-    step = BURGER.unit.gyro_step * 20.0
+    off = errors("imu", 10.0, 0.0, 0.0, range(12))
+    step = BURGER.unit.gyro_step * 10.0
     # uniform between none and one step of the converter, and a walk that is much smaller
     assert off.mean() == pytest.approx(step / 2, abs=4 * step / math.sqrt(12 * 12))
     assert -0.15 * step < off.min() and off.max() < 1.2 * step
-    assert not errors("wheels", 20.0, 0.0, 0.0, range(2)).any()
+    assert not errors("wheels", 10.0, 0.0, 0.0, range(2)).any()
 
 
 def test_the_error_of_turns_is_that_of_the_scale_or_of_the_distance_of_the_wheels():

@@ -13,7 +13,6 @@ from rosmini.core.actionlib import (
     ServerGoalHandle,
     Status,
 )
-from rosmini.core.graph import Graph
 from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.msgs.actionlib_msgs.msg import GoalID, GoalStatusArray
@@ -263,44 +262,6 @@ def test_status_at_five_hertz_and_on_each_change(sim):
     desk.goals[0].set_accepted()
     sim.run(0.01)
     assert [one.status for one in lists[-1].status_list] == [Status.ACTIVE]
-
-
-def statuses_published(graph, goals):
-    """How many statuses a server publishes for so many goals at one instant, each over before the next comes."""
-    server, published, ended = graph.node("server"), [], []
-
-    def work(handle):
-        handle.set_accepted()
-        handle.set_succeeded(FibonacciResult())
-
-    action_server = ActionServer(server, "work", FibonacciAction, work)
-    publish = action_server.status_pub.publish
-    action_server.status_pub.publish = lambda message: (
-        published.append(len(message.status_list)),
-        publish(message),
-    )
-    client = ActionClient(graph.node("client"), "work", FibonacciAction)
-    assert client.wait_for_server(10)
-
-    def send_all():
-        for _ in range(goals):
-            handle = client.send_goal(FibonacciGoal(1))
-            while handle.get_comm_state() is not CommState.DONE:
-                client.node.sleep(0)
-            ended.append(handle.get_goal_status())
-
-    lane = client.node.run(send_all)
-    graph.run(5.0, until=lambda: lane.idle)
-    assert ended == [Status.SUCCEEDED] * goals
-    graph.run(5.5)
-    assert published[-1] == 0
-    return sum(published)
-
-
-def test_what_many_goals_cost_grows_with_their_number_only():
-    few, many = (statuses_published(Graph(), goals) for goals in (250, 2_000))
-    assert few < 100 * 250
-    assert many < 10 * few
 
 
 def test_a_goal_leaves_the_list_a_while_after_its_end(sim):

@@ -79,6 +79,7 @@ def test_in_process_the_order_is_that_of_events(sim):
     diary.client.wait_for_result()
     assert diary.entries == ["active", 2, 3, ("SUCCEEDED", [0, 1, 1, 2])]
     assert sim.now() == Time(1000, 200_000_000)
+    assert diary.client.gh.id == "/client-1-1000.000"
 
 
 def test_timeouts(graph):
@@ -441,30 +442,6 @@ def test_goals_from_a_real_thread():
         thread.join(PATIENCE)
         graph.shutdown()
     assert ended == [(True, Status.SUCCEEDED, order) for order in range(30)]
-
-
-def play():
-    graph = Graph()
-    graph.notebook = False
-    trace = []
-    graph.scheduler.trace = lambda now, lane: trace.append((now, lane))
-    _, diary = start(graph)
-    other = Diary(graph, "other")
-    other.client.wait_for_server()
-    diary.send(20)
-    graph.run(0.33)
-    other.send(4)
-    other.client.wait_for_result()
-    ids = (diary.client.gh.id, other.client.gh.id)
-    graph.shutdown()
-    return trace, diary.entries, other.entries, ids
-
-
-def test_twice_the_same():
-    once = play()
-    assert once == play()
-    assert once[3] == ("/client-1-1000.000", "/other-1-1000.330")
-    assert len(once[0]) > 50
 
 
 def test_a_namespace_and_a_remapping(sim):

@@ -72,20 +72,11 @@ def main(span: str, rows: str | None = None, *options: Any) -> None:
     sys.exit(
         pytest.main(
             [
-                "-n0",
-                "-q",
-                "-p",
-                "no:cacheprovider",
-                "-m",
-                "nightly",
-                "-k",
-                conftest.RESTLESS,
-                str(HERE),
-                *options,
+                "-n0", "-q", "-p", "no:cacheprovider", "-m", "nightly", "-k", conftest.RESTLESS, str(HERE), *options,
             ],
             [seeds],
         )
-    )
+    )  # fmt: skip
 
 
 if __name__ == "__main__":

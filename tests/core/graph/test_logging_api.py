@@ -116,16 +116,9 @@ def test_levels_are_set_at_run_time(graph: Graph, capsys: pytest.CaptureFixture[
     assert texts(capsys) == ["seen 1", "seen 2", "seen 3"]
     found = {logger.name: logger.level for logger in loggers().loggers}
     assert found == {
-        "rosout": "ERROR",
-        "rospy": "INFO",
-        "rospy.client": "INFO",
-        "rospy.core": "INFO",
-        "rospy.init": "INFO",
-        "rospy.internal": "INFO",
-        "rosout.camera": "FATAL",
-        "rosout.camera.driver": "FATAL",
-        "rosout.other": "ERROR",
-    }
+        "rosout": "ERROR", "rospy": "INFO", "rospy.client": "INFO", "rospy.core": "INFO", "rospy.init": "INFO",
+        "rospy.internal": "INFO", "rosout.camera": "FATAL", "rosout.camera.driver": "FATAL", "rosout.other": "ERROR",
+    }  # fmt: skip
 
 
 def test_what_the_library_tells_of_itself_goes_to_the_file_only(

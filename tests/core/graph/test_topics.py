@@ -385,7 +385,7 @@ def test_values_are_rounded_as_the_wire_rounds_them(graph: Graph) -> None:
 # -- queues ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("size", [1, 10, None])
+@pytest.mark.parametrize("size", [0, 1, 10, None])
 def test_a_burst_is_delivered_whatever_the_publishers_queue_size_is(graph: Graph, size: int | None) -> None:
     heard: list[int] = []
     graph.node("listener").subscriber("n", Int32, lambda message: heard.append(message.data))
@@ -421,16 +421,6 @@ def test_a_publishers_queue_drops_the_oldest_once_the_connection_is_full() -> No
         assert heard[:4] == [0, 1, 2, 3], "the buffers keep the oldest"
         assert len(heard) == 50 - sender.dropped < 20
         assert [text for text in log if "queue_size=3" in text and "/big" in text] == log[-1:]
-
-
-@pytest.mark.parametrize("size", [None, 0])
-def test_no_queue_size_means_no_bound(graph: Graph, size: int | None) -> None:
-    heard: list[int] = []
-    graph.node("listener").subscriber("n", Int32, lambda message: heard.append(message.data))
-    publisher = connected(graph.node("talker"), "n", Int32, queue_size=size)
-    for number in range(100):
-        publisher.publish(number)
-    until(graph, lambda: len(heard) == 100)
 
 
 def test_a_subscribers_queue_drops_the_oldest_while_its_callback_blocks(graph: Graph) -> None:
@@ -559,23 +549,6 @@ def test_each_publishers_latched_message_arrives(graph: Graph) -> None:
     graph.node("late").subscriber("t", String, lambda message: heard.append(message.data))
     until(graph, lambda: len(heard) == 2)
     assert sorted(heard) == ["one", "two"]
-
-
-def test_a_subscriber_that_spoils_its_latched_message_spoils_nobody_elses(graph: Graph) -> None:
-    publisher = graph.node("talker").publisher("t", Twist, latch=True)
-    publisher.publish(Twist())
-    heard: list[float] = []
-
-    def spoil(message: Any) -> None:
-        heard.append(message.linear.x)
-        message.linear.x = 99.0
-
-    for name in ("one", "two"):
-        graph.node(name).subscriber("t", Twist, spoil)
-    until(graph, lambda: len(heard) == 2)
-    graph.node("one_more").subscriber("t", Twist, spoil)
-    until(graph, lambda: len(heard) == 3)
-    assert heard == [0.0, 0.0, 0.0]
 
 
 def test_without_latch_a_late_subscriber_gets_nothing(graph: Graph) -> None:

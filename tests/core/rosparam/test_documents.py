@@ -72,23 +72,11 @@ explicit: !radians (1+1)*pi
 list: [1, 2.5, three]
 """
     assert load_str(text)[0].values == {
-        "whole": 5,
-        "real": 5.0,
-        "exponent": 100000.0,
-        "no_exponent": "1e5",
-        "truth": True,
-        "name": "burger",
-        "quoted": "5",
-        "octal": 8,
-        "clock": 90,
-        "data": b"hello",
-        "when": datetime(2020, 1, 2, 3, 4, 5),
-        "degrees": math.pi / 2,
-        "short": math.pi,
-        "radians": 2 * math.pi,
-        "explicit": 2 * math.pi,
+        "whole": 5, "real": 5.0, "exponent": 100000.0, "no_exponent": "1e5", "truth": True, "name": "burger",
+        "quoted": "5", "octal": 8, "clock": 90, "data": b"hello", "when": datetime(2020, 1, 2, 3, 4, 5),
+        "degrees": math.pi / 2, "short": math.pi, "radians": 2 * math.pi, "explicit": 2 * math.pi,
         "list": [1, 2.5, "three"],
-    }
+    }  # fmt: skip
 
 
 def test_documents_have_namespaces() -> None:

@@ -37,20 +37,8 @@ def test_tf2s_static_transform_publisher(graph, capsys):
 def test_tfs_static_transform_publisher(graph):
     buffer = TransformListener(graph.node("looker")).buffer
     rosrun(
-        "tf",
-        "static_transform_publisher",
-        "1",
-        "0",
-        "0",
-        "0",
-        "0",
-        "0",
-        "2",
-        "map",
-        "base",
-        "100",
-        graph=graph,
-    ).instance()
+        "tf", "static_transform_publisher", "1", "0", "0", "0", "0", "0", "2", "map", "base", "100", graph=graph,
+    ).instance()  # fmt: skip
     graph.run(2.05)
     edge = buffer.tree.edges["base"]
     assert buffer.tree.lookup("map", "base").transform == (1, 0, 0, 0, 0, 0, 1)
@@ -80,19 +68,9 @@ def test_wrong_arguments_show_the_usage(graph, package, arguments, text):
 def test_tf_echo(graph, capsys):
     rosrun("tf", "static_transform_publisher", *TIP, "base", "laser", "50", graph=graph).instance()
     rosrun(
-        "tf2_ros",
-        "static_transform_publisher",
-        "1",
-        "2",
-        "3",
-        "0",
-        "0",
-        "0",
-        "map",
-        "base",
-        "__name:=s",
+        "tf2_ros", "static_transform_publisher", "1", "2", "3", "0", "0", "0", "map", "base", "__name:=s",
         graph=graph,
-    ).instance()
+    ).instance()  # fmt: skip
     rosrun("tf", "tf_echo", "map", "laser", "2", graph=graph).instance()
     graph.run(1.01)
     out = capsys.readouterr().out

@@ -15,16 +15,10 @@ from rosmini.navigation.amcl.laser import Scan
 from rosmini.navigation.amcl.localizer import FreeSpace, Localizer
 from rosmini.navigation.amcl.parameters import AmclParameters
 
+from .test_node import hall
+
 BEARINGS = np.arange(90) * math.tau / 90
 SMALL = np.diag([0.01, 0.01, 0.01])
-
-
-def hall(origin=(0.0, 0.0, 0.0)):
-    cells = np.zeros((80, 120), dtype=np.int8)
-    cells[[0, -1], :] = cells[:, [0, -1]] = 100
-    cells[30:45, 70:80] = 100
-    cells[60:64, 20:50] = 100
-    return GridMap(cells, 0.05, origin)
 
 
 def localizer(**changes):

@@ -13,24 +13,11 @@ from rosmini.navigation.nav_core import NoValidCommand
 from tests.navigation.local_bench import LocalBench
 
 ROBOT = {
-    "max_vel_x": 0.18,
-    "min_vel_x": 0.08,
-    "max_vel_theta": 1.0,
-    "min_vel_theta": -1.0,
-    "min_in_place_vel_theta": 1.0,
-    "acc_lim_x": 1.0,
-    "acc_lim_y": 0.0,
-    "acc_lim_theta": 0.6,
-    "xy_goal_tolerance": 0.10,
-    "yaw_goal_tolerance": 0.05,
-    "holonomic_robot": False,
-    "meter_scoring": True,
-    "vx_samples": 18,
-    "vtheta_samples": 20,
-    "sim_time": 0.8,
-    "sim_granularity": 0.05,
-    "controller_frequency": 10.0,
-}
+    "max_vel_x": 0.18, "min_vel_x": 0.08, "max_vel_theta": 1.0, "min_vel_theta": -1.0, "min_in_place_vel_theta": 1.0,
+    "acc_lim_x": 1.0, "acc_lim_y": 0.0, "acc_lim_theta": 0.6, "xy_goal_tolerance": 0.10, "yaw_goal_tolerance": 0.05,
+    "holonomic_robot": False, "meter_scoring": True, "vx_samples": 18, "vtheta_samples": 20, "sim_time": 0.8,
+    "sim_granularity": 0.05, "controller_frequency": 10.0,
+}  # fmt: skip
 
 
 @pytest.fixture

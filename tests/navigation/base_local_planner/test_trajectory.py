@@ -14,19 +14,12 @@ def samples():
     raw = np.array([[0.0, 10.0, 2.0], [0.0, 20.0, 4.0], [0.0, -1.0, 1.0]])
     where = np.array([[-1, -1, -1], [-1, -1, -1], [-1, 1, -1]])
     return Samples(
-        critics=("oscillation", "obstacle", "path"),
-        scales=np.array([1.0, 0.0, 1.5]) + np.array([0, 0.1, 0]),
+        critics=("oscillation", "obstacle", "path"), scales=np.array([1.0, 0.0, 1.5]) + np.array([0, 0.1, 0]),
         velocities=np.array([[0.2, 0, 0], [0.2, 0, -0.5], [0.2, 0, 0.5]]),
-        commands=np.array([[0.2, 0, 0], [0.2, 0, -0.5], [0.2, 0, 0.5]]),
-        points=np.zeros((3, 4, 3)),
-        lengths=np.array([4, 3, 4]),
-        raw=raw,
-        where=where,
-        totals=np.array([4.0, 8.0, -1.0]),
-        rejected_by=np.array([-1, -1, 1]),
-        best=0,
-        refused=2,
-    )
+        commands=np.array([[0.2, 0, 0], [0.2, 0, -0.5], [0.2, 0, 0.5]]), points=np.zeros((3, 4, 3)),
+        lengths=np.array([4, 3, 4]), raw=raw, where=where, totals=np.array([4.0, 8.0, -1.0]),
+        rejected_by=np.array([-1, -1, 1]), best=0, refused=2,
+    )  # fmt: skip
 
 
 def test_the_table_has_the_cheapest_and_one_of_each_that_was_rejected(samples):

@@ -14,7 +14,6 @@ from rosmini.core.time import Time
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap import CostmapError
 from rosmini.navigation.costmap_2d.layer import Layer
-from rosmini.navigation.costmap_2d.publisher import Costmap2DPublisher
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 from rosmini.ros.rospy.aliases.point_cloud2 import create_cloud_xyz32
 
@@ -207,19 +206,6 @@ def test_only_what_changed_is_computed_and_published(stage):
     assert kept.max() == 100
     assert set(np.unique(kept)) <= set(published.tolist())
     assert (kept == 100).sum() == (costmap.grid.costs == 254).sum() == 1
-
-
-def test_a_grid_that_nobody_listens_to_is_not_made_into_messages(stage, monkeypatch):
-    made = []
-    inner = Costmap2DPublisher._message
-    monkeypatch.setattr(Costmap2DPublisher, "_message", lambda self: made.append(1) or inner(self))
-    stage.publish_map([[0, 100], [-1, 0]])
-    stage.costmap(plugins=layers("static"), publish_frequency=5.0, **ROBOT)
-    stage.graph.run(1.0)
-    assert made == []
-    messages = heard(stage, "move_base/costmap/costmap", "nav_msgs/OccupancyGrid")
-    stage.graph.run(0.3)
-    assert len(made) >= len(messages) > 0
 
 
 def test_a_late_listener_gets_all_of_it(stage):

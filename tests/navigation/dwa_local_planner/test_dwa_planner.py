@@ -14,23 +14,10 @@ from rosmini.navigation.dwa_local_planner.dwa_planner import CRITICS, DWAPlanner
 
 FOOTPRINT = np.array([(-0.105, -0.105), (-0.105, 0.105), (0.041, 0.105), (0.041, -0.105)])
 BURGER = DWAPlannerParameters(
-    max_vel_trans=0.22,
-    min_vel_trans=0.11,
-    max_vel_x=0.22,
-    min_vel_x=-0.22,
-    max_vel_y=0.0,
-    min_vel_y=0.0,
-    max_vel_theta=2.75,
-    min_vel_theta=1.37,
-    acc_lim_y=0.0,
-    sim_time=1.5,
-    vx_samples=20,
-    vy_samples=1,
-    vth_samples=40,
-    path_distance_bias=32.0,
-    goal_distance_bias=20.0,
-    occdist_scale=0.02,
-)
+    max_vel_trans=0.22, min_vel_trans=0.11, max_vel_x=0.22, min_vel_x=-0.22, max_vel_y=0.0, min_vel_y=0.0,
+    max_vel_theta=2.75, min_vel_theta=1.37, acc_lim_y=0.0, sim_time=1.5, vx_samples=20, vy_samples=1, vth_samples=40,
+    path_distance_bias=32.0, goal_distance_bias=20.0, occdist_scale=0.02,
+)  # fmt: skip
 
 
 def straight(length=2.0):

@@ -91,6 +91,7 @@ def with_settings(text):
     )
 
 
+@pytest.mark.nightly  # chapter 72 does it at each commit
 def test_explore_lite_ends_by_itself(graph, tmp_path):
     lite = '<include file="$(find explore_lite)/launch/explore.launch"/>'
     trial = Trial(graph, tmp_path, with_settings(STACK + lite))

@@ -147,15 +147,8 @@ def test_its_topics_and_services(graph):
     laser = Laser(graph, pub_odometry="true", output_timing="true")
     node = graph.nodes["/hector_mapping"]
     topics = {
-        "map",
-        "map_metadata",
-        "poseupdate",
-        "rosout",
-        "scanmatch_odom",
-        "slam_cloud",
-        "slam_out_pose",
-        "tf",
-    }
+        "map", "map_metadata", "poseupdate", "rosout", "scanmatch_odom", "slam_cloud", "slam_out_pose", "tf",
+    }  # fmt: skip
     assert set(node.publications) == {f"/{name}" for name in topics}
     assert set(node.subscriptions) == {"/initialpose", "/scan", "/syscommand", "/tf", "/tf_static"}
     services = {"dynamic_map", "pause_mapping", "reset_map", "restart_mapping_with_new_pose"}

@@ -35,6 +35,7 @@ ROOM = {
     "open_rviz": False,
 }
 IN_A_WALL = (2.44, 1.3, 0.0)
+NO_PLAN = (Status.ABORTED, "Failed to find a valid plan. Even after executing recovery behaviors.")
 
 
 class Straight(BaseGlobalPlanner, plugin="test_node/Straight"):
@@ -166,17 +167,9 @@ def test_its_topics_and_services_are_those_of_the_real_one(graph):
         ),
     }
     assert set(node.subscriptions) == {
-        "/map",
-        "/move_base/cancel",
-        "/move_base/global_costmap/footprint",
-        "/move_base/goal",
-        "/move_base/local_costmap/footprint",
-        "/move_base_simple/goal",
-        "/odom",
-        "/scan",
-        "/tf",
-        "/tf_static",
-    }
+        "/map", "/move_base/cancel", "/move_base/global_costmap/footprint", "/move_base/goal",
+        "/move_base/local_costmap/footprint", "/move_base_simple/goal", "/odom", "/scan", "/tf", "/tf_static",
+    }  # fmt: skip
     assert set(node.services) == {
         "/move_base/NavfnROS/make_plan",
         "/move_base/clear_costmaps",
@@ -250,10 +243,7 @@ def test_goals_that_are_none(graph):
     ):
         before = len(rig.said())
         state, text = go(rig, target)
-        assert (state, text) == (
-            Status.ABORTED,
-            "Failed to find a valid plan. Even after executing recovery behaviors.",
-        )
+        assert (state, text) == NO_PLAN
         assert re.search(why, rig.said()[before:]), why
 
 
@@ -320,10 +310,7 @@ def test_a_planner_that_never_returns(graph):
         rig, base_global_planner="test_node/Endless", recovery_behavior_enabled=False, planner_patience=2.0
     )
     state, text = go(rig, goal(1.0, 0.0), 30.0)
-    assert (state, text) == (
-        Status.ABORTED,
-        "Failed to find a valid plan. Even after executing recovery behaviors.",
-    )
+    assert (state, text) == NO_PLAN
     assert (
         "make_plan() of the global planner test_node/Endless did not return within 2 s"
         in rig.move_base.problem
@@ -420,10 +407,7 @@ def test_a_robot_that_is_walled_in_says_so_and_goes_on_when_it_is_freed(graph):
     graph.run(1.0)
     target = goal(1.5, 0.0)
     state, text = go(rig, target)
-    assert (state, text) == (
-        Status.ABORTED,
-        "Failed to find a valid plan. Even after executing recovery behaviors.",
-    )
+    assert (state, text) == NO_PLAN
     order = ["conservative_reset", "rotate_recovery", "aggressive_reset", "rotate_recovery"]
     assert [each.recovery_behavior_name for each in statuses] == order
     said = str(rig.move_base.explain())

@@ -168,15 +168,6 @@ def test_a_robot_that_meets_a_wall_aslant_turns_along_it():
     assert robot.pose[1] > 0.2
 
 
-def test_a_corner_holds_the_robot():
-    engine = make("arena", (1.5, 1.5, math.pi / 4))
-    robot = engine.robots["burger"]
-    engine.command("burger", 0.22, 0.0)
-    engine.advance(30.0)
-    assert robot.corners().max() < 2.0 + 1e-6
-    assert robot.touching
-
-
 def test_no_wall_is_too_thin_and_no_way_too_long():
     # whatever it does for an hour, it stays within four walls without thickness
     engine = make(walls((-1, -1, 1, -1), (1, -1, 1, 1), (1, 1, -1, 1), (-1, 1, -1, -1)))
@@ -219,17 +210,6 @@ def test_a_light_crate_is_pushed_at_the_robots_speed_and_stays_where_it_is_left(
     assert rest[0] - x == pytest.approx(RAMP, abs=5e-3)
     engine.advance(20.0)
     assert engine.obstacles()[0].pose == rest
-
-
-def test_a_heavy_crate_stays_and_the_wheels_slip():
-    # the wheels' grip, 0.7 * 1 kg, is less than the drag of 0.5 * 5 kg
-    engine = make(crate(5.0))
-    robot = engine.robots["burger"]
-    engine.command("burger", 0.2, 0.0)
-    engine.advance(20.0)
-    assert engine.obstacles()[0].pose == pytest.approx((0.5, 0.0, 0.0), abs=2e-3)
-    assert robot.pose[0] == pytest.approx(0.4 - FRONT, abs=2e-3)
-    assert robot.left_distance == pytest.approx(0.2 * 20 - RAMP)
 
 
 def test_a_crate_against_a_wall_stops_the_robot():

@@ -17,15 +17,9 @@ from rosmini.sim.models import BURGER, WAFFLE, ModelError, RobotModel
 from rosmini.sim.world import Box, Obstacle, World
 
 OMNI = RobotModel(
-    name="omni",
-    drive="holonomic",
-    mass=2.0,
-    inertia=0.02,
-    footprint=((-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)),
-    height=0.3,
-    max_linear=1.0,
-    max_angular=3.0,
-)
+    name="omni", drive="holonomic", mass=2.0, inertia=0.02,
+    footprint=((-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)), height=0.3, max_linear=1.0, max_angular=3.0,
+)  # fmt: skip
 SLOW = replace(OMNI, name="slow", linear_acceleration=0.5, angular_acceleration=2.0)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -163,27 +162,6 @@ def test_who_walks_is_seen_where_it_was():
     assert at_once == pytest.approx(90.0, abs=0.6)
     # the beam at 93 degrees looked 52 ms ago, when it was 52 mm farther to the left
     assert seen == pytest.approx(90.0 + math.degrees(math.atan(0.052)), abs=0.6)
-
-
-def test_a_saved_engine_sweeps_on_to_the_last_bit():
-    engine = engine_of(noise=1.0)
-    engine.add("r", BURGER, (0.0, 0.0, 0.0))
-    engine.add("other", replace(BURGER), (0.8, 0.3, 1.0))
-    for name in ("r", "other"):
-        engine.command(name, 0.2, 1.0)
-    engine.advance(0.95)
-    engine.command("r", 0.1, -2.0)
-    engine.advance(1.0)
-    state = pickle.loads(pickle.dumps(engine.state()))
-    engine.advance(1.1)
-    ranges, _ = engine.sweep("r", 0.2 / 360)
-    engine.restore(state)
-    engine.advance(1.1)
-    assert engine.sweep("r", 0.2 / 360)[0].tobytes() == ranges.tobytes()
-    elsewhere = engine_of(noise=1.0)
-    elsewhere.restore(state)
-    elsewhere.advance(1.1)
-    assert elsewhere.sweep("r", 0.2 / 360)[0].tobytes() == ranges.tobytes()
 
 
 def test_a_robot_that_is_put_elsewhere_sees_all_from_there():

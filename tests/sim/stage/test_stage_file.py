@@ -563,19 +563,9 @@ def test_a_bitmap_and_blocks_make_one_body(tmp_path: Path, world):
 def test_colours_are_those_of_x11():
     table = Path("/etc/X11/rgb.txt")
     names = [
-        "red",
-        "gray30",
-        "grey100",
-        "dark blue",
-        "DarkSlateGray",
-        "green",
-        "purple",
-        "gray",
-        "maroon",
-        "red3",
-        "blue4",
-        "light goldenrod",
-    ]
+        "red", "gray30", "grey100", "dark blue", "DarkSlateGray", "green", "purple", "gray", "maroon", "red3",
+        "blue4", "light goldenrod",
+    ]  # fmt: skip
     assert [colour(name) for name in names] == [
         "#ff0000", "#4c4c4c", "#ffffff", "#00008b", "#2f4f4f", "#00ff00", "#a020f0", "#bebebe", "#b03060", "#cd0000",
         "#00008b", "#eedd82",

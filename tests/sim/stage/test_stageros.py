@@ -606,15 +606,8 @@ def test_rosmini_run(tmp_path: Path):
     (tmp_path / "stopper.py").write_text(SCRIPT, encoding="utf-8")
     world = "package://stage_ros/world/willow-erratic.world"
     command = [
-        sys.executable,
-        "-m",
-        "rosmini",
-        "run",
-        "stage_ros/stageros",
-        world,
-        "+",
-        str(tmp_path / "stopper.py"),
-    ]
+        sys.executable, "-m", "rosmini", "run", "stage_ros/stageros", world, "+", str(tmp_path / "stopper.py"),
+    ]  # fmt: skip
     done = run(command)
     assert "stopped at 2.8" in done.stdout, done.stdout + done.stderr
 

@@ -39,15 +39,9 @@ def test_topics_are_listed_shown_and_measured(bench: Start) -> None:
     info = lines(gz, "topic", "-i", stats)
     server, client = FIRST_PORT, FIRST_PORT + 1
     assert info == [
-        "Type: gazebo.msgs.WorldStatistics",
-        "",
-        "Publishers:",
-        f"\t127.0.0.1:{server}",
-        "",
-        "Subscribers:",
-        f"\t127.0.0.1:{client}",
-        "",
-    ]
+        "Type: gazebo.msgs.WorldStatistics", "", "Publishers:", f"\t127.0.0.1:{server}", "", "Subscribers:",
+        f"\t127.0.0.1:{client}", "",
+    ]  # fmt: skip
     assert lines(gz, "topic", "-z", "~/world_stats", "-d", 2) == ["Hz:   5.00"]
     with pytest.raises(GazeboError, match="did you mean"):
         gz.run("topic", "-i", "/gazebo/empty/world_stat")
