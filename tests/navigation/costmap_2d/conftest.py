@@ -11,6 +11,8 @@ from rosmini.core.tf.rigid import from_yaw
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 
+ROBOT = {"robot_radius": 0.1, "footprint_padding": 0.0}
+WINDOW = {"global_frame": "odom", "rolling_window": True, "width": 4, "height": 4, "resolution": 0.1, **ROBOT}
 SOURCE = {"data_type": "LaserScan", "topic": "scan", "marking": True, "clearing": True}
 
 

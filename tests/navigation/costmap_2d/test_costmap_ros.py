@@ -17,17 +17,8 @@ from rosmini.navigation.costmap_2d.layer import Layer
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 from rosmini.ros.rospy.aliases.point_cloud2 import create_cloud_xyz32
 
-from .conftest import SOURCE, layers
+from .conftest import ROBOT, SOURCE, WINDOW, layers
 
-ROBOT = {"robot_radius": 0.1, "footprint_padding": 0.0}
-ROLLING = {
-    "global_frame": "odom",
-    "rolling_window": True,
-    "width": 4,
-    "height": 4,
-    "resolution": 0.1,
-    **ROBOT,
-}
 BOTH = {"observation_sources": "scan", "scan": SOURCE}
 
 
@@ -70,7 +61,7 @@ def test_unknown_cells_of_a_map(stage, costmap_tracks, layer_tracks):
 
 
 def test_a_scan_marks_and_clears(stage):
-    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **ROLLING)
+    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **WINDOW)
     stage.pose = (0.0, 0.0, 0.0)
     stage.scan([1.0] + [math.inf] * 3)
     there = costmap.grid.world_to_map(1.0, 0.0)
@@ -85,7 +76,7 @@ def test_a_scan_marks_and_clears(stage):
 def test_a_beam_that_met_nothing_clears_if_inf_is_valid(stage, is_valid):
     source = {**SOURCE, "inf_is_valid": is_valid, "raytrace_range": 3.0}
     costmap = stage.costmap(
-        plugins=layers("obstacles"), obstacles={"observation_sources": "scan", "scan": source}, **ROLLING
+        plugins=layers("obstacles"), obstacles={"observation_sources": "scan", "scan": source}, **WINDOW
     )
     stage.scan([1.0] * 4)
     stage.scan([math.inf] * 4)
@@ -95,7 +86,7 @@ def test_a_beam_that_met_nothing_clears_if_inf_is_valid(stage, is_valid):
 def test_what_is_too_far_is_no_obstacle_and_clears_only_so_far(stage):
     source = {**SOURCE, "obstacle_range": 0.8, "raytrace_range": 0.5}
     costmap = stage.costmap(
-        plugins=layers("obstacles"), obstacles={"observation_sources": "scan", "scan": source}, **ROLLING
+        plugins=layers("obstacles"), obstacles={"observation_sources": "scan", "scan": source}, **WINDOW
     )
     stage.scan([0.7] * 4)
     assert (costmap.grid.costs == 254).sum() == 4
@@ -104,7 +95,7 @@ def test_what_is_too_far_is_no_obstacle_and_clears_only_so_far(stage):
 
 
 def test_a_scan_waits_for_its_transform(stage):
-    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **ROLLING)
+    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **WINDOW)
     stage.scan([1.0] * 4, frame="laser")
     assert not (costmap.grid.costs == 254).any()
     stage.fixed.send("base_link", "laser", (0.1, 0.0, 0.0))
@@ -123,7 +114,7 @@ def test_a_scan_waits_for_its_transform(stage):
     ],
 )
 def test_a_scan_of_nonsense_marks_nothing_and_hangs_nothing(stage, wrong):
-    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **ROLLING)
+    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **WINDOW)
     stage.scan(**{"ranges": [1.0] * 4, **wrong})
     assert not (costmap.grid.costs == 254).any()
     stage.scan([1.0] * 4)
@@ -134,7 +125,7 @@ def test_a_scan_of_nonsense_marks_nothing_and_hangs_nothing(stage, wrong):
 def test_clouds_mark_between_the_heights(stage, kind):
     source = {"data_type": kind, "topic": "cloud", "min_obstacle_height": 0.1, "max_obstacle_height": 1.0}
     costmap = stage.costmap(
-        plugins=layers("obstacles"), obstacles={"observation_sources": "cloud", "cloud": source}, **ROLLING
+        plugins=layers("obstacles"), obstacles={"observation_sources": "cloud", "cloud": source}, **WINDOW
     )
     publisher = stage.robot.publisher("cloud", message_class(f"sensor_msgs/{kind}"))
     stage.graph.run(0.1)
@@ -152,7 +143,7 @@ def test_clouds_mark_between_the_heights(stage, kind):
 
 
 def test_the_window_rolls_with_the_robot_and_obstacles_stay_where_they_are(stage):
-    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **ROLLING)
+    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **WINDOW)
     stage.pose = (0.0, 0.0, 0.0)
     stage.scan([1.0] + [math.inf] * 3)
     stage.pose = (0.55, 0.25, 0.0)
@@ -169,7 +160,7 @@ def test_updates_in_the_window_equal_a_full_recompute(stage):
         plugins=layers("obstacles", "inflation"),
         obstacles=BOTH,
         inflation={"inflation_radius": 0.37, "cost_scaling_factor": 3.0},
-        **{**ROLLING, "update_frequency": 0.0},
+        **{**WINDOW, "update_frequency": 0.0},
     )
     for _ in range(12):
         stage.pose = tuple(stage.pose + rng.uniform(-0.3, 0.3, 3))
@@ -220,7 +211,7 @@ def test_a_late_listener_gets_all_of_it(stage):
 
 @pytest.mark.parametrize(("update", "publish", "expected"), [(10.0, 10.0, 10), (10.0, 2.0, 2), (5.0, 0.0, 0)])
 def test_rates_are_those_of_graph_time(stage, update, publish, expected):
-    parameters = {**ROLLING, "update_frequency": update, "publish_frequency": publish}
+    parameters = {**WINDOW, "update_frequency": update, "publish_frequency": publish}
     stage.costmap(plugins=layers("obstacles"), always_send_full_costmap=True, **parameters)
     messages = heard(stage, "move_base/costmap/costmap", "nav_msgs/OccupancyGrid")
     stage.graph.run(0.35)
@@ -235,7 +226,7 @@ def test_the_published_footprint_moves_with_the_robot_and_a_topic_changes_it(sta
         plugins=layers("obstacles"),
         footprint="[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1], [-0.1, 0.1]]",
         footprint_topic="/shape",
-        **{**ROLLING, "footprint_padding": 0.02},
+        **{**WINDOW, "footprint_padding": 0.02},
     )
     stage.pose = (1.0, 2.0, math.pi / 2)
     stage.graph.run(0.5)
@@ -289,7 +280,7 @@ def test_without_a_footprint_the_radius_is_that_of_the_real_one(stage):
 )
 def test_wrong_parameters_are_refused_by_name(stage, parameters, error, said):
     with pytest.raises(error, match=said):
-        stage.costmap(**{"plugins": layers("obstacles"), **ROLLING, **parameters})
+        stage.costmap(**{"plugins": layers("obstacles"), **WINDOW, **parameters})
 
 
 def test_unknown_names_are_warned_of_with_the_nearest(stage, capfd):
@@ -297,7 +288,7 @@ def test_unknown_names_are_warned_of_with_the_nearest(stage, capfd):
         plugins=layers("obstacles", "inflation"),
         updat_frequency=3.0,
         inflation={"inflation_radios": 0.3},
-        **ROLLING,
+        **WINDOW,
     )
     said = log(capfd)
     assert "did you mean ~costmap/update_frequency" in said
@@ -330,7 +321,7 @@ def test_what_changes_while_it_runs(stage):
 
 
 def test_a_stopped_costmap_hears_nothing_until_it_is_started(stage):
-    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **ROLLING)
+    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **WINDOW)
     costmap.stop()
     stage.scan([1.0] * 4)
     assert costmap.stopped
@@ -345,7 +336,7 @@ def test_a_stopped_costmap_hears_nothing_until_it_is_started(stage):
 def test_it_is_current_while_its_sources_are(stage, capfd):
     source = {**SOURCE, "expected_update_rate": 0.5}
     costmap = stage.costmap(
-        plugins=layers("obstacles"), obstacles={"observation_sources": "scan", "scan": source}, **ROLLING
+        plugins=layers("obstacles"), obstacles={"observation_sources": "scan", "scan": source}, **WINDOW
     )
     stage.scan([1.0] * 4)
     assert costmap.is_current
@@ -355,7 +346,7 @@ def test_it_is_current_while_its_sources_are(stage, capfd):
 
 
 def test_poses_and_why_there_is_none(stage):
-    costmap = stage.costmap(plugins=layers("obstacles"), transform_tolerance=0.2, **ROLLING)
+    costmap = stage.costmap(plugins=layers("obstacles"), transform_tolerance=0.2, **WINDOW)
     stage.pose = (0.5, -0.25, 0.5)
     stage.graph.run(0.2)
     pose = costmap.robot_pose()
@@ -390,7 +381,7 @@ def test_a_layer_of_ones_own_and_one_that_fails(stage, capfd):
             raise AssertionError
 
     plugins = [{"name": name, "type": f"test_costmap_ros::{name.title()}"} for name in ("broken", "puddle")]
-    costmap = stage.costmap(plugins=plugins, **ROLLING)
+    costmap = stage.costmap(plugins=plugins, **WINDOW)
     assert costmap.grid.cost(*costmap.grid.world_to_map(1.0, 1.0)) == 77
     assert not costmap.is_current
     assert "the layer broken (Broken) failed" in log(capfd)
@@ -416,7 +407,7 @@ def test_a_cell_is_explained_layer_by_layer(stage):
 
 
 def test_an_area_can_be_cleared(stage):
-    costmap = stage.costmap(plugins=layers("obstacles", "inflation"), obstacles=BOTH, **ROLLING)
+    costmap = stage.costmap(plugins=layers("obstacles", "inflation"), obstacles=BOTH, **WINDOW)
     stage.pose = (0.0, 0.0, 0.0)
     stage.scan([1.0] * 4)
     stage.graph.run(0.2)
@@ -432,7 +423,7 @@ def test_an_area_can_be_cleared(stage):
 
 
 def test_a_polygon_gets_a_cost(stage):
-    costmap = stage.costmap(plugins=layers("obstacles"), **{**ROLLING, "update_frequency": 0.0})
+    costmap = stage.costmap(plugins=layers("obstacles"), **{**WINDOW, "update_frequency": 0.0})
     costmap.update()
     square = [(0.0, 0.0), (0.35, 0.0), (0.35, 0.35), (0.0, 0.35)]
     assert costmap.set_costs(square, 200)
@@ -451,7 +442,7 @@ def test_an_outline_that_crosses_itself_is_warned_of(stage, capfd):
 
 
 def test_it_survives_a_gap_of_tf_and_a_scan_from_the_past(stage):
-    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **ROLLING)
+    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **WINDOW)
     stage.tells.shutdown()
     stage.scan([1.0] * 4, seconds=3.0)
     assert not (costmap.grid.costs == 254).any()
@@ -472,7 +463,7 @@ def test_it_shows_itself_with_its_own_numbers(stage):
         plugins=layers("obstacles", "inflation"),
         inflation={"inflation_radius": 0.4},
         obstacles=BOTH,
-        **ROLLING,
+        **WINDOW,
     )
     stage.scan([1.0] * 8)
     assert "footprint of 16 points" in costmap.show().text

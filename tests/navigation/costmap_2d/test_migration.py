@@ -56,20 +56,6 @@ publish_frequency: 0.0
 static_map: true
 rolling_window: false
 """
-STAGE_LOCAL = """
-publish_voxel_map: true
-global_frame: odom
-robot_base_frame: base_link
-update_frequency: 5.0
-publish_frequency: 2.0
-static_map: false
-rolling_window: true
-width: 6.0
-height: 6.0
-resolution: 0.025
-origin_x: 0.0
-origin_y: 0.0
-"""
 
 
 def tree(costmap):
@@ -127,12 +113,6 @@ def test_navigation_stage_global_costmap(stage, capfd):
     settings = costmap.layers[1].sources[0].settings
     assert (settings.min_obstacle_height, settings.max_obstacle_height) == (0.08, 0.4)
     assert settings.expected_update_rate == 0.4
-
-
-def test_navigation_stage_local_costmap(stage):
-    costmap = made(stage, STAGE_COMMON, STAGE_LOCAL)
-    assert [name for name, _ in tree(costmap)] == ["obstacle_layer", "inflation_layer"]
-    assert (costmap.grid.width, costmap.grid.resolution) == (240, 0.025)
 
 
 def test_with_plugins_the_old_names_are_unused_and_said_so(stage, capfd):

@@ -8,17 +8,8 @@ import pytest
 
 from rosmini.msgs import message_class
 
-from .conftest import SOURCE, layers
+from .conftest import SOURCE, WINDOW, layers
 
-WINDOW = {
-    "global_frame": "odom",
-    "rolling_window": True,
-    "width": 4,
-    "height": 4,
-    "resolution": 0.1,
-    "robot_radius": 0.1,
-    "footprint_padding": 0.0,
-}
 NOTHING = [math.inf] * 3
 
 

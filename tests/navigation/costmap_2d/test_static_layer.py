@@ -9,11 +9,9 @@ import pytest
 
 from rosmini.msgs import message_class
 
-from .conftest import SOURCE, layers, map_message
+from .conftest import ROBOT, SOURCE, WINDOW, layers, map_message
 
-ROBOT = {"robot_radius": 0.1, "footprint_padding": 0.0}
 SCAN = {"observation_sources": "scan", "scan": SOURCE}
-WINDOW = {"global_frame": "odom", "rolling_window": True, "width": 4, "height": 4, "resolution": 0.1, **ROBOT}
 
 
 def lethal(costmap):

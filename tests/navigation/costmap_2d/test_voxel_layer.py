@@ -9,7 +9,7 @@ import pytest
 
 from rosmini.msgs import message_class
 
-from .conftest import SOURCE, layers
+from .conftest import SOURCE, WINDOW, layers
 
 VOXELS = {
     "observation_sources": "scan cloud",
@@ -20,7 +20,6 @@ VOXELS = {
     "z_voxels": 8,
     "publish_voxel_map": True,
 }
-ROLLING = {"global_frame": "odom", "rolling_window": True, "width": 4, "height": 4, "resolution": 0.1}
 
 
 def put(stage, *points):
@@ -38,7 +37,7 @@ def put(stage, *points):
 @pytest.fixture
 def costmap(stage):
     stage.pose = (0.02, 0.03, 0.0)
-    return stage.costmap(plugins=layers("voxels"), voxels=VOXELS, **ROLLING)
+    return stage.costmap(plugins=layers("voxels"), voxels=VOXELS, **WINDOW)
 
 
 def test_a_ray_below_a_table_does_not_clear_the_table(stage, costmap):

@@ -11,7 +11,7 @@ from rosmini.core.dynamic_reconfigure import Client
 from rosmini.core.errors import ParameterError
 from rosmini.navigation.global_planner import GlobalAStar, GlobalDijkstra
 from rosmini.navigation.global_planner.plugin import GlobalPlanner, GlobalPlannerConfig
-from rosmini.navigation.nav_core import BaseGlobalPlanner, NoPath
+from rosmini.navigation.nav_core import NoPath
 
 from ..fake_costmap import planner, points, pose
 
@@ -20,10 +20,6 @@ def room() -> np.ndarray:
     costs = np.zeros((30, 40), np.uint8)
     costs[:22, 18:20] = 254
     return costs
-
-
-def test_it_is_found_by_its_name():
-    assert BaseGlobalPlanner.named("global_planner/GlobalPlanner") is GlobalPlanner
 
 
 def test_names_types_defaults_and_ranges_are_those_of_the_real_cfg():

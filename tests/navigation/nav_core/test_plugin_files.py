@@ -5,7 +5,7 @@ import pytest
 
 from rosmini.core.plugins import PluginError
 from rosmini.navigation.nav_core import BaseGlobalPlanner, RecoveryBehavior
-from rosmini.navigation.nav_core.plugin_files import create, short_name
+from rosmini.navigation.nav_core.plugin_files import create
 
 PACKAGE = """<package format="2">
   <name>my_pkg</name><version>0.1.0</version><description>d</description>
@@ -116,10 +116,6 @@ def test_an_unknown_name(package):
         PluginError, match=r"there is no RecoveryBehavior .* did you mean clear_costmap_recovery/Cl"
     ):
         create(RecoveryBehavior, "clear_costmap_recovery/ClearCostmapRecoveri")
-
-
-def test_short_names():
-    assert short_name("a/b/C") == "C"
 
 
 @pytest.mark.parametrize("broken", [PACKAGE.replace("a@b.invalid", "nobody"), PACKAGE])

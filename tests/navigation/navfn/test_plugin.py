@@ -7,7 +7,7 @@ import pytest
 
 from rosmini.core.errors import ParameterError
 from rosmini.msgs import service_class
-from rosmini.navigation.nav_core import BaseGlobalPlanner, GoalBlocked, OutsideMap, PlanningFailure
+from rosmini.navigation.nav_core import GoalBlocked, OutsideMap, PlanningFailure
 from rosmini.navigation.navfn.plugin import NavfnROS
 
 from ..fake_costmap import planner, points, pose
@@ -18,10 +18,6 @@ def room() -> np.ndarray:
     costs = np.zeros((30, 40), np.uint8)
     costs[:22, 18:20] = 254
     return costs
-
-
-def test_it_is_found_by_its_name():
-    assert BaseGlobalPlanner.named("navfn/NavfnROS") is NavfnROS
 
 
 def test_a_plan_begins_at_the_robot_ends_at_the_goal_and_is_published():
