@@ -51,12 +51,6 @@ class Bell(Device):
         self.closed += 1
 
 
-@pytest.fixture
-def graph():
-    with Graph() as made:
-        yield made
-
-
 def make(graph: Graph, **options) -> Host:
     engine = Engine(World("empty"), lambda _: np.random.default_rng(0), noise=0.0)
     return Host(graph.node("world"), engine, **options)

@@ -73,12 +73,6 @@ class FakeRobot:
 
 
 @pytest.fixture
-def graph():
-    with Graph() as graph:
-        yield graph
-
-
-@pytest.fixture
 def recorder(graph):
     return Recorder(graph, world=WORLD, model=ROBOT)
 

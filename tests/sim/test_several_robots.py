@@ -30,12 +30,6 @@ TOPICS = {
 }
 
 
-@pytest.fixture
-def graph():
-    with Graph() as made:
-        yield made
-
-
 def start(graph: Graph, world: World | str = "empty", **parameters: Any) -> Simulator:
     node = graph.node("simulator")
     for name, value in {"noise": 0.0, "cmd_vel_timeout": 0.0, **parameters}.items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -40,12 +40,6 @@ def gzserver(graph: Graph, _: Path) -> GazeboServer:
     server.spawn(urdf(), "robot")
     server.spawn(box(), "crate", (1.0, 0.0, 0.0))
     return server
-
-
-@pytest.fixture
-def graph() -> Iterator[Graph]:
-    with Graph() as made:
-        yield made
 
 
 @pytest.fixture(params=[simulator, stageros, gzserver])

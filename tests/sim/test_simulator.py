@@ -55,12 +55,6 @@ class Driver:
             self.graph.run(0.1)
 
 
-@pytest.fixture
-def graph():
-    with Graph() as made:
-        yield made
-
-
 def start(graph: Graph, **options: Any) -> Simulator:
     """A simulator without noise, unless asked for."""
     parameters = {"noise": 0.0, **options.pop("parameters", {})}

@@ -63,12 +63,6 @@ class Bench:
         return float(normalize_angle(self.simulator.odometry[2] - turned))
 
 
-@pytest.fixture
-def graph():
-    with Graph() as made:
-        yield made
-
-
 def test_the_heading_of_odometry_is_the_one_that_the_imu_tells(graph):
     bench = Bench(graph)
     for v, w in ((0.2, 0.7), (-0.1, -2.5), (0.0, 0.0), (0.1, 2.8)):

@@ -2,7 +2,6 @@ from types import SimpleNamespace
 
 import pytest
 
-from rosmini.core.graph import Graph
 from rosmini.core.time import Time
 from rosmini.navigation.costmap_2d import Costmap2D
 from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, pose_stamped
@@ -30,12 +29,6 @@ class FakeCostmap:
 
     def update(self):
         self.updates += 1
-
-
-@pytest.fixture
-def node():
-    with Graph() as graph:
-        yield graph.node("move_base")
 
 
 def made(node, name="reset", **parameters):

@@ -1,17 +1,10 @@
 import pytest
 
 from rosmini import rosrun
-from rosmini.core.graph import Graph
 from rosmini.core.tf import TransformBroadcaster, TransformListener
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.msgs.geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from rosmini.msgs.nav_msgs.msg import Odometry
-
-
-@pytest.fixture
-def graph():
-    with Graph() as graph:
-        yield graph
 
 
 @pytest.fixture

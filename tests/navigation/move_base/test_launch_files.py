@@ -5,18 +5,11 @@ import io
 import pytest
 
 from rosmini.core.actionlib import SimpleActionClient, Status
-from rosmini.core.graph import Graph
 from rosmini.core.packages import assets_dir
 from rosmini.core.time import Time
 from rosmini.msgs.move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from rosmini.navigation.nav_core import pose_stamped
 from rosmini.ros.launch import roslaunch
-
-
-@pytest.fixture
-def graph():
-    with Graph() as graph:
-        yield graph
 
 
 def launch(graph, *files, seconds=3.0):

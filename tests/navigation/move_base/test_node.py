@@ -5,11 +5,8 @@ import math
 import re
 from types import SimpleNamespace
 
-import pytest
-
 from rosmini.core.actionlib import SimpleActionClient, Status
 from rosmini.core.errors import ServiceException
-from rosmini.core.graph import Graph
 from rosmini.core.packages import assets_dir
 from rosmini.core.time import Time
 from rosmini.msgs.dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter, StrParameter
@@ -76,12 +73,6 @@ class Stubborn(BaseLocalPlanner, plugin="test_node/Stubborn"):
 
     def is_goal_reached(self):
         return Stubborn.asked > 12
-
-
-@pytest.fixture
-def graph():
-    with Graph() as graph:
-        yield graph
 
 
 def start(graph, *, careful=False):

@@ -1,8 +1,6 @@
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.core.graph import Graph
 from rosmini.navigation.move_base.planning import PlannerLane, offsets_within
 from rosmini.navigation.move_base.state_machine import Limits, State, StateMachine
 
@@ -27,12 +25,6 @@ def test_no_offset_is_farther_than_the_tolerance(tolerance, resolution):
     found = list(offsets_within(tolerance, resolution))
     assert all(max(abs(x), abs(y)) <= tolerance + 1e-6 for x, y in found)
     assert len(found) == len(set(found))
-
-
-@pytest.fixture
-def node():
-    with Graph() as graph:
-        yield graph.node("move_base")
 
 
 class Rig:

@@ -2,7 +2,6 @@ import sys
 
 import pytest
 
-from rosmini.core.graph import Graph
 from rosmini.navigation.move_base.plugin_calls import PluginFault, call
 from rosmini.navigation.nav_core import NoPath
 
@@ -40,12 +39,6 @@ class Mine:
     def sleeps(self, seconds):
         self.node.sleep(seconds)
         return "awake"
-
-
-@pytest.fixture
-def node():
-    with Graph() as graph:
-        yield graph.node("move_base")
 
 
 def asked(node, method, *arguments, budget=2.0):

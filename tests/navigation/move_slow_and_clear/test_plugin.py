@@ -3,7 +3,6 @@ from dataclasses import dataclass
 import pytest
 
 from rosmini.core.dynamic_reconfigure import Server
-from rosmini.core.graph import Graph
 from rosmini.core.parameters import Parameters, parameter
 from rosmini.navigation.nav_core import RecoveryBehavior
 from tests.navigation.clear_costmap_recovery.test_plugin import FakeCostmap
@@ -13,12 +12,6 @@ from tests.navigation.clear_costmap_recovery.test_plugin import FakeCostmap
 class Limits(Parameters):
     max_vel_trans: float = parameter(0.55, "speed")
     max_vel_theta: float = parameter(1.2, "turn")
-
-
-@pytest.fixture
-def node():
-    with Graph() as graph:
-        yield graph.node("move_base")
 
 
 @pytest.fixture

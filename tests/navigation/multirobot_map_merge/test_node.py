@@ -7,7 +7,6 @@ import pytest
 
 from rosmini import rosrun
 from rosmini.core.errors import ParameterError
-from rosmini.core.graph import Graph
 from rosmini.core.maps import GridMap
 from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class
@@ -16,12 +15,6 @@ from rosmini.sim.worlds import to_map, world
 
 GRID = message_class("nav_msgs/OccupancyGrid")
 RATES = ("_merging_rate:=2.0", "_discovery_rate:=2.0")
-
-
-@pytest.fixture
-def graph():
-    with Graph() as graph:
-        yield graph
 
 
 def place(graph, robot, x, y, yaw=0.0):

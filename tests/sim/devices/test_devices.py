@@ -62,12 +62,6 @@ class Stand:
         publisher.publish(message)
 
 
-@pytest.fixture
-def graph():
-    with Graph() as made:
-        yield made
-
-
 # -- drives ----------------------------------------------------------------------------------------------------------
 
 

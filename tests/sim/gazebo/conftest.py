@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -118,12 +118,6 @@ class Bench:
     def pose(self, name: str) -> tuple[float, float, float]:
         """Where a model is."""
         return self.server.truth(name)
-
-
-@pytest.fixture
-def graph() -> Iterator[Graph]:
-    with Graph() as made:
-        yield made
 
 
 @pytest.fixture

@@ -101,12 +101,6 @@ def test_periods_and_feedbacks_are_checked():
 # -- the node --------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture
-def graph():
-    with Graph() as made:
-        yield made
-
-
 class Ears:
     """What comes out of a smoother, and the way in."""
 

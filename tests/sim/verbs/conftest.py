@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from ..gazebo.conftest import bench, graph
+from ..gazebo.conftest import bench
 
-__all__ = ["bench", "graph"]
+__all__ = ["bench"]
