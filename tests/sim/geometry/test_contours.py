@@ -136,37 +136,12 @@ def test_the_sides_close_to_the_bit_and_are_never_more_than_the_corners_of_the_c
     assert (np.hypot(*(segments[:, 2:] - segments[:, :2]).T) > 0.01).all()
 
 
-def test_a_lone_cell_stays_a_square():
-    assert trace([[True]], 0.05, (1.0, 2.0, 0.0)) == pytest.approx(
-        np.array([(1.05, 2.0, 1.05, 2.05), (1.05, 2.05, 1, 2.05), (1, 2.05, 1, 2), (1, 2, 1.05, 2)])
-    )
-
-
-def test_a_block_with_a_hole_is_two_rectangles():
-    image = np.ones((40, 60), bool)
-    image[10:20, 15:45] = False
-    outer, hole = sorted(outlines(image), key=lambda loop: loop[:, 0].min())
-    assert sorted(map(tuple, outer)) == [(0, 0), (0, 40), (60, 0), (60, 40)]
-    assert sorted(map(tuple, hole)) == [(15, 10), (15, 20), (45, 10), (45, 20)]
-    assert [winding(np.array([30.0, 15.0]), loop) for loop in (outer, hole)] == [1, -1]
-
-
 @pytest.mark.parametrize(("rise", "run"), [(1, 1), (1, 2), (2, 3), (1, 7), (3, 10)])
 def test_a_slanted_wall_is_a_few_long_sides(rise, run):
     rows, columns = np.mgrid[:80, :160]
     wall = np.abs((columns + 0.5) * rise - (rows + 0.5 - 10) * run) < 3 * run
     stairs = sum(map(len, edge_loops(wall)))
     assert len(sides(outlines(wall))) <= max(10, stairs / 4)
-
-
-def test_a_disc_keeps_its_area():
-    rows, columns = np.mgrid[:101, :101]
-    disc = np.hypot(rows - 50, columns - 50) <= 40.3
-    (loop,) = outlines(disc)
-    following = np.roll(loop, -1, axis=0)
-    area = (loop[:, 0] * following[:, 1] - loop[:, 1] * following[:, 0]).sum() / 2
-    assert area == pytest.approx(math.pi * 40.3**2, rel=0.005)
-    assert len(loop) <= 48 < len(edge_loops(disc)[0]) / 4
 
 
 def test_the_origin_turns_and_moves_the_outline():

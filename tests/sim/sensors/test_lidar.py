@@ -42,15 +42,6 @@ def test_ranges_in_a_square_are_exact(pose):
     np.testing.assert_allclose(lidar.scan(LDS, pose, square(2.0), NOTHING), exact, atol=1e-9)
 
 
-def test_a_pillar_is_seen_where_it_is():
-    discs = np.array([[1.0, 0.0, 0.2]])
-    ranges = lidar.scan(LDS, (0.0, 0.0, 0.0), np.empty((0, 4)), discs)
-    assert ranges[0] == pytest.approx(0.832)
-    half = math.degrees(math.asin(0.2 / 1.032))
-    hit = np.isfinite(ranges)
-    assert list(np.flatnonzero(hit)) == [i for i in range(360) if min(i, 360 - i) < half]
-
-
 def test_what_cannot_be_measured_is_infinite_as_in_rep_117():
     measured = lidar.measured(LDS, np.array([0.05, 0.12, 1.0, 3.5, 3.6, np.inf]))
     assert measured.tolist() == [-math.inf, 0.12, 1.0, 3.5, math.inf, math.inf]

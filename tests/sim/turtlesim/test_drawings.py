@@ -21,7 +21,3 @@ def test_a_drawing_is_about_a_metre_long_and_looks_to_the_right(drawing: Drawing
     assert -22.5 <= min(xs) < -12 and 11 < max(xs) <= 22.5
     assert max(map(abs, ys)) <= 22.5
     assert all(path.startswith("M") and path.endswith("Z") for path, _ in drawing.parts)
-
-
-def test_names_differ() -> None:
-    assert len({each.name for each in DRAWINGS}) == len(DRAWINGS) >= 5

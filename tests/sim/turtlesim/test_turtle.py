@@ -28,12 +28,6 @@ def run(
     return bumps
 
 
-def test_it_begins_in_the_middle() -> None:
-    turtle = Turtle("turtle1", *START)
-    assert (single(turtle.x), single(turtle.y), turtle.theta) == (5.544444561004639, 5.544444561004639, 0.0)
-    assert single(LIMIT) == pytest.approx(11.088889, abs=1e-6)
-
-
 def test_the_recorded_turn() -> None:
     """What `rostopic echo` of the real one printed after a Twist of 2 m/s and 1.8 rad/s (transcript `turtlesim`)."""
     turtle = Turtle("turtle1", *START)
@@ -56,14 +50,6 @@ def test_a_command_holds_for_a_second() -> None:
     run(turtle, 1, start=63)
     assert turtle.linear_velocity == 0.0
     assert turtle.x == pytest.approx(1.0 + 63 * STEP_S)
-
-
-def test_of_two_commands_before_an_update_the_last_counts() -> None:
-    turtle = Turtle("t", 1.0, 1.0, 0.0)
-    turtle.command(5.0, 0.0, 0.0)
-    turtle.command(1.0, 0.0, 0.0)
-    run(turtle, 1)
-    assert turtle.x == pytest.approx(1.0 + STEP_S)
 
 
 def test_sideways() -> None:

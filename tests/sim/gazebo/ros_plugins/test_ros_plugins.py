@@ -466,44 +466,6 @@ def test_a_model_that_goes_takes_its_topics_along_even_while_it_moves(bench: Sta
     ).success
 
 
-def test_ten_robots_come_while_others_drive(bench: Start) -> None:
-    there = bench()
-    scans = []
-    low = urdf().replace(
-        '<origin xyz="0 0 0.2"/>', '<origin xyz="0 0 0.12"/>'
-    )  # no higher than the others' boxes
-    for i in range(10):
-        assert there.spawn(low, f"r{i}", 0.0, float(i), robot_namespace=f"r{i}").success
-        scans.append(there.hear(f"/r{i}/scan", "sensor_msgs/LaserScan"))
-        there.drive(f"/r{i}/cmd_vel", 0.2)
-        there.graph.run(0.2)
-    there.graph.run(1.0)
-    ways = [there.pose(f"r{i}")[0] for i in range(10)]
-    assert ways == sorted(ways, reverse=True)
-    assert ways[0] == pytest.approx(0.2 * 3.0 - 0.02, abs=0.01)
-    assert all(len(heard) > 5 for heard in scans)
-    assert np.isfinite(scans[9][-1].ranges).any()  # it sees those that are ahead of it
-
-
-def test_another_robot_changes_nobodys_noise(bench: Start) -> None:
-    from rosmini import Graph
-
-    noisy = LASER.replace("<range>", "<noise><type>gaussian</type><stddev>0.05</stddev></noise><range>")
-
-    def heard(more: bool) -> list[float]:
-        with Graph() as graph:
-            there = Bench(graph, "empty")
-            there.spawn(box(static=True), "wall", 2.2)
-            there.spawn(urdf(noisy), "first", robot_namespace="a")
-            if more:
-                there.spawn(urdf(noisy), "second", 0.0, -5.0, robot_namespace="b")
-            scans = there.hear("/a/scan", "sensor_msgs/LaserScan")
-            graph.run(1.0)
-            return [scan.ranges[90] for scan in scans]
-
-    assert heard(more=True) == heard(more=False)
-
-
 HUSKY_WHEEL = """
 <link name="{name}"><inertial><mass value="2"/>
   <inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>
