@@ -401,7 +401,7 @@ def test_time_that_comes_over_the_topic_clock(sim):
 
 
 def test_shutdown_ends_the_waiting(graph):
-    served, diary = start(graph)
+    _, diary = start(graph)
     client = diary.client
     client.node.timer(0.5, lambda _: client.node.shutdown("enough"), oneshot=True)
     diary.send(10**6)
@@ -409,9 +409,6 @@ def test_shutdown_ends_the_waiting(graph):
     client.node.run(lambda: ended.append(client.wait_for_result()))
     until(graph, lambda: ended)
     assert ended == [False]
-    served.node.shutdown()
-    graph.run(1)
-    assert not served.server.action_server._open
 
 
 def test_goals_from_a_real_thread():

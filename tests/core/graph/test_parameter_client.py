@@ -120,10 +120,8 @@ def test_a_parameter_that_is_not_set_names_the_namespaces_that_have_it(simulated
     node.set_param("/robot2/max_speed", 1.0)
     with pytest.raises(ParameterNotSet) as caught:
         node.get_param("~max_speed")
-    assert str(caught.value) == (
-        "parameter /robot1/node/max_speed is not set ('~max_speed' in node /robot1/node means /robot1/node/max_speed); "
-        "it exists as /robot2/max_speed. Use that name, or give a default."
-    )
+    for name in ("/robot1/node/max_speed", "'~max_speed'", "/robot2/max_speed"):
+        assert name in str(caught.value)
 
 
 def test_deleting_what_is_not_set(simulated: Graph) -> None:

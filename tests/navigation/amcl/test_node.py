@@ -10,6 +10,7 @@ import pytest
 
 from rosmini import rosrun
 from rosmini.core.actionlib import SimpleActionClient
+from rosmini.core.dynamic_reconfigure import Client
 from rosmini.core.errors import ParameterError
 from rosmini.core.geometry.poses import compose
 from rosmini.core.graph import Graph
@@ -331,7 +332,7 @@ def test_parameters_that_change(graph):
     robot, amcl = ready(graph)
     robot.drive(3)
     believed = amcl.localizer.estimate().pose
-    amcl._server.update_configuration(
+    Client(robot.node, "amcl").update_configuration(
         {"max_particles": 200, "min_particles": 300, "laser_likelihood_max_dist": 1.0}
     )
     assert robot.node.get_param("/amcl/max_particles") == 300
@@ -343,9 +344,10 @@ def test_parameters_that_change(graph):
 
 
 def test_parameters_that_are_restored(graph):
-    _, amcl = ready(graph, "_max_particles:=700", "_odom_alpha1:=0.3")
-    amcl._server.update_configuration({"max_particles": 200, "odom_alpha1": 0.1})
-    found = amcl._server.update_configuration({"restore_defaults": True})
+    robot, amcl = ready(graph, "_max_particles:=700", "_odom_alpha1:=0.3")
+    client = Client(robot.node, "amcl")
+    client.update_configuration({"max_particles": 200, "odom_alpha1": 0.1})
+    found = client.update_configuration({"restore_defaults": True})
     assert (found["max_particles"], found["odom_alpha1"], found["restore_defaults"]) == (700, 0.3, False)
     assert (amcl.parameters.odom_alpha1, amcl.localizer.filter.most) == (0.3, 700)
 
@@ -360,7 +362,7 @@ def test_another_base_frame_asks_anew_where_the_laser_is(graph):
     robot.drive(2)
     StaticTransformBroadcaster(graph.node("more")).send("base_link", "front", (0.3, 0.0, 0.0))
     robot.tell()
-    amcl._server.update_configuration({"base_frame_id": "front"})
+    Client(robot.node, "amcl").update_configuration({"base_frame_id": "front"})
     robot.drive(2)
     assert amcl._lasers["laser"][0][0] == pytest.approx(-0.3)
 
@@ -402,13 +404,12 @@ def test_a_laser_that_is_upside_down(graph):
         "base_link", "below", (0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0)
     )
     robot.maps.publish(hall().to_message("map", robot.node.now()))
-    amcl = start(graph)
+    start(graph)
     bearings = -np.arange(BEAMS) * math.tau / BEAMS
     for _ in range(8):
         ahead = compose(robot.pose, (0.25, 0.0, 0.05))
         ranges = robot.field.ranges(np.array([ahead]), bearings, 3.5)[0]
         robot.step((0.25, 0.0, 0.05), ranges=ranges, frame="below")
-    assert amcl._lasers["below"][1]
     assert robot.off() < 0.12
 
 

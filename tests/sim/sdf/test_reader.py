@@ -292,14 +292,9 @@ def test_what_is_left_out_is_noted_with_its_line():
             "<collision name='c'><geometry><heightmap/></geometry></collision></link></model>"
         )
     )
-    assert [(note.line, note.text.split(":")[0]) for note in found.notes] == [
-        (4, "<mode1> is nothing that <world> has; did you mean model?"),
-        (3, "a light"),
-        (
-            6,
-            "the shape <heightmap> is left out; rosmini has box, cylinder, sphere, plane, polyline, mesh, empty",
-        ),
-    ]
+    assert [note.line for note in found.notes] == [4, 3, 6]
+    for note, part in zip(found.notes, ("<mode1>", "a light", "<heightmap>"), strict=True):
+        assert part in note.text
     assert str(found.notes[1]).startswith("<text>:3: ")
 
 

@@ -323,9 +323,7 @@ def test_a_robot_may_start_on_what_nothing_bumps_into(world):
         'define zone model( size [4 4 0.01] obstacle_return 0 )\nzone( name "source" )\nposition( )\nactuator( )'
     )
     assert [(each.name, each.passable) for each in stage.world.obstacles] == [("source", True)]
-    assert [note.split(":", 1)[1] for note in stage.notes] == [
-        "4: an actuator is not simulated and is left out"
-    ]
+    assert [":4: an actuator" in note for note in stage.notes] == [True]
     assert stage.left_out == {"an actuator": 1}
 
 
@@ -333,10 +331,9 @@ def test_what_nothing_notices_is_left_out_and_told(world):
     stage = world('model( name "ghost" obstacle_return 0 ranger_return -1 )\nmodel( name "glass" ranger_return -1 '
                   ')\nfiducial( )' )  # fmt: skip
     assert [(each.name, each.seen_by_lasers) for each in stage.world.obstacles] == [("glass", False)]
-    assert [re.search(r":(\d+: .*)", note)[1] for note in stage.notes] == [
-        "3: a fiducial is not simulated and is left out",
-        "1: nothing bumps into ghost and no laser sees it: it is left out",
-    ]
+    fiducial, ghost = stage.notes
+    assert ":3: a fiducial" in fiducial
+    assert ":1: " in ghost and "ghost" in ghost
     assert stage.left_out == {"a fiducial": 1, "a thing that nothing touches or sees": 1}
 
 
