@@ -58,18 +58,11 @@ def test_every_measure_gives_a_positive_figure(
     assert len(wires) == (13 if sys.platform == "win32" else 14)
     assert len(rows) == len(wires) + len(
         [
-            *graph.measures(None, 1),
-            *actions.measures(None, 1),
-            *transforms.measures(None, 1),
-            *launch_files.measures(None, 1),
-            *tools.measures(None, 1),
-            *bags.measures(tmp_path, None, 1),
-            *displays.measures(1),
-            *sim.measures(None, None, 0.001),
-            *turtles.measures(1),
-            *nav.measures(0.1),
+            *graph.measures(None, 1), *actions.measures(None, 1), *transforms.measures(None, 1),
+            *launch_files.measures(None, 1), *tools.measures(None, 1), *bags.measures(tmp_path, None, 1),
+            *displays.measures(1), *sim.measures(None, None, 0.001), *turtles.measures(1), *nav.measures(0.1),
         ]
-    )
+    )  # fmt: skip
     for row in rows:
         assert math.isfinite(row["ours"])
         assert row["ours"] > 0 or row["unit"] in EXPONENTS_AND_ERRORS

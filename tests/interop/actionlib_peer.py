@@ -83,17 +83,9 @@ facts = {
 }
 # GoalStatus.to_string(0) is "_has_header" in real actionlib: it looks through the class for a name of the number.
 STATUSES = [
-    "PENDING",
-    "ACTIVE",
-    "PREEMPTED",
-    "SUCCEEDED",
-    "ABORTED",
-    "REJECTED",
-    "PREEMPTING",
-    "RECALLING",
-    "RECALLED",
+    "PENDING", "ACTIVE", "PREEMPTED", "SUCCEEDED", "ABORTED", "REJECTED", "PREEMPTING", "RECALLING", "RECALLED",
     "LOST",
-]
+]  # fmt: skip
 
 
 def wait(condition, what):
@@ -225,13 +217,8 @@ PATHS = {
     "PREEMPTED": ["set_accepted", "set_canceled"],
 }
 STEPS = [
-    "set_accepted",
-    "set_rejected",
-    "set_succeeded",
-    "set_aborted",
-    "set_canceled",
-    "set_cancel_requested",
-]
+    "set_accepted", "set_rejected", "set_succeeded", "set_aborted", "set_canceled", "set_cancel_requested",
+]  # fmt: skip
 facts["server"] = {}
 for status, path in sorted(PATHS.items()):
     for step in STEPS:

@@ -210,12 +210,7 @@ facts["services"] = {
     "topics": [
         outcome(rospy.Publisher, *arguments, queue_size=1)
         for arguments in (
-            ("", String),
-            (None, String),
-            ("x", None),
-            ("x", Empty),
-            ("x", "std_msgs/String"),
-            ("x", Pose()),
+            ("", String), (None, String), ("x", None), ("x", Empty), ("x", "std_msgs/String"), ("x", Pose()),
         )
     ],
     "waits": [
@@ -223,7 +218,7 @@ facts["services"] = {
         for arguments in (("", String, 0.1), ("x", None, 0.1), ("nothing", String, 0.1))
     ],
     "same": rospy.ServiceException is rospy.service.ServiceException,
-}
+}  # fmt: skip
 persistent = rospy.ServiceProxy("camera", SetCameraInfo, persistent=True)
 persistent()
 persistent.close()

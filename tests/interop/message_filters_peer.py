@@ -162,14 +162,9 @@ passed = []
 cache.registerCallback(lambda msg: passed.append(int(msg.header.frame_id)))
 none = rospy.Time(1)
 facts["empty cache"] = [
-    cache.getInterval(none, none),
-    cache.getElemAfterTime(none),
-    cache.getElemBeforeTime(none),
-    cache.getLatestTime(),
-    cache.getLastestTime(),
-    cache.getOldestTime(),
-    cache.getLast(),
-]
+    cache.getInterval(none, none), cache.getElemAfterTime(none), cache.getElemBeforeTime(none),
+    cache.getLatestTime(), cache.getLastestTime(), cache.getOldestTime(), cache.getLast(),
+]  # fmt: skip
 for number, stamp in enumerate([100, 200, 300, 300, 500, 700]):
     source.signalMessage(stamped(stamp, number))
 facts["cache"] = {

@@ -48,21 +48,9 @@ def attempts(rosbag, String, Time, folder):
             return bag.version
 
     names = [
-        "good",
-        "empty",
-        "text",
-        "missing",
-        "v2.1",
-        "v2.9",
-        "v1.1",
-        "v3.0",
-        "v0.5",
-        "short",
-        "unindexed",
-        "header",
-        "lied",
-        "directory",
-    ]
+        "good", "empty", "text", "missing", "v2.1", "v2.9", "v1.1", "v3.0", "v0.5", "short", "unindexed", "header",
+        "lied", "directory",
+    ]  # fmt: skip
     for name in names:
         yield f"open {name}", lambda name=name: opened(f"{name}.bag")
         yield (

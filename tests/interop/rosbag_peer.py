@@ -62,17 +62,9 @@ def content(path):
             for name, one in info.topics.items()
         }
         summary = [
-            bag.get_message_count(),
-            bag.get_message_count(["/scan"]),
-            bag.get_start_time(),
-            bag.get_end_time(),
-            bag.version,
-            list(bag.get_compression_info()),
-            info.msg_types,
-            topics,
-            str(bag),
-            bag.size,
-        ]
+            bag.get_message_count(), bag.get_message_count(["/scan"]), bag.get_start_time(), bag.get_end_time(),
+            bag.version, list(bag.get_compression_info()), info.msg_types, topics, str(bag), bag.size,
+        ]  # fmt: skip
     return {"messages": found, "strings": strings, "summary": summary}
 
 

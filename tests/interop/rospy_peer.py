@@ -26,17 +26,9 @@ def outcome(function, *args, **kwargs):
         return repr(function(*args, **kwargs))
     except Exception as error:
         public = {
-            "ROSException",
-            "ROSInitException",
-            "ROSInterruptException",
-            "ROSSerializationException",
-            "ServiceException",
-            "TypeError",
-            "ValueError",
-            "KeyError",
-            "AttributeError",
-            "KeyboardInterrupt",
-        }
+            "ROSException", "ROSInitException", "ROSInterruptException", "ROSSerializationException",
+            "ServiceException", "TypeError", "ValueError", "KeyError", "AttributeError", "KeyboardInterrupt",
+        }  # fmt: skip
         return sorted({cls.__name__ for cls in type(error).__mro__} & public)
 
 
@@ -59,43 +51,12 @@ def signature(thing):
 # ---- names, signatures, types ----
 
 PUBLIC = [
-    "spin",
-    "myargv",
-    "init_node",
-    "get_published_topics",
-    "wait_for_message",
-    "wait_for_service",
-    "on_shutdown",
-    "get_param",
-    "get_param_cached",
-    "get_param_names",
-    "set_param",
-    "delete_param",
-    "has_param",
-    "search_param",
-    "sleep",
-    "Rate",
-    "Timer",
-    "is_shutdown",
-    "signal_shutdown",
-    "get_node_uri",
-    "get_ros_root",
-    "parse_rosrpc_uri",
-    "get_name",
-    "get_caller_id",
-    "get_namespace",
-    "resolve_name",
-    "remap_name",
-    "get_rostime",
-    "get_time",
-    "Publisher",
-    "Subscriber",
-    "Service",
-    "ServiceProxy",
-    "SubscribeListener",
-    "AnyMsg",
-    "MasterProxy",
-]
+    "spin", "myargv", "init_node", "get_published_topics", "wait_for_message", "wait_for_service", "on_shutdown",
+    "get_param", "get_param_cached", "get_param_names", "set_param", "delete_param", "has_param", "search_param",
+    "sleep", "Rate", "Timer", "is_shutdown", "signal_shutdown", "get_node_uri", "get_ros_root", "parse_rosrpc_uri",
+    "get_name", "get_caller_id", "get_namespace", "resolve_name", "remap_name", "get_rostime", "get_time",
+    "Publisher", "Subscriber", "Service", "ServiceProxy", "SubscribeListener", "AnyMsg", "MasterProxy",
+]  # fmt: skip
 PUBLIC += [
     "log" + level + kind
     for level in ("debug", "info", "warn", "err", "fatal")
@@ -119,57 +80,31 @@ facts["methods"] = {
 facts["missing"] = [
     name
     for name in [
-        *PUBLIC,
-        "Header",
-        "Message",
-        "Time",
-        "Duration",
-        "MasterProxy",
-        "ServiceException",
-        "TransportException",
-        "TransportInitError",
-        "TransportTerminated",
-        "ROSInternalException",
-        "ROSTimeMovedBackwardsException",
-        "DEBUG",
-        "FATAL",
+        *PUBLIC, "Header", "Message", "Time", "Duration", "MasterProxy", "ServiceException", "TransportException",
+        "TransportInitError", "TransportTerminated", "ROSInternalException", "ROSTimeMovedBackwardsException",
+        "DEBUG", "FATAL",
     ]
     if not hasattr(rospy, name)
-]
+]  # fmt: skip
 facts["levels"] = [rospy.DEBUG, rospy.INFO, rospy.WARN, rospy.ERROR, rospy.FATAL]
 facts["errors"] = {
     cls.__name__: sorted(
         base.__name__ for base in cls.__mro__ if base.__name__ not in ("RosminiError", "object")
     )
     for cls in (
-        rospy.ROSException,
-        rospy.ROSInitException,
-        rospy.ROSInterruptException,
-        rospy.ROSSerializationException,
-        rospy.ROSTimeMovedBackwardsException,
-        rospy.TransportException,
-        rospy.TransportInitError,
-        rospy.ServiceException,
-        genpy.MessageException,
-        genpy.SerializationError,
-        rosgraph.MasterError,
+        rospy.ROSException, rospy.ROSInitException, rospy.ROSInterruptException, rospy.ROSSerializationException,
+        rospy.ROSTimeMovedBackwardsException, rospy.TransportException, rospy.TransportInitError,
+        rospy.ServiceException, genpy.MessageException, genpy.SerializationError, rosgraph.MasterError,
     )
-}
+}  # fmt: skip
 t, d, g = rospy.Time(5, 5), rospy.Duration(1), genpy.Time(3)
 facts["time types"] = [
     "genpy" if "genpy" in repr(x) else type(x).__name__
     for x in (t - t, t - d, t + d, d + t, d - d, d * 2, 2 * d, d / 2, -d, g - d, t - g)
 ]
 facts["time text"] = [
-    repr(t),
-    repr(d),
-    str(t),
-    str(d),
-    repr(t - t),
-    repr(rospy.Time.from_seconds(1.5)),
-    t == genpy.Time(5, 5),
-    t > g,
-]
+    repr(t), repr(d), str(t), str(d), repr(t - t), repr(rospy.Time.from_seconds(1.5)), t == genpy.Time(5, 5), t > g,
+]  # fmt: skip
 
 # ---- before init_node ----
 
@@ -213,16 +148,10 @@ rospy.init_node("peer", log_level=rospy.DEBUG)
 facts["init"]["same"] = outcome(rospy.init_node, "peer", log_level=rospy.DEBUG)
 facts["init"]["other"] = outcome(rospy.init_node, "other")
 facts["names"] = [
-    rospy.get_name(),
-    rospy.get_namespace(),
-    rospy.resolve_name("~a"),
-    rospy.resolve_name("~/a"),
-    rospy.resolve_name("a//b/"),
-    rospy.resolve_name(""),
-    rospy.resolve_name("chatter"),
-    rospy.resolve_name("a", "/x/y"),
-    rospy.get_node_uri() is not None,
-]
+    rospy.get_name(), rospy.get_namespace(), rospy.resolve_name("~a"), rospy.resolve_name("~/a"),
+    rospy.resolve_name("a//b/"), rospy.resolve_name(""), rospy.resolve_name("chatter"),
+    rospy.resolve_name("a", "/x/y"), rospy.get_node_uri() is not None,
+]  # fmt: skip
 facts["argv"] = rospy.myargv(["a", "b:=c", "_d:=1", "__name:=x", "-e", ":=", "f:="])
 
 # ---- topics ----
@@ -438,23 +367,13 @@ persistent.close()
 rospy.set_param("~tree", {"a": 1, "b": {"c": [1, 2.5, "x", True]}})
 rospy.set_param("~text", "yes")
 facts["parameters"] = [
-    rospy.get_param("~tree/b/c"),
-    rospy.get_param("/peer"),
-    rospy.get_param("~/text", "default"),
-    rospy.has_param("~tree/a"),
-    rospy.has_param("tree"),
-    rospy.search_param("tree"),
-    rospy.search_param("nothing"),
-    outcome(rospy.get_param, "~nothing"),
-    outcome(rospy.get_param, "~nothing", None),
-    outcome(rospy.delete_param, "~text"),
-    outcome(rospy.delete_param, "~text"),
-    rospy.get_param_cached("~tree/a"),
-    "/peer/tree/a" in rospy.get_param_names(),
-    "/peer/tree" in rospy.get_master(),
-    outcome(lambda: rospy.get_master()["/nothing"]),
-    rospy.get_param("/peer/started"),
-]
+    rospy.get_param("~tree/b/c"), rospy.get_param("/peer"), rospy.get_param("~/text", "default"),
+    rospy.has_param("~tree/a"), rospy.has_param("tree"), rospy.search_param("tree"), rospy.search_param("nothing"),
+    outcome(rospy.get_param, "~nothing"), outcome(rospy.get_param, "~nothing", None),
+    outcome(rospy.delete_param, "~text"), outcome(rospy.delete_param, "~text"), rospy.get_param_cached("~tree/a"),
+    "/peer/tree/a" in rospy.get_param_names(), "/peer/tree" in rospy.get_master(),
+    outcome(lambda: rospy.get_master()["/nothing"]), rospy.get_param("/peer/started"),
+]  # fmt: skip
 master = rosgraph.Master("/peer")
 state = dict(map(tuple, master.getSystemState()[0]))
 facts["master"] = [

@@ -164,15 +164,8 @@ def test_real_record_and_play(theirs, tmp_path):
         # At its limit the recorder leaves a topic, so its Master tells when it has all 50.
         record = ["/usr/lib/rosbag/record", "--limit", 50, "-O", target, "/chatter", "/map"]
         play = [
-            "/usr/lib/rosbag/play",
-            "--rate",
-            100,
-            "--delay",
-            1.5,
-            "--wait-for-subscribers",
-            "--quiet",
-            source,
-        ]
+            "/usr/lib/rosbag/play", "--rate", 100, "--delay", 1.5, "--wait-for-subscribers", "--quiet", source,
+        ]  # fmt: skip
         with start(record, env=env) as recording:
             wait_until(lambda: len(subscribed()) == 2, "the recorder", recording)
             run(play, env=env, check=True)

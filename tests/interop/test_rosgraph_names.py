@@ -52,75 +52,27 @@ print(json.dumps(out))
 NODES = ["/node", "/ns/node", "/a/b/c"]
 RULES = [{}, {"chatter": "talk", "/odom": "ns/odom", "~cmd": "cmd"}, {"a": "b", "b": "a", "x/y": "~p"}]
 NAMES = [
-    "",
-    "/",
-    "~",
-    "chatter",
-    "/chatter",
-    "~chatter",
-    "ns/odom",
-    "/odom",
-    "~cmd",
-    "a",
-    "b",
-    "x/y",
-    "a//b/",
-    "//a",
-    "~/a",
-    "~a//b",
-]
+    "", "/", "~", "chatter", "/chatter", "~chatter", "ns/odom", "/odom", "~cmd", "a", "b", "x/y", "a//b/", "//a",
+    "~/a", "~a//b",
+]  # fmt: skip
 ARGVS = [
     [
-        "prog",
-        "a:=b",
-        "/x:=/y",
-        "~p:=q",
-        "_rate:=10",
-        "__name:=n",
-        "--flag",
-        "plain",
-        "x=1",
-        "_s:=''",
-        "_l:=[1, 2]",
-        "_e:=1e5",
-        "_f:=1.0e+5",
+        "prog", "a:=b", "/x:=/y", "~p:=q", "_rate:=10", "__name:=n", "--flag", "plain", "x=1", "_s:=''",
+        "_l:=[1, 2]", "_e:=1e5", "_f:=1.0e+5",
     ],
     [
-        "prog",
-        "_t:=true",
-        "_empty:=",
-        ":=b",
-        "a:=",
-        "-x:=y",
-        "a b:=c",
-        "2a:=b",
-        "_d:={a: {b: 1}}",
-        "_sp:= 5 ",
-        "__ns:=foo",
-        "_u:=two\nlines",
+        "prog", "_t:=true", "_empty:=", ":=b", "a:=", "-x:=y", "a b:=c", "2a:=b", "_d:={a: {b: 1}}", "_sp:= 5 ",
+        "__ns:=foo", "_u:=two\nlines",
     ],
-]
+]  # fmt: skip
 
 
 ODD = [
     *(
-        "f//b",
-        "/f//b",
-        "//f",
-        "~f//b",
-        "//",
-        "/f/",
-        "f/b/",
-        "~a~b",
-        "a b",
-        "1a",
-        "_a",
-        "\u00e9",
-        "a\n",
-        "b:=c",
+        "f//b", "/f//b", "//f", "~f//b", "//", "/f/", "f/b/", "~a~b", "a b", "1a", "_a", "\u00e9", "a\n", "b:=c",
     ),
     *(None, 1, []),
-]
+]  # fmt: skip
 """What is hardly a name, or none."""
 
 WRONG = [

@@ -19,16 +19,10 @@ answers = runpy.run_path(str(PEER))["answers"]
 
 RARE = ("projection", "reflection", "scale", "shear")
 ABSENT = {
-    "Arcball",
-    "arcball_constrain_to_axis",
-    "arcball_map_to_sphere",
-    "arcball_nearest_axis",
-    "clip_matrix",
-    "orthogonalization_matrix",
-    "superimposition_matrix",
-    *(f"{name}_matrix" for name in RARE),
+    "Arcball", "arcball_constrain_to_axis", "arcball_map_to_sphere", "arcball_nearest_axis", "clip_matrix",
+    "orthogonalization_matrix", "superimposition_matrix", *(f"{name}_matrix" for name in RARE),
     *(f"{name}_from_matrix" for name in RARE),
-}
+}  # fmt: skip
 """Functions of the real module that ours does not have: a mouse's trackball, and rare matrices."""
 
 

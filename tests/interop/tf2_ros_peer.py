@@ -21,15 +21,10 @@ def answer(goal):
     """The frame's name says what to answer."""
     asked.append(
         [
-            goal.target_frame,
-            goal.source_frame,
-            goal.source_time.to_nsec(),
-            goal.timeout.to_nsec(),
-            goal.target_time.to_nsec(),
-            goal.fixed_frame,
-            goal.advanced,
+            goal.target_frame, goal.source_frame, goal.source_time.to_nsec(), goal.timeout.to_nsec(),
+            goal.target_time.to_nsec(), goal.fixed_frame, goal.advanced,
         ]
-    )
+    )  # fmt: skip
     if goal.target_frame == "abort":
         server.set_aborted(LookupTransformResult())
         return
@@ -113,16 +108,11 @@ thing = tf2_ros.Stamped(Thing(7), rospy.Time(4), "here")
 odd, bare = Odd(), tf2_ros.BufferInterface()
 kinds = tf2_ros.ConvertRegistration()
 facts["types"] = [
-    told(odd.transform, thing, "there"),
-    told(bare.lookup_transform, "a", "b", now),
-    told(bare.can_transform, "a", "b", now),
-    told(bare.can_transform_full, "a", now, "b", now, "c"),
-    told(kinds.get_to_msg, Thing),
-    told(kinds.get_from_msg, Thing),
-    told(kinds.get_convert, (Thing, Other)),
-    told(tf2_ros.convert, thing, Other),
-    [thing.header.frame_id, thing.header.stamp.to_sec()],
-]
+    told(odd.transform, thing, "there"), told(bare.lookup_transform, "a", "b", now),
+    told(bare.can_transform, "a", "b", now), told(bare.can_transform_full, "a", now, "b", now, "c"),
+    told(kinds.get_to_msg, Thing), told(kinds.get_from_msg, Thing), told(kinds.get_convert, (Thing, Other)),
+    told(tf2_ros.convert, thing, Other), [thing.header.frame_id, thing.header.stamp.to_sec()],
+]  # fmt: skip
 odd.registration.add(Thing, lambda one, transform: [one.number, transform])
 facts["moved"] = [
     odd.transform(thing, "there"),

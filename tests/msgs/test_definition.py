@@ -60,14 +60,9 @@ def test_a_service_is_two_messages_and_an_action_seven() -> None:
     service = parse_service("int64 a\n---\nint64 sum\n", "my_msgs/Add")
     assert (service.request.name, service.response.fields[0].name) == ("my_msgs/AddRequest", "sum")
     assert sorted(split_action("int32 g\n---\n---\nint32 f\n", "my_msgs/Do")) == [
-        "my_msgs/DoAction",
-        "my_msgs/DoActionFeedback",
-        "my_msgs/DoActionGoal",
-        "my_msgs/DoActionResult",
-        "my_msgs/DoFeedback",
-        "my_msgs/DoGoal",
-        "my_msgs/DoResult",
-    ]
+        "my_msgs/DoAction", "my_msgs/DoActionFeedback", "my_msgs/DoActionGoal", "my_msgs/DoActionResult",
+        "my_msgs/DoFeedback", "my_msgs/DoGoal", "my_msgs/DoResult",
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(

@@ -20,21 +20,8 @@ if TYPE_CHECKING:
 
 PAYLOAD = "X(0)\n    __import__('os').abort()\n    y"
 NAMES = [
-    PAYLOAD,
-    "a b",
-    "a;b",
-    "a\n0",
-    "",
-    "1a",
-    "_a",
-    "a" * 300,
-    "ä",
-    "a.b",
-    "a/b",
-    "../a",
-    "a'b",
-    "__class__",
-]
+    PAYLOAD, "a b", "a;b", "a\n0", "", "1a", "_a", "a" * 300, "ä", "a.b", "a/b", "../a", "a'b", "__class__",
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -18,13 +18,8 @@ def test_nested_messages_lists_and_times() -> None:
     path.header.stamp = Time(12, 34)
     lines = str(path).splitlines()
     assert lines[:6] == [
-        "header: ",
-        "  seq: 0",
-        "  stamp: ",
-        "    secs: 12",
-        "    nsecs:        34",
-        "  frame_id: ''",
-    ]
+        "header: ", "  seq: 0", "  stamp: ", "    secs: 12", "    nsecs:        34", "  frame_id: ''",
+    ]  # fmt: skip
     assert lines[6:9] == ["poses: ", "  - ", "    header: "]
 
 

@@ -15,19 +15,11 @@ from rosmini.msgs import message_class
 from rosmini.msgs.registry import Registry
 
 TYPES = [
-    "std_msgs/String",
-    "std_msgs/Header",
-    "geometry_msgs/Twist",
-    "nav_msgs/Odometry",
-    "sensor_msgs/LaserScan",
-    "sensor_msgs/JointState",
-    "sensor_msgs/PointCloud2",
-    "visualization_msgs/Marker",
-    "diagnostic_msgs/DiagnosticArray",
-    "rosgraph_msgs/Log",
-    "rosgraph_msgs/TopicStatistics",
+    "std_msgs/String", "std_msgs/Header", "geometry_msgs/Twist", "nav_msgs/Odometry", "sensor_msgs/LaserScan",
+    "sensor_msgs/JointState", "sensor_msgs/PointCloud2", "visualization_msgs/Marker",
+    "diagnostic_msgs/DiagnosticArray", "rosgraph_msgs/Log", "rosgraph_msgs/TopicStatistics",
     "dynamic_reconfigure/Config",
-]
+]  # fmt: skip
 
 
 def sample(cls: type[Any]) -> Any:

@@ -58,17 +58,10 @@ def test_nodes_services_and_clocks(graph: Graph) -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "",
-        "/chatter",
-        "--lose 0.5",
-        "/chatter /it --lose 0.5",
-        "/chatter --lose 0.5 --kill",
-        "/chatter --lose much",
-        "/talker --jump 3",
-        "clear /chatter /it",
-        "list --cut",
+        "", "/chatter", "--lose 0.5", "/chatter /it --lose 0.5", "/chatter --lose 0.5 --kill",
+        "/chatter --lose much", "/talker --jump 3", "clear /chatter /it", "list --cut",
     ],
-)
+)  # fmt: skip
 def test_words_that_make_no_sense(graph: Graph, line: str) -> None:
     with pytest.raises((UsageError, FaultError)):
         fault(graph, line)

@@ -111,20 +111,8 @@ def test_playing_to_a_script_and_recording_it(bag):
     """The command itself: bag -> play -> script with rosbag of its own -> record."""
     Path("listener.py").write_text(SCRIPT, encoding="utf-8")
     words = [
-        "record",
-        "-q",
-        "-O",
-        "again",
-        "/chatter",
-        "+",
-        "rosbag/play",
-        "-q",
-        "-r",
-        "50",
-        "t.bag",
-        "+",
-        "listener.py",
-    ]
+        "record", "-q", "-O", "again", "/chatter", "+", "rosbag/play", "-q", "-r", "50", "t.bag", "+", "listener.py",
+    ]  # fmt: skip
     done = run_process([sys.executable, "-m", "rosmini", "rosbag", *words],
         env={**os.environ, "PYTHONWARNINGS": "error"})  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")

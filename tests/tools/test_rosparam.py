@@ -97,13 +97,8 @@ def test_the_results_are_data(graph: Graph) -> None:
 
 
 NEGATIVE = [
-    ("-5", -5),
-    ("-0.5", -0.5),
-    ("-1e-3", "-1e-3"),
-    ("'-x'", "-x"),
-    ("", ""),
-    ("deg(180)", 3.141592653589793),
-]
+    ("-5", -5), ("-0.5", -0.5), ("-1e-3", "-1e-3"), ("'-x'", "-x"), ("", ""), ("deg(180)", 3.141592653589793),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("text", "value"), NEGATIVE)

@@ -29,15 +29,10 @@ FOLDER = Path(__file__).parents[1] / "data" / "transcripts"
 GOLDEN = FOLDER.with_name("golden")
 
 _VARYING = (
-    (r"http://[^\s/]+:\d+/", "URI"),
-    (r"(?<=^Pid: )\d+", "PID"),
-    (r" \([\d]+ - [\d.]+:\d+\) \[\d+\]", ""),
-    (r"(?<=transport: )\w+", "TRANSPORT"),
-    (r"(?<=time=)[\d.]+", "TIME"),
-    (r"(?<=ping average: )[\d.]+", "TIME"),
-    (r"127\.0\.0\.1", "HOST"),
-    (r"^rosmini$", "HOST"),
-)
+    (r"http://[^\s/]+:\d+/", "URI"), (r"(?<=^Pid: )\d+", "PID"), (r" \([\d]+ - [\d.]+:\d+\) \[\d+\]", ""),
+    (r"(?<=transport: )\w+", "TRANSPORT"), (r"(?<=time=)[\d.]+", "TIME"), (r"(?<=ping average: )[\d.]+", "TIME"),
+    (r"127\.0\.0\.1", "HOST"), (r"^rosmini$", "HOST"),
+)  # fmt: skip
 
 
 def in_order(name: str) -> list[tuple[str, tuple[str, int]]]:

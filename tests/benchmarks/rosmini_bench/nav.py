@@ -15,15 +15,10 @@ from . import Measure, nav_amcl, nav_control, nav_costmap, nav_gmapping, nav_hec
 from .nav_trial import Setup
 
 ROBOTIS_RATES: tuple[tuple[str, Any], ...] = (
-    ("controller_frequency", 10.0),
-    ("planner_frequency", 5.0),
-    ("global_costmap/update_frequency", 10.0),
-    ("global_costmap/publish_frequency", 10.0),
-    ("local_costmap/update_frequency", 10.0),
-    ("local_costmap/publish_frequency", 10.0),
-    ("DWAPlannerROS/vx_samples", 20),
-    ("DWAPlannerROS/vth_samples", 40),
-)
+    ("controller_frequency", 10.0), ("planner_frequency", 5.0), ("global_costmap/update_frequency", 10.0),
+    ("global_costmap/publish_frequency", 10.0), ("local_costmap/update_frequency", 10.0),
+    ("local_costmap/publish_frequency", 10.0), ("DWAPlannerROS/vx_samples", 20), ("DWAPlannerROS/vth_samples", 40),
+)  # fmt: skip
 """The rates of the files that ROBOTIS publishes, and 800 samples."""
 
 

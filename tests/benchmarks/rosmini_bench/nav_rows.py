@@ -61,27 +61,11 @@ def page(lines: list[Line]) -> str:
     explored = [(line.result, line.commit) for line in lines if isinstance(line.result, Explored)]
     crossed = [line.result for line in lines if isinstance(line.result, Crossing)]
     made = [
-        INTRODUCTION,
-        *_table(row for row in goals if row[0].world != FIELD),
-        "",
-        *_together(goals),
-        "",
-        CYLINDERS,
-        *_table(row for row in goals if row[0].world == FIELD),
-        "",
-        EXPLORING,
-        *nav_explore.table(explored),
-        "",
-        CROSSING,
-        *nav_crossing.table(crossed),
-        "",
-        FAILURES,
-        "| setup | goal | from | to | result | driven | C |",
-        "|---|---|---|---|---|---|---|",
-        *(_failure(setup, one) for setup, one in failed),
-        "",
-        CAUSES,
-    ]
+        INTRODUCTION, *_table(row for row in goals if row[0].world != FIELD), "", *_together(goals), "", CYLINDERS,
+        *_table(row for row in goals if row[0].world == FIELD), "", EXPLORING, *nav_explore.table(explored), "",
+        CROSSING, *nav_crossing.table(crossed), "", FAILURES, "| setup | goal | from | to | result | driven | C |",
+        "|---|---|---|---|---|---|---|", *(_failure(setup, one) for setup, one in failed), "", CAUSES,
+    ]  # fmt: skip
     return "\n".join(made)
 
 

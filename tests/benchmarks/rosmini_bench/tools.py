@@ -24,14 +24,9 @@ if TYPE_CHECKING:
     from .peer import Rospy
 
 STARTED = (
-    ("rosnode", "list"),
-    ("rostopic", "list"),
-    ("rosservice", "list"),
-    ("rosparam", "list"),
-    ("rosmsg", "show", "std_msgs/String"),
-    ("rospack", "find", "std_msgs"),
-    ("rosversion", "-d"),
-)
+    ("rosnode", "list"), ("rostopic", "list"), ("rosservice", "list"), ("rosparam", "list"),
+    ("rosmsg", "show", "std_msgs/String"), ("rospack", "find", "std_msgs"), ("rosversion", "-d"),
+)  # fmt: skip
 """Command lines that do next to nothing; no Master runs at the address that they are given."""
 
 PACKAGES = 10

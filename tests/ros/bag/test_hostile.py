@@ -227,18 +227,10 @@ def mutated(rng: random.Random, data: bytes) -> bytes:
     interesting = [
         at
         for name in (
-            b"op=",
-            b"conn=",
-            b"size=",
-            b"count=",
-            b"time=",
-            b"_pos=",
-            b"ver=",
-            b"_count=",
-            b"compression=",
+            b"op=", b"conn=", b"size=", b"count=", b"time=", b"_pos=", b"ver=", b"_count=", b"compression=",
         )
         for at in _all(data, name)
-    ]
+    ]  # fmt: skip
     for _ in range(rng.randint(1, 4)):
         at = (
             rng.choice(interesting) + rng.randint(-10, 12)

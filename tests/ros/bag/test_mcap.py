@@ -106,13 +106,8 @@ def with_chunk(compression: bytes, data: bytes, size: int) -> bytes:
     chunk += struct.pack("<Q", len(data)) + data
     head = struct.pack("<I", 4) + b"ros1" + struct.pack("<I", 0)
     parts = [
-        b"\x89MCAP0\r\n",
-        b"\x01",
-        struct.pack("<Q", len(head)),
-        head,
-        b"\x06",
-        struct.pack("<Q", len(chunk)),
-    ]
+        b"\x89MCAP0\r\n", b"\x01", struct.pack("<Q", len(head)), head, b"\x06", struct.pack("<Q", len(chunk)),
+    ]  # fmt: skip
     return b"".join([*parts, chunk, b"\x02", struct.pack("<Q", 20), bytes(20), b"\x89MCAP0\r\n"])
 
 

@@ -592,18 +592,8 @@ def test_ctrl_c_ends_a_recording_in_good_order(tmp_path):
         encoding="utf-8",
     )
     command = [
-        sys.executable,
-        "-m",
-        "rosmini",
-        "rosbag",
-        "record",
-        "-q",
-        "-O",
-        "x",
-        "/chatter",
-        "+",
-        "talker.py",
-    ]
+        sys.executable, "-m", "rosmini", "rosbag", "record", "-q", "-O", "x", "/chatter", "+", "talker.py",
+    ]  # fmt: skip
     with start(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert "go" in process.stdout.readline()
         process.send_signal(signal.SIGINT)

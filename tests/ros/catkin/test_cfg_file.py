@@ -210,17 +210,8 @@ def test_files_that_are_wrong_as_a_whole(text: str, line: int | None, message: s
 
 
 CALLS = (
-    "open",
-    "exec",
-    "eval",
-    "os.system",
-    "gen.add",
-    "gen.const",
-    "print",
-    "getattr",
-    "gen.add.call",
-    "Spy",
-)
+    "open", "exec", "eval", "os.system", "gen.add", "gen.const", "print", "getattr", "gen.add.call", "Spy",
+)  # fmt: skip
 HOSTILE = st.recursive(
     st.sampled_from(["gen", "PACKAGE", "int_t", "1", "'x'", "[]", "().__class__", "Spy", "gen.__init__"]),
     lambda inner: st.one_of(

@@ -83,15 +83,10 @@ def test_a_module_has_what_real_ones_have(bench: Bench) -> None:
     first, second = run([sys.executable, "-c", code], env=env, check=True).stdout.splitlines()
     inf = float("inf")
     assert eval(first, {"inf": inf}) == [
-        {"gear": 1, "speed": 0.2, "name": "wheels"},
-        {"gear": 1, "speed": 0.0, "name": ""},
-        {"gear": 2, "speed": inf, "name": ""},
-        {"gear": "int", "speed": "double", "name": "str"},
-        {"gear": 1, "speed": 2, "name": 4},
-        7,
-        1,
-        2,
-    ]
+        {"gear": 1, "speed": 0.2, "name": "wheels"}, {"gear": 1, "speed": 0.0, "name": ""},
+        {"gear": 2, "speed": inf, "name": ""}, {"gear": "int", "speed": "double", "name": "str"},
+        {"gear": 1, "speed": 2, "name": 4}, 7, 1, 2,
+    ]  # fmt: skip
     keys = "cstate groups id name parameters parent srcfile srcline state type"
     assert second == str(keys.split())
 

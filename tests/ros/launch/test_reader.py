@@ -279,67 +279,16 @@ def test_a_damaged_file_is_read_or_refused_at_its_place(source: str, data: st.Da
 
 
 TAGS = [
-    "node",
-    "param",
-    "rosparam",
-    "arg",
-    "remap",
-    "group",
-    "include",
-    "env",
-    "machine",
-    "test",
-    "launch",
-    "x",
-]
+    "node", "param", "rosparam", "arg", "remap", "group", "include", "env", "machine", "test", "launch", "x",
+]  # fmt: skip
 ATTRIBUTES = [
-    "name",
-    "value",
-    "default",
-    "from",
-    "to",
-    "ns",
-    "if",
-    "unless",
-    "file",
-    "pkg",
-    "type",
-    "command",
-    "clear_params",
-    "address",
-    "test-name",
-    "subst_value",
-    "param",
-    "args",
-    "respawn",
-    "pass_all_args",
-]
+    "name", "value", "default", "from", "to", "ns", "if", "unless", "file", "pkg", "type", "command", "clear_params",
+    "address", "test-name", "subst_value", "param", "args", "respawn", "pass_all_args",
+]  # fmt: skip
 VALUES = [
-    "",
-    "a",
-    "/a",
-    "~",
-    "~a",
-    "a//b",
-    "1",
-    "true",
-    "$(arg a)",
-    "$(anon a)",
-    "$(eval a)",
-    "$(find a)",
-    "load",
-    "$(eval [1] * 5)",
-    "$(dirname)",
-    "int",
-    "yaml",
-    "1e400",
-    "[",
-    "\n",
-    "é",
-    "a b",
-    "../..",
-    "/dev/zero",
-]
+    "", "a", "/a", "~", "~a", "a//b", "1", "true", "$(arg a)", "$(anon a)", "$(eval a)", "$(find a)", "load",
+    "$(eval [1] * 5)", "$(dirname)", "int", "yaml", "1e400", "[", "\n", "é", "a b", "../..", "/dev/zero",
+]  # fmt: skip
 
 
 @st.composite

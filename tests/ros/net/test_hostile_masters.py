@@ -95,18 +95,12 @@ def in_lane(graph: Graph, task: Callable[[], Any]) -> list[Any]:
 @pytest.mark.parametrize(
     ("method", "value"),
     [
-        ("lookupNode", 5),
-        ("lookupService", []),
-        ("getUri", {}),
-        ("getParamNames", ["/a", 1]),
-        ("getTopicTypes", [["/a"]]),
-        ("getPublishedTopics", {"/a": "std_msgs/String"}),
-        ("getSystemState", []),
-        ("getSystemState", [[], [], [["/a", "/node"]]]),
-        ("registerPublisher", "http://127.0.0.1:1/"),
+        ("lookupNode", 5), ("lookupService", []), ("getUri", {}), ("getParamNames", ["/a", 1]),
+        ("getTopicTypes", [["/a"]]), ("getPublishedTopics", {"/a": "std_msgs/String"}), ("getSystemState", []),
+        ("getSystemState", [[], [], [["/a", "/node"]]]), ("registerPublisher", "http://127.0.0.1:1/"),
         ("registerSubscriber", [1]),
     ],
-)
+)  # fmt: skip
 def test_a_value_of_another_type_is_no_masters(pretender: Pretender, method: str, value: Any) -> None:
     pretender.answers[method] = [1, "", value]
     with (

@@ -188,26 +188,13 @@ def test_a_subscriber_of_any_type_meets_an_impossible_one(
 @pytest.mark.parametrize(
     "answer",
     [
-        0,
-        "TCPROS",
-        [1, 2],
-        ["1", "", []],
-        [1, "", 5],
-        [1, "", "TCPROS"],
-        [1, "", []],
-        [1, "", ["TCPROS"]],
-        [1, "", ["TCPROS", "127.0.0.1"]],
-        [1, "", ["TCPROS", "127.0.0.1", "port"]],
-        [1, "", ["TCPROS", "127.0.0.1", 2**31 - 1]],
-        [1, "", ["TCPROS", "127.0.0.1", -1]],
-        [1, "", ["TCPROS", "", 1]],
-        [1, "", ["TCPROS", "a b", 1]],
-        [1, "", ["TCPROS", "." * 70, 1]],
-        [1, "", ["UDPROS", "127.0.0.1", 1, 2, 1500, b""]],
-        [1, "", [["TCPROS"], {}]],
-        [0, {"not": "text"}, []],
+        0, "TCPROS", [1, 2], ["1", "", []], [1, "", 5], [1, "", "TCPROS"], [1, "", []], [1, "", ["TCPROS"]],
+        [1, "", ["TCPROS", "127.0.0.1"]], [1, "", ["TCPROS", "127.0.0.1", "port"]],
+        [1, "", ["TCPROS", "127.0.0.1", 2**31 - 1]], [1, "", ["TCPROS", "127.0.0.1", -1]],
+        [1, "", ["TCPROS", "", 1]], [1, "", ["TCPROS", "a b", 1]], [1, "", ["TCPROS", "." * 70, 1]],
+        [1, "", ["UDPROS", "127.0.0.1", 1, 2, 1500, b""]], [1, "", [["TCPROS"], {}]], [0, {"not": "text"}, []],
     ],
-)
+)  # fmt: skip
 def test_nonsense_as_an_answer_to_request_topic(
     graph: Graph, delays: list[float], answer: Any, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -49,21 +49,11 @@ def refused(method: str = "POST", version: str = "1.1", **headers: str | None) -
 @pytest.mark.parametrize(
     "host",
     [
-        "localhost",
-        "LocalHost.",
-        "127.0.0.1",
-        "127.0.1.1:11311",
-        "[::1]:11311",
-        "::1:11311",
-        "robot",
-        "ROBOT:11311",
-        "robot.local",
-        "robot.lab.example:80",
-        "robot-of-mine:11311",
-        "192.0.2.7:11311",
+        "localhost", "LocalHost.", "127.0.0.1", "127.0.1.1:11311", "[::1]:11311", "::1:11311", "robot",
+        "ROBOT:11311", "robot.local", "robot.lab.example:80", "robot-of-mine:11311", "192.0.2.7:11311",
         "0.0.0.0:11311",
     ],
-)
+)  # fmt: skip
 def test_each_name_of_this_machine_is_accepted(host: str) -> None:
     assert refused(Host=host) == 200
 

@@ -34,31 +34,16 @@ def test_arguments_rename_and_remap(programs):
     def main():
         rospy.init_node("talker")
         return (
-            rospy.get_name(),
-            rospy.get_namespace(),
-            rospy.resolve_name("chatter"),
-            rospy.resolve_name("~x"),
-            rospy.resolve_name(""),
-            rospy.resolve_name("a", "/other/node"),
-            rospy.remap_name("chatter"),
-            rospy.remap_name("unmapped"),
-            rospy.get_param("~rate"),
-            rospy.myargv(["prog", "a:=b", "-v", "_x:=1"]),
-        )
+            rospy.get_name(), rospy.get_namespace(), rospy.resolve_name("chatter"), rospy.resolve_name("~x"),
+            rospy.resolve_name(""), rospy.resolve_name("a", "/other/node"), rospy.remap_name("chatter"),
+            rospy.remap_name("unmapped"), rospy.get_param("~rate"), rospy.myargv(["prog", "a:=b", "-v", "_x:=1"]),
+        )  # fmt: skip
 
     got = programs(main, arguments=("__name:=speaker", "__ns:=robot1", "chatter:=news", "_rate:=10"))
     assert got == (
-        "/robot1/speaker",
-        "/robot1/",
-        "/robot1/news",
-        "/robot1/speaker/x",
-        "/robot1/",
-        "/other/a",
-        "/robot1/news",
-        "unmapped",
-        10,
-        ["prog", "-v"],
-    )
+        "/robot1/speaker", "/robot1/", "/robot1/news", "/robot1/speaker/x", "/robot1/", "/other/a", "/robot1/news",
+        "unmapped", 10, ["prog", "-v"],
+    )  # fmt: skip
 
 
 def test_argv_of_init_node_replaces_that_of_the_program(programs):

@@ -66,14 +66,9 @@ def test_import_forms(run, tmp_path):
         """,
     )
     assert run(spec, prefix=False).lines == [
-        "1 False pkg.x True space.y 2 True",
-        "True xml.dom.minidom logging.handlers",
-        "ModuleNotFoundError",
-        "ImportError",
-        "ModuleNotFoundError",
-        "ModuleNotFoundError",
-        "ImportError",
-    ]
+        "1 False pkg.x True space.y 2 True", "True xml.dom.minidom logging.handlers", "ModuleNotFoundError",
+        "ImportError", "ModuleNotFoundError", "ModuleNotFoundError", "ImportError",
+    ]  # fmt: skip
 
 
 def test_folders_added_to_the_path(run, tmp_path):

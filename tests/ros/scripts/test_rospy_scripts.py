@@ -285,14 +285,9 @@ def test_the_same_output_on_each_run(sim):
     specs = [
         spec(name)
         for name in (
-            "talker.py",
-            "listener.py",
-            "spin_thread.py",
-            "left/left.py",
-            "straight_line.py",
-            "motor.py",
+            "talker.py", "listener.py", "spin_thread.py", "left/left.py", "straight_line.py", "motor.py",
         )
-    ]
+    ]  # fmt: skip
     first = sim(*specs, duration=2).text
     assert first
     assert sim(*specs, duration=2).text == first

@@ -79,15 +79,10 @@ def test_arguments_and_main(run, tmp_path):
 @pytest.mark.parametrize(
     ("end", "status", "said"),
     [
-        ("sys.exit()", 0, ""),
-        ("sys.exit(0)", 0, ""),
-        ("sys.exit(3)", 3, ""),
-        ("exit(4)", 4, ""),
-        ("sys.exit('no robot')", 1, "no robot"),
-        ("raise SystemExit(5)", 5, ""),
-        ("1 / 0", 1, "ZeroDivisionError"),
+        ("sys.exit()", 0, ""), ("sys.exit(0)", 0, ""), ("sys.exit(3)", 3, ""), ("exit(4)", 4, ""),
+        ("sys.exit('no robot')", 1, "no robot"), ("raise SystemExit(5)", 5, ""), ("1 / 0", 1, "ZeroDivisionError"),
     ],
-)
+)  # fmt: skip
 def test_exit_status(run, end, status, said):
     ran = run(run.text("bad", f"import sys\n{end}\nprint('not here')"), run.text("good", "print('fine')"))
     assert ran.result.statuses == (status, 0)

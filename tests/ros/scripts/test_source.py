@@ -57,18 +57,11 @@ def test_other_files_are_named(tmp_path, name, data, said):
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ('print "hello"', "print(...)"),
-        ("print x, y", "print(...)"),
-        ("exec 'x = 1'", "exec(...)"),
-        ("raise ValueError, 'no'", "raise Error(message)"),
-        ("if a <> b: pass", "!="),
-        ("x = 0777", "0o"),
-        ("x = 10L", "L"),
-        ("x = `y`", "repr"),
-        ("x = ur'a'", "r''"),
-        ("def f(a, (b, c)): pass", "tuple"),
+        ('print "hello"', "print(...)"), ("print x, y", "print(...)"), ("exec 'x = 1'", "exec(...)"),
+        ("raise ValueError, 'no'", "raise Error(message)"), ("if a <> b: pass", "!="), ("x = 0777", "0o"),
+        ("x = 10L", "L"), ("x = `y`", "repr"), ("x = ur'a'", "r''"), ("def f(a, (b, c)): pass", "tuple"),
     ],
-)
+)  # fmt: skip
 def test_python_2_is_recognised(line, said):
     with pytest.raises(ScriptError) as caught:
         compile_script(f"import os\n{line}\n".encode(), "/x/old.py")

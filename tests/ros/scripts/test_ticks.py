@@ -37,16 +37,11 @@ def test_one_tick_for_each_turn(source, count):
 @pytest.mark.parametrize(
     ("loop", "is_idle"),
     [
-        ("while n(): pass", True),
-        ("while n(): continue", True),
-        ("while n():\n    'waits'", True),
-        ("while n():\n    if done: break", True),
-        ("while n(): x = 1", False),
-        ("while n(): n()", False),
-        ("while (m := n()): pass", False),
-        ("for i in range(1): pass", False),
+        ("while n(): pass", True), ("while n(): continue", True), ("while n():\n    'waits'", True),
+        ("while n():\n    if done: break", True), ("while n(): x = 1", False), ("while n(): n()", False),
+        ("while (m := n()): pass", False), ("for i in range(1): pass", False),
     ],
-)
+)  # fmt: skip
 def test_a_while_loop_whose_body_does_nothing_only_waits(loop, is_idle):
     turns = []
     names = {TICK: lambda **kinds: turns.append(kinds), "n": iter([1, 0, 0]).__next__, "done": False}

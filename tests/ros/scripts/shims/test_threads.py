@@ -148,20 +148,9 @@ def test_misuse_is_refused(run):
         """
     )
     assert [line.split()[0] for line in lines(ran)] == [
-        "RuntimeError",
-        "ran",
-        "RuntimeError",
-        "RuntimeError",
-        "RuntimeError",
-        "RuntimeError",
-        "ValueError",
-        "ValueError",
-        "RuntimeError",
-        "RuntimeError",
-        "RuntimeError",
-        "ValueError",
-        "ValueError",
-    ]
+        "RuntimeError", "ran", "RuntimeError", "RuntimeError", "RuntimeError", "RuntimeError", "ValueError",
+        "ValueError", "RuntimeError", "RuntimeError", "RuntimeError", "ValueError", "ValueError",
+    ]  # fmt: skip
 
 
 def test_locks(run):
@@ -286,18 +275,9 @@ def test_event_semaphore_barrier_timer_local(run):
         """
     )
     assert lines(ran) == [
-        "False False",
-        "True",
-        "False",
-        "True True False False",
-        "True",
-        "[0, 1] False",
-        "broken",
-        "False",
-        "main",
-        "raw 1",
-        "end True",
-    ]
+        "False False", "True", "False", "True True False False", "True", "[0, 1] False", "broken", "False", "main",
+        "raw 1", "end True",
+    ]  # fmt: skip
 
 
 def test_queues(run):
