@@ -145,20 +145,16 @@ def test_a_second_driver_of_the_same_name_ends_the_first(play: Play) -> None:
             hears(robot, "command 0.1 ")
 
 
-def test_the_listener_prints_what_is_ahead(play: Play) -> None:
-    with play.node("robot.py"), play.node("watch.py") as (process, output):
-        wait_until(lambda: "2.00 m ahead" in output(), "a distance", process)
-
-
-def test_the_robot_is_stopped_before_the_wall(play: Play) -> None:
-    with play.node("robot.py") as robot, play.node("stop.py"):
-        hears(robot, "command 0.2 0.0")
-        hears(robot, "command 0.0 0.0")
-
-
-def test_a_node_in_the_middle_halves_what_is_wished_for(play: Play) -> None:
-    with play.node("robot.py") as robot, play.node("gentle.py"):
-        hears(robot, "command 0.1 0.25")
+def test_the_robot_stops_before_the_wall_and_half_of_what_is_wished_for_arrives(play: Play) -> None:
+    """The solutions: the listener, the node that stops the robot, and the one in the middle."""
+    with play.node("robot.py") as robot:
+        with play.node("watch.py") as (process, output):
+            wait_until(lambda: "2.00 m ahead" in output(), "a distance", process)
+        with play.node("stop.py"):
+            hears(robot, "command 0.2 0.0")
+            hears(robot, "command 0.0 0.0")
+        with play.node("gentle.py"):
+            hears(robot, "command 0.1 0.25")
 
 
 def test_a_script_introduces_two_nodes_in_the_place_of_the_master(play: Play) -> None:

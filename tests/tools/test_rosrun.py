@@ -165,13 +165,6 @@ def test_without_a_master_a_node_says_so_once_and_waits_for_it(session: Session)
     assert re.match(r"\[ERROR\] \[\d+\.\d{6}\]: Unable", session.said("listener"))
 
 
-def test_a_node_without_a_master_ends_when_it_is_told_to(session: Session) -> None:
-    listener = session.start("listener", "rosrun", "speaking", "listener.py")
-    session.until_said("listener", "Unable to register", listener)
-    listener.send_signal(signal.SIGINT)
-    assert listener.wait(PATIENCE) in (0, 1, 130, -signal.SIGINT)
-
-
 def test_a_master_that_comes_back_is_told_everything_again(session: Session) -> None:
     core = session.core()
     listener = session.start("listener", "rosrun", "speaking", "listener.py")
@@ -191,28 +184,6 @@ def test_a_master_that_comes_back_is_told_everything_again(session: Session) -> 
     said = session.said("listener")
     assert said.count("does not answer any more") == 1
     assert said.count("is back: /listener registers again") == 1
-
-
-def test_the_older_of_two_nodes_of_one_name_ends_with_the_reason(session: Session) -> None:
-    session.core()
-    first = session.start("first", "rosrun", "speaking", "listener.py")
-    wait_until(lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "the first", first)
-    address = session.ask("lookupNode", "/listener")[2]
-    second = session.start("second", "rosrun", "speaking", "listener.py")
-    assert first.wait(PATIENCE) == 0
-    assert "shutdown request: [/listener] Reason: new node registered with same name" in session.said("first")
-    session.start("talker", "rosrun", "speaking", "talker.py")
-    session.until_said("second", "heard hello from /talker", second)
-    assert session.ask("lookupNode", "/listener")[2] != address
-
-
-def test_a_node_that_dies_without_a_word_stays_listed(session: Session) -> None:
-    session.core()
-    listener = session.start("listener", "rosrun", "speaking", "listener.py")
-    wait_until(lambda: "/listener" in session.nodes(), "the listener", listener)
-    listener.kill()
-    listener.wait(PATIENCE)
-    assert "/listener" in session.nodes()
 
 
 def test_each_process_has_its_own_anonymous_names_and_log_files(session: Session) -> None:
@@ -267,7 +238,7 @@ def test_a_host_that_does_not_resolve_and_one_that_cannot_reach_back_are_told(se
     assert "Set ROS_IP" in said
     assert "'no-such-host.invalid' does not resolve" in said
     listener.send_signal(signal.SIGINT)
-    listener.wait(PATIENCE)
+    assert listener.wait(PATIENCE) in (0, 1, 130, -signal.SIGINT)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX program")
