@@ -175,10 +175,6 @@ def test_the_address_of_the_repository_is_one_setting(url, text, tmp_path):
     assert config.html_theme_options["use_repository_button"] is bool(url)
 
 
-def test_a_figure_that_no_notebook_stores_is_an_error(tmp_path):
-    assert "no figure 3.1" in build(tmp_path, "```{stored} notebooks/03_none 3.1\nA caption\n```")
-
-
 def test_thebe_is_silent(page):
     assert "THEBE_JS_URL" not in page
     assert "sphinx-thebe.js" not in page
@@ -207,13 +203,18 @@ def test_the_theme_writes_nothing_to_the_console(html):
     assert [path.name for path in scripts if "console.log(" in path.read_text(encoding="utf-8")] == []
 
 
-@pytest.mark.parametrize(
-    ("directive", "problem"),
-    [
-        ("```{drawing} ros_part\nA caption.\n```", "there is no drawing ros_part; there are "),
-        ("```{drawing} ../logo-light\nA caption.\n```", "there is no drawing ../logo-light"),
-        ("```{drawing} ros_parts\n```", "Content block expected"),
-    ],
-)
-def test_a_drawing_that_does_not_exist_or_has_no_caption_is_refused(tmp_path, directive, problem):
-    assert problem in build(tmp_path, f"# A page\n\n{directive}\n")
+def test_a_drawing_or_figure_that_does_not_exist_or_has_no_caption_is_refused(tmp_path):
+    directives = (
+        "{drawing} ros_part\nA caption.",
+        "{drawing} ../logo-light\nA caption.",
+        "{drawing} ros_parts",
+        "{stored} notebooks/03_none 3.1\nA caption",
+    )
+    problems = build(tmp_path, "# A page\n\n" + "\n\n".join(f"```{each}\n```" for each in directives))
+    for problem in (
+        "there is no drawing ros_part; there are ",
+        "there is no drawing ../logo-light",
+        "Content block expected",
+        "no figure 3.1",
+    ):
+        assert problem in problems

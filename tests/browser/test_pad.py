@@ -22,6 +22,8 @@ from rosmini.viz.live.pad import TeleopPad
 from rosmini.viz.live.page import SCRIPTS, pad_data
 from rosmini.viz.live.teleop import PERIOD, Limits, Teleop, key_map, table
 
+from ..conftest import nightly
+
 pytestmark = pytest.mark.browser
 
 HALL = World(
@@ -323,7 +325,7 @@ def test_discs_and_corners_stop_a_robot(bare):
 # -- in the page --
 
 
-@pytest.mark.parametrize("name", ["light", "alone"])
+@pytest.mark.parametrize("name", ["light", *nightly("alone")])
 def test_real_keys_drive_and_each_message_is_shown(show, name):
     pad = show(name)
     assert pad.message == "Nothing was published yet."
@@ -390,16 +392,12 @@ def test_the_arrows_and_the_space_bar_drive_and_the_page_does_not_scroll(show):
     assert pad.page.locator(".rp-command").inner_text() == sent
 
 
-def test_shortcuts_of_the_browser_are_left_alone(show):
+def test_capitals_and_other_alphabets_drive_too_but_shortcuts_of_the_browser_do_not(show):
     pad = show("light")
     pad.stage.focus()
     for keys in ("Control+a", "Alt+d", "Meta+s", "Shift+Tab"):
         pad.page.keyboard.press(keys)
     assert pad.message == "Nothing was published yet."
-
-
-def test_capitals_and_other_alphabets_drive_too(show):
-    pad = show("light")
     pad.stage.focus()
     pad.page.keyboard.press("Shift+W")
     pad.stage.dispatch_event("keydown", {"key": "ц", "code": "KeyW"})  # the same key on a Russian keyboard
@@ -432,7 +430,7 @@ def test_the_keyboard_alone_is_enough(show):
     assert pad.mood == "ready"
 
 
-@pytest.mark.parametrize("name", ["light", "dark"])
+@pytest.mark.parametrize("name", ["light", *nightly("dark")])
 def test_the_focus_is_visible(show, name):
     pad = show(name)
     ring = "getComputedStyle(document.querySelector('.rp-stage'), '::after').borderTopWidth"
@@ -597,7 +595,7 @@ PHONE = {
 }
 
 
-@pytest.mark.parametrize("name", ["light", "blind"])
+@pytest.mark.parametrize("name", ["blind", *nightly("light")])
 def test_on_a_phone_fingers_drive(show, name, shared_tmp):
     pad = show(name, **PHONE)
     assert pad.page.evaluate("document.documentElement.scrollWidth") == 390
@@ -624,7 +622,7 @@ def luminance(colour: str) -> float:
     return 0.2126 * r + 0.7152 * g + 0.0722 * b
 
 
-@pytest.mark.parametrize("name", ["light", "dark"])
+@pytest.mark.parametrize("name", ["dark", *nightly("light")])
 def test_the_pad_has_the_theme_of_its_page(show, name, shared_tmp):
     pad = show(name)
     pad.stage.focus()
