@@ -6,7 +6,7 @@ import os
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core import files
 from rosmini.core.errors import RosminiError
@@ -19,13 +19,16 @@ __all__ = ["LARGEST", "ImageError", "opened", "strips"]
 LARGEST = 100_000_000
 """Maximum number of pixels: a map of 10,000 x 10,000 cells."""
 
-IN_COLOUR = 50_000_000
-"""Maximum number of pixels of an image that takes more than one byte for each in memory."""
+LONGEST = 65_535
+"""Maximum number of pixels along a side, as in SDL."""
+
+MEMORY = 250_000_000
+"""Maximum memory of the pixels and of their decoder, or of a map made of them [bytes]."""
 
 BYTES = 5
 """Maximum file size per pixel [bytes]."""
 
-AT_ONCE = 1_000_000
+AT_ONCE = 100_000
 """Maximum number of pixels of a strip."""
 
 FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TGA", "TIFF", "WEBP")
@@ -46,10 +49,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # our limit replaces it
             with Image.open(path, formats=FORMATS) as image:
-                most = LARGEST if image.mode in ("1", "L", "P") else IN_COLOUR
-                if image.width * image.height > most:
-                    size = f"{image.width} x {image.height} pixels in mode {image.mode}"
-                    raise ImageError(f"it has {size}; {most} are allowed")
+                _check(image)
                 yield image
     except FileNotFoundError:
         raise
@@ -70,6 +70,50 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
         KeyError,
     ) as error:
         raise ImageError(getattr(error, "strerror", None) or str(error) or type(error).__name__) from error
+
+
+def _check(image: Image) -> None:
+    """Raise `ImageError` for an image that would take too much memory."""
+    pixels = image.width * image.height
+    text = f"it has {image.width} x {image.height} pixels in mode {image.mode}"
+    if pixels > LARGEST or max(image.size) > LONGEST:
+        raise ImageError(f"{text}; {LARGEST} are allowed, and {LONGEST} along a side")
+    needed = pixels * _bytes(image) + max(pixels, _decoder_memory(image))
+    if needed > MEMORY:
+        raise ImageError(
+            f"{text}, which take {needed // 10**6} MB; {MEMORY // 10**6} are allowed: make it smaller, or save it as a "
+            "grey PNG"
+        )
+
+
+def _bytes(image: Image) -> int:
+    """Return the memory of a pixel [bytes]."""
+    if image.mode.startswith("I;16"):
+        return 2
+    return 1 if image.mode in ("1", "L", "P") else 4
+
+
+def _decoder_memory(image: Image) -> int:
+    """Return an upper bound of the memory that the decoder of an image takes [bytes], apart from the pixels."""
+    pixels, bands = image.width * image.height, len(image.getbands())
+    match image.format:
+        case "JPEG":  # with several scans, the decoder keeps all coefficients
+            return 2 * bands * pixels
+        case "WEBP":  # the file's frame, the canvas and a copy
+            return 11 * pixels
+        case "PPM" if image.tile[0][0] != "raw":  # numbers as text: two copies
+            return 2 * _bytes(image) * pixels
+        case "TIFF":  # one strip or tile
+            tags: Any = getattr(image, "tag_v2", {})
+            rows = min(tags.get(_ROWS_PER_STRIP, image.height), image.height)
+            tile = tags.get(_TILE_WIDTH, 0) * tags.get(_TILE_HEIGHT, 0)
+            bits = sum(tags.get(_BITS_PER_SAMPLE, (8,) * bands))
+            return int(max(rows * image.width, tile) * bits) // 8
+        case _:
+            return 0
+
+
+_BITS_PER_SAMPLE, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_HEIGHT = 258, 278, 322, 323
 
 
 def strips(image: Image) -> Iterator[tuple[int, Image]]:
