@@ -38,18 +38,21 @@ def parameter(
     unit: str = "",
     minimum: float | None = None,
     maximum: float | None = None,
+    limits: tuple[float | None, float | None] = (None, None),
     choices: tuple[str, ...] = (),
     level: int = 0,
     group: str = "",
 ) -> Any:
     """Declare a parameter in a class derived from `Parameters`; the field gives its name and type.
 
-    A `dynamic` class limits values to the range; in others, a value outside the range is an error.
-    Range and choices of a list apply to its elements. Without `choices`, any text is allowed. `level` and `group` are
-    used for parameters that change while the node runs: see `rosmini.core.dynamic_reconfigure`.
+    A `dynamic` class limits values to the range; in others, a value outside the range is an error. `limits` is a
+    narrower range for a node whose original accepts values that would be useless or too costly here: values outside
+    it are limited, with a warning. Ranges and choices of a list apply to its elements. Without `choices`, any text is
+    allowed. `level` and `group` are used for parameters that change while the node runs: see
+    `rosmini.core.dynamic_reconfigure`.
     """
     about = {"meaning": meaning, "unit": unit, "minimum": minimum, "maximum": maximum, "choices": choices}
-    return field(default=default, metadata={**about, "level": level, "group": group})
+    return field(default=default, metadata={**about, "limits": limits, "level": level, "group": group})
 
 
 @dataclass(frozen=True)
@@ -110,7 +113,7 @@ class Parameters:
             if namespace is not None:
                 rows += namespace.table(f"{label}{declared.name}/")
                 continue
-            low, high = about["minimum"], about["maximum"]
+            low, high = _range(about)
             span = ", ".join(about["choices"])
             span = span if low is None and high is None else f"{_shown(low)} ... {_shown(high)}".strip()
             default = "" if declared.default is None else _listed(declared.default)
@@ -175,7 +178,22 @@ def _converted(value: Any, declared: Field[Any], kind: Any, place: Place, *, lim
     if limited:
         return limited_value(value, declared.metadata["minimum"], declared.metadata["maximum"])
     _check_range(place.name, declared.metadata, value)
-    return value
+    return value if isinstance(value, str) else _limited(value, declared.metadata, place)
+
+
+def _limited(value: Any, about: Mapping[str, Any], place: Place) -> Any:
+    """Return a number limited to the `limits` of its parameter, with a warning if that changes it."""
+    found = limited_value(value, *about["limits"])
+    if found != value:
+        unit = f" {about['unit']}" if about["unit"] else ""
+        place.warn(f"parameter {place.name} ({about['meaning']}) is {value}: it is limited to {found}{unit}")
+    return found
+
+
+def _range(about: Mapping[str, Any]) -> tuple[Any, Any]:
+    """Return the bounds between which a value is used unchanged."""
+    low, high = about["limits"]
+    return about["minimum"] if low is None else low, about["maximum"] if high is None else high
 
 
 def rounded(value: Any) -> Any:
@@ -212,7 +230,9 @@ def _check_range(name: str, about: Mapping[str, Any], value: Any) -> None:
     if isinstance(value, str) or ((low is None or value >= low) and (high is None or value <= high)):
         return
     bounds = " and ".join(
-        f"{word} {bound}" for word, bound in (("at least", low), ("at most", high)) if bound is not None
+        f"{word} {bound}"
+        for word, bound in zip(("at least", "at most"), _range(about), strict=True)
+        if bound is not None
     )
     unit = f" {about['unit']}" if about["unit"] else ""
     raise ParameterError(f"{subject} {value}; it has to be {bounds}{unit}")

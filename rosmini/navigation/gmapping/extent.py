@@ -8,18 +8,23 @@ OccupancyGrid (the original's published map is shifted by half a cell).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.core.errors import ParameterError
+from rosmini.core.errors import RosminiError
 
-from .maps import SIDE
+from .maps import MAX_PATCHES, SIDE
 from .slam import GridSlam
 
 GROWTH_MARGIN = 10.0
 """Additional margin of a map that has to grow [m]."""
+
+
+LARGEST_SIDE = 10_000
+"""A larger initial map, of more than this number of cells squared, is limited."""
 
 
 class Extent(NamedTuple):
@@ -31,19 +36,38 @@ class Extent(NamedTuple):
     height: int
 
 
-def first_extent(xmin: float, ymin: float, xmax: float, ymax: float, delta: float) -> Extent:
-    """Return the initial extent of a map, given in metres. Raises `ParameterError` for a map without cells."""
+def first_extent(
+    xmin: float, ymin: float, xmax: float, ymax: float, delta: float, warn: Callable[[str], object]
+) -> Extent:
+    """Return the initial extent of a map, given in metres.
+
+    As in the original, bounds in the wrong order give a small map at xmin or ymin, which grows. Calls `warn` for such
+    bounds, and for a map of more than `LARGEST_SIDE` squared cells, of which the part around the origin remains.
+    """
     if not (xmin < xmax and ymin < ymax):
-        raise ParameterError(
+        warn(
             f"a map from xmin {xmin} to xmax {xmax} m and from ymin {ymin} to ymax {ymax} m has no cells: "
-            "xmin and ymin must be smaller than xmax and ymax"
+            "it starts small and grows; xmin and ymin should be smaller than xmax and ymax"
         )
     columns, rows = (
         max(math.ceil(length / delta - 1e-6) // SIDE, 1) for length in (xmax - xmin, ymax - ymin)
     )
-    return Extent(
-        math.floor(xmin / delta + 1e-6), math.floor(ymin / delta + 1e-6), columns * SIDE, rows * SIDE
-    )
+    left, low = math.floor(xmin / delta + 1e-6), math.floor(ymin / delta + 1e-6)
+    most = LARGEST_SIDE // SIDE
+    if columns * rows > most * most:
+        warn(
+            f"a map from xmin {xmin} to xmax {xmax} m and from ymin {ymin} to ymax {ymax} m has more than "
+            f"{LARGEST_SIDE} x {LARGEST_SIDE} cells of {delta} m: it starts with fewer, and grows"
+        )
+        left, columns = _part(left, columns, most)
+        low, rows = _part(low, rows, most)
+    return Extent(left, low, columns * SIDE, rows * SIDE)
+
+
+def _part(low: int, blocks: int, most: int) -> tuple[int, int]:
+    """Return at most this number of blocks, as near to cell 0 as possible."""
+    high = low + max(blocks - most, 0) * SIDE
+    return min(max(low, -most * SIDE // 2), high), min(blocks, most)
 
 
 def grown(extent: Extent, seen: Extent, delta: float) -> Extent:
@@ -63,9 +87,17 @@ def _grown(low: int, size: int, from_: int, count: int, delta: float) -> tuple[i
 
 
 def published(slam: GridSlam, extent: Extent, threshold: float) -> tuple[NDArray[np.int8], Extent]:
-    """Return the best particle's map (h, w) as nav_msgs/OccupancyGrid values, and its extent, which may have grown."""
+    """Return the best particle's map (h, w) as nav_msgs/OccupancyGrid values, and its extent, which may have grown.
+
+    Raises `RosminiError` if it would be too large.
+    """
     shares, seen = known(slam, slam.best)
     extent = grown(extent, seen, slam.settings.delta)
+    if extent.width * extent.height > MAX_PATCHES * SIDE * SIDE:
+        raise RosminiError(
+            f"a map of {extent.width} x {extent.height} cells is too large: the robot is too far from the initial map, "
+            "which xmin, ymin, xmax and ymax give"
+        )
     cells = np.full((extent.height, extent.width), -1, dtype=np.int8)
     row, column = seen.row - extent.row, seen.column - extent.column
     part = cells[row : row + seen.height, column : column + seen.width]

@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 TRANSFORM_TIMEOUT = 0.5
 """Maximum time that a scan waits for its transforms [s]."""
 
+SHORTEST_PERIOD = 0.001
+"""Shortest interval between two transforms [s]; with a shorter or negative one, the original never pauses."""
+
 
 class SlamGmapping:
     """Simultaneous localisation and mapping as a node."""
@@ -38,7 +41,7 @@ class SlamGmapping:
         self.parameters = p = GmappingParameters.read(node)
         self.slam: GridSlam | None = None
         """The filter, or None before the first scan; `slam.show()` draws its maps and paths."""
-        self._extent = first_extent(p.xmin, p.ymin, p.xmax, p.ymax, p.delta)
+        self._extent = first_extent(p.xmin, p.ymin, p.xmax, p.ymax, p.delta, node.logwarn)
         self._upside_down = False
         self._beams = self._scans = 0
         self._correction: Pose = (0.0, 0.0, 0.0)
@@ -58,8 +61,10 @@ class SlamGmapping:
         self._metadata = node.publisher("map_metadata", numbers, queue_size=1, latch=True)
         node.service("dynamic_map", service_class("nav_msgs/GetMap"), self._dynamic_map)
         node.subscriber("scan", message_class("sensor_msgs/LaserScan"), self._scan, queue_size=5)
-        if p.transform_publish_period > 0:
-            node.timer(p.transform_publish_period, self._broadcast)
+        if period := p.transform_publish_period:
+            if period < SHORTEST_PERIOD:
+                node.logwarn(f"~transform_publish_period is {period} s: it is limited to {SHORTEST_PERIOD} s")
+            node.timer(max(period, SHORTEST_PERIOD), self._broadcast)
 
     # -- scans ---------------------------------------------------------------------------------------------------
 
@@ -132,18 +137,16 @@ class SlamGmapping:
                 "the map continues from there, and is likely to be distorted"
             )
         try:
-            report = slam.process(ranges, bearings, odometry, message.header.stamp.to_sec())
+            if slam.process(ranges, bearings, odometry, message.header.stamp.to_sec()) is None:
+                return
+            x, y, yaw = slam.poses[slam.best]
+            self._correction = compose((float(x), float(y), float(yaw)), inverse(odometry))
+            since = None if self._last_map is None else (self._last_stamp_ns - self._last_map) * 1e-9
+            if since is None or not 0 <= since <= self.parameters.map_update_interval:
+                self._last_map = self._last_stamp_ns
+                self._publish(slam)
         except RosminiError as error:
             self.node.logerr(error, throttle=5.0)
-            return
-        if report is None:
-            return
-        x, y, yaw = slam.poses[slam.best]
-        self._correction = compose((float(x), float(y), float(yaw)), inverse(odometry))
-        since = None if self._last_map is None else (self._last_stamp_ns - self._last_map) * 1e-9
-        if since is None or not 0 <= since <= self.parameters.map_update_interval:
-            self._last_map = self._last_stamp_ns
-            self._publish(slam)
 
     # -- results -------------------------------------------------------------------------------------------------
 
@@ -189,7 +192,7 @@ def check(message: Any, longest: float | None) -> None:
         len(message.ranges) < 2
         or not all(map(math.isfinite, numbers))
         or message.angle_increment == 0
-        or reach <= 0
+        or message.range_max <= 0
     ):
         raise RosminiError(
             f"a scan of {message.header.frame_id} has {len(message.ranges)} ranges, the angle_min {message.angle_min}, "

@@ -52,6 +52,11 @@ class HectorMapping:
             node.loginfo(
                 f"HectorSM map lvl {level}: cellLength: {grid.resolution:g} res x:{width} res y: {height}"
             )
+        if len(self.slam.maps) < p.map_multi_res_levels:
+            node.logwarn(
+                f"~map_multi_res_levels is {p.map_multi_res_levels}: a map of {p.map_size} cells can only be halved to "
+                f"{len(self.slam.maps)} levels"
+            )
         self.paused = False
         self._start: Pose | None = None
         """The pose given by a user, until the next scan."""
@@ -69,7 +74,7 @@ class HectorMapping:
             p.scan_topic,
             message_class("sensor_msgs/LaserScan"),
             self._scan,
-            queue_size=p.scan_subscriber_queue_size or None,
+            queue_size=p.scan_subscriber_queue_size if p.scan_subscriber_queue_size > 0 else None,
         )
         node.subscriber(p.sys_msg_topic, message_class("std_msgs/String"), self._command, queue_size=2)
         posed = message_class("geometry_msgs/PoseWithCovarianceStamped")

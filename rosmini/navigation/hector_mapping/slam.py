@@ -39,6 +39,7 @@ class Settings:
 class HectorSlam:
     """Maps, the finest first, and the robot's pose on them.
 
+    There is no level of less than two cells: the original creates it, but cannot match a scan there.
     Raises `RosminiError` for parameters that give no valid map.
     """
 
@@ -49,17 +50,13 @@ class HectorSlam:
                 f"a map of {s.map_size} cells of {s.map_resolution} m on {s.map_multi_res_levels} levels: all must "
                 "be greater than 0"
             )
-        if s.map_size >> (s.map_multi_res_levels - 1) < 2:
-            raise RosminiError(
-                f"a map of {s.map_size} cells cannot be halved {s.map_multi_res_levels - 1} times: lower "
-                "map_multi_res_levels"
-            )
         self.reset()
 
     def reset(self) -> None:
         """Clear the maps, and reset the pose to their origin."""
         s = self.settings
         side = s.map_size * s.map_resolution
+        levels = min(s.map_multi_res_levels, s.map_size.bit_length() - 1)
         corner = (-s.map_start_x * side, -s.map_start_y * side)
         self.maps = [
             OccupancyGrid(
@@ -69,7 +66,7 @@ class HectorSlam:
                 free=s.update_factor_free,
                 occupied=s.update_factor_occupied,
             )
-            for level in range(s.map_multi_res_levels)
+            for level in range(levels)
         ]
         self.pose = START
         self.matched: Matched | None = None

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from rosmini import rosrun
-from rosmini.core.errors import ParameterError
 from rosmini.core.graph import Graph
 from rosmini.core.maps import load_map
 from rosmini.core.tf import StaticTransformBroadcaster, TransformBroadcaster
@@ -91,13 +90,16 @@ def test_its_topics_and_services(graph):
 class Laser:
     """Scans by hand."""
 
-    def __init__(self, graph, mount=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)):
+    def __init__(self, graph, mount=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0), **given):
         self.graph, (self.node, self.heard) = graph, listen(graph)
         self.scans = self.node.publisher("scan", message_class("sensor_msgs/LaserScan"), queue_size=5)
         self.tf = TransformBroadcaster(self.node)
         StaticTransformBroadcaster(self.node).send_rigid("base_link", "laser", mount)
-        given = ("_particles:=3", "_xmin:=-2", "_xmax:=2", "_ymin:=-2", "_ymax:=2")
-        self.mapper = rosrun("gmapping", "slam_gmapping", "__name:=gmapping", *given, graph=graph).instance()
+        given = {"particles": 3, "xmin": -2, "xmax": 2, "ymin": -2, "ymax": 2, **given}
+        arguments = [f"_{name}:={value}" for name, value in given.items()]
+        self.mapper = rosrun(
+            "gmapping", "slam_gmapping", "__name:=gmapping", *arguments, graph=graph
+        ).instance()
         graph.run(0.2)
 
     def scan(self, ranges, *, odom=True, **changes):
@@ -181,9 +183,17 @@ def test_an_odometry_that_jumps_beyond_all_maps(graph):
     assert laser.said("maps would have to extend")
 
 
-def test_bounds_that_bound_nothing(graph):
-    with pytest.raises(ParameterError, match=r"xmin 3.0 to xmax -3.0"):
-        rosrun("gmapping", "slam_gmapping", "_xmin:=3.0", "_xmax:=-3.0", graph=graph).instance()
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("xmin", 5.0), ("maxRange", -1.0), ("maxUrange", -5.0), ("transform_publish_period", -1.0)],
+)
+def test_a_value_that_is_accepted_with_a_warning(graph, name, value):
+    """Machine code that follows beams of negative length ended the whole process."""
+    laser = Laser(graph, **{name: value})
+    laser.scan([1.0] * 8)
+    assert laser.mapper.slam.processed == 1
+    assert laser.heard["map"]
+    assert laser.said(name)
 
 
 def test_an_odometry_that_jumps(graph):

@@ -240,6 +240,14 @@ def test_scans_that_cannot_be(graph):
     assert laser.pose == pytest.approx((0.05, 0.0), abs=0.02), "scans may have other lengths"
 
 
+def test_levels_of_less_than_two_cells_have_no_effect(graph):
+    laser = Laser(graph, map_size=32, map_resolution=0.2, map_multi_res_levels=100)
+    assert [grid.odds.shape[0] for grid in laser.mapper.slam.maps] == [32, 16, 8, 4, 2]
+    laser.see(0.0, 0.0)
+    assert laser.mapper.slam.updates == 1
+    assert laser.said("~map_multi_res_levels is 100")
+
+
 def test_time_that_jumps_back(graph):
     """A bag that loops: the robot is where it began, and not where the map has it."""
     laser = Laser(graph)

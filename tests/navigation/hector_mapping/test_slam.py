@@ -82,7 +82,6 @@ def test_a_reset_forgets():
     ("changes", "text"),
     [
         ({"map_resolution": 0.0}, "all must be greater than 0"),
-        ({"map_multi_res_levels": 9}, "cannot be halved 8 times"),
         ({"update_factor_free": 1.0}, "must be a probability"),
     ],
 )
