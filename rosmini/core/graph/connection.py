@@ -251,6 +251,8 @@ class Connection:
         """Number of messages passed to the callbacks."""
         self.dropped = 0
         """Number of messages dropped because too many were waiting."""
+        self._batch_end = 0
+        """The value of ``received`` after the batch that the callbacks are working through."""
         self.bytes_received = 0
         """Number of message bytes received over a wire."""
         self.info = ""
@@ -415,9 +417,10 @@ class Connection:
 
     def _trim(self) -> None:
         """Drop the oldest messages beyond the queue size: the running callback is slower than the publisher."""
-        size = self.subscription.queue_size
-        while size and len(self.incoming) > size:
-            self.incoming.popleft()
+        size, incoming = self.subscription.queue_size, self.incoming
+        batch = max(0, self._batch_end - self.received)
+        while size and len(incoming) > size + batch:
+            del incoming[batch]
             self.dropped += 1
         if self.dropped and not self._has_reported_drops:
             self._report_drops()
@@ -473,6 +476,8 @@ class Connection:
                     if size and parks != lane.parks:  # a callback has blocked: messages may have piled up
                         parks = lane.parks
                         self._trim()
+                        if self.subscription.takes_batches and self.received >= self._batch_end:
+                            self._batch_end = self.received + len(incoming)
         finally:
             self._draining = False
             if incoming and not self._is_over:

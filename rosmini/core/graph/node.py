@@ -235,10 +235,13 @@ class Node:
         receipt: Callable[[Any], Callable[[Any], Any] | None] | None = None,
         tcp_nodelay: bool = False,
         skip_own_mismatch: bool = False,
+        takes_batches: bool = False,
     ) -> Subscriber:
         """Call ``callback(message, *arguments)`` for each message on ``topic``.
 
         ``queue_size`` limits the messages that wait while a callback blocks (None: no limit; the oldest are dropped).
+        ``takes_batches``: as in rospy, all messages that wait when a callback returns are delivered, whatever arrives
+        until then; otherwise newer messages replace them, as in roscpp.
         ``numpy`` gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both:
         see ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once.
         ``skip_own_mismatch`` allows this node itself to publish the topic with another type, as roscpp does. All
@@ -273,6 +276,7 @@ class Node:
                 on_connect=on_connect,
                 on_disconnect=on_disconnect,
                 receipt=receipt,
+                takes_batches=takes_batches,
             )
             if fresh:
                 self._subscribe(subscription)

@@ -37,6 +37,7 @@ class Subscription:
         self.handles: list[Subscriber] = []
         self.connections: dict[str, Connection] = {}
         self.queue_size: int | None = None
+        self.takes_batches = False
         self.tcp_nodelay = False
         """True if publishers in other processes should send each message at once."""
         self.skips_own_mismatch = False
@@ -178,6 +179,7 @@ class Subscription:
     def _changed(self) -> None:
         sizes = [handle.queue_size for handle in self.handles]
         self.queue_size = None if not all(sizes) else max((size for size in sizes if size), default=None)
+        self.takes_batches = any(handle.takes_batches for handle in self.handles)
         for connection in self.connections.values():
             connection.route = None
 
@@ -230,6 +232,7 @@ class Subscriber(TopicHandle):
         on_connect: Callable[[str], object] | None = None,
         on_disconnect: Callable[[str], object] | None = None,
         receipt: Callable[[Any], Callable[[Any], Any] | None] | None = None,
+        takes_batches: bool = False,
     ) -> None:
         self._subscription: Subscription | None = subscription
         self.node = subscription.node
@@ -239,6 +242,7 @@ class Subscriber(TopicHandle):
         self.callback = None if callback is None else Callback(callback, arguments)
         self._numpy = numpy
         self.receipt = receipt
+        self.takes_batches = takes_batches
         self._on_connect = on_connect
         self._on_disconnect = on_disconnect
         subscription.add(self)

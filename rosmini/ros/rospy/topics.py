@@ -265,6 +265,7 @@ class Subscriber(Topic):
         callback: called for each message; numeric arrays are tuples, and ``uint8[]`` is bytes.
         callback_args: a second argument for the callback, unless it is None.
         queue_size: maximum number of messages queued during a callback before the oldest is dropped; None: no limit.
+            When the callback returns, it gets all of these before newer ones.
         buff_size: accepted for compatibility; available data is always read at once.
         tcp_nodelay: ask publishers in other processes to send each message at once; rosmini's always do.
 
@@ -301,6 +302,7 @@ class Subscriber(Topic):
             numpy=False,
             receipt=receipt_of(self.data_class),
             tcp_nodelay=self._tcp_nodelay,
+            takes_batches=True,
         )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import warnings
 
 import numpy as np
@@ -78,6 +79,35 @@ def test_a_field_of_the_wrong_type_is_a_serialization_exception(programs):
             publisher.publish("seven")
 
     programs(main)
+
+
+@pytest.mark.parametrize(
+    ("queue_size", "expected"),
+    [(None, [0, 1, 2, 3, 4]), (1, [0, 3, 6, 9, 12]), (2, [0, 2, 3, 8, 9, 14, 15])],
+)
+def test_a_slow_callback_works_through_batches(programs, queue_size, expected):
+    """As measured with rospy: all messages that waited when a callback returned are delivered before newer ones."""
+
+    def main():
+        rospy.init_node("main")
+        heard, numbers = [], itertools.count()
+
+        def hear(message):
+            heard.append(message.data)
+            if len(heard) < 8:
+                for _ in range(3):
+                    publisher.publish(next(numbers))
+            rospy.sleep(0.1)
+
+        publisher = rospy.Publisher("t", Int32, queue_size=10)
+        rospy.Subscriber("t", Int32, hear, queue_size=queue_size)
+        rospy.sleep(0.2)
+        publisher.publish(next(numbers))
+        while len(heard) < 8:
+            rospy.sleep(0.1)
+        return heard
+
+    assert programs(main)[: len(expected)] == expected
 
 
 def test_a_missing_queue_size_is_warned_of(programs):
