@@ -101,7 +101,7 @@ def _decoder_memory(image: Image) -> int:
             return 2 * bands * pixels
         case "WEBP":  # the file's frame, the canvas and a copy
             return 11 * pixels
-        case "PPM" if image.tile[0][0] != "raw":  # numbers as text: two copies
+        case "PPM" if getattr(image, "tile", [("raw",)])[0][0] != "raw":  # numbers as text: two copies
             return 2 * _bytes(image) * pixels
         case "TIFF":  # one strip or tile
             tags: Any = getattr(image, "tag_v2", {})
