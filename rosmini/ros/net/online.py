@@ -97,8 +97,7 @@ class Online:
         self._own = graph.master
         self.server: MasterServer | None = None
         """Server of this graph's Master; None if the graph has joined another one."""
-        self._pace: Pace | None = None
-        self._companions: list[Callable[[], bool]] = []
+        self._pace = Pace(graph, self.network.io)
         self._is_live_of_ours = False
         self._had_rosout = False
         try:
@@ -190,8 +189,6 @@ class Online:
                 self.keep_pace(lambda: True)
 
             def tell_time(_: Any) -> None:
-                if not graph.is_live:  # which has a pace of its own
-                    self._keep_pace()
                 if publisher.num_connections():
                     publisher.publish(clock=graph.now())
 
@@ -199,14 +196,8 @@ class Online:
 
     def keep_pace(self, condition: Callable[[], bool]) -> None:
         """Limit simulated time to real time while ``condition()`` is true; has no effect in wall-clock time."""
-        if not self._companions:
-            self._pace = Pace(self.graph.scheduler, self.network.io)
-        self._companions.append(condition)
-
-    def _keep_pace(self) -> None:
-        self._companions = [condition for condition in self._companions if condition()]
-        if self._pace is not None and self._companions:
-            self._pace.keep()
+        if self.graph.simulated:
+            self._pace.keep(condition)
 
     def _go_on(self) -> None:
         """Run the graph in the background of a notebook."""
@@ -229,8 +220,7 @@ class Online:
             graph._live.stop()  # noqa: SLF001
         if self.joined:
             graph.master = port
-        if self._pace is not None:
-            self._pace.end()
+        self._pace.end()
         clock = graph.nodes.get(f"/{CLOCK_NODE}")
         if clock is not None:
             clock.shutdown("the graph goes offline")
