@@ -112,8 +112,8 @@ class Graph:
         self.clock_class = message_class("rosgraph_msgs/Clock")
         self._live: LiveDrive | None = None
         self._anonymous = AnonymousNames() if simulated else AnonymousNames(os.getpid())
-        self.keeps_time = False
-        """True while this graph publishes its time on ``/clock``; its own nodes do not follow that topic then."""
+        self.clock_node: str | None = None
+        """Name of the node that publishes the graph's time on ``/clock`` for other processes, or None."""
         parameters = ROSCORE_PARAMETERS | ({} if run_id is None else {"/run_id": run_id})
         if self.master.is_local:
             roscore = self.ask_as("/roscore")
@@ -180,6 +180,14 @@ class Graph:
             None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
         )
         return self.scheduler.run(until_ns, until)
+
+    @property
+    def keeps_time(self) -> bool:
+        """True while only ``clock_node`` publishes ``/clock``; the graph's nodes do not follow that topic then."""
+        clock = self.clock_node
+        return clock is not None and not any(
+            "/clock" in node.publications for name, node in self.nodes.items() if name != clock
+        )
 
     @property
     def is_live(self) -> bool:
@@ -276,11 +284,12 @@ class Graph:
         If a Master answers at ``master_uri`` (by default, the value of ``ROS_MASTER_URI``), the graph joins it: its
         nodes register there, and its parameters are set there. Otherwise the graph's own Master is served there.
         Others reach the nodes at ``ROS_IP`` or ``ROS_HOSTNAME`` of ``environ`` (by default ``os.environ``); only this
-        machine can if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set.
+        machine can if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set,
+        until a simulator of the graph does it.
 
         In a notebook the graph runs in the background, as after :meth:`live`; elsewhere drive it with :meth:`run`,
         which now takes one second per second of simulated time, since other processes use it. With ``live`` False it
-        runs only while it is driven, and as fast as possible.
+        runs only while it is driven, as fast as possible, and its time is not published.
 
         Raises ``MasterUnreachable`` if no Master answers and none can be served on this machine, or if the process
         that listens there does not answer within ten seconds (the graph then stays offline), and

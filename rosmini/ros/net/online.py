@@ -2,8 +2,8 @@
 
 If a Master answers, the graph joins it; otherwise it serves its own Master at that address. Nodes get addresses that
 others can reach; connections within this process stay as they are. In a notebook the graph then runs by itself. A
-graph in simulated time publishes ``/clock`` and runs no faster than real time; its own nodes
-stay on the graph's time.
+graph in simulated time runs no faster than real time. Unless it already has a simulator, it publishes ``/clock`` until
+one starts; its own nodes stay on the graph's time.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ CLOCK_HZ = 100.0
 """Rate at which the time is published [Hz]."""
 
 CLOCK_NODE = "rosmini_clock"
+CLOCK = "/clock"
 USE_SIM_TIME = "/use_sim_time"
 ROSCORE = ("/rosdistro", "/rosversion", "/run_id")
 """Parameters that each Master sets itself."""
@@ -109,7 +110,9 @@ class Online:
         try:
             if self.joined:
                 self._join()
-            self._begin_clock(live=live)
+            if live and graph.simulated:
+                self.keep_pace(lambda: True)
+                self._begin_clock()
         except MasterUnreachable as error:  # it hangs since it was found, or has gone
             self.end()
             raise MasterUnreachable(f"{error}. This graph is offline again, as before") from error
@@ -173,26 +176,25 @@ class Online:
         graph.master = RemoteMaster(still.uri, client, watch)
         watch.begin()
 
-    def _begin_clock(self, *, live: bool) -> None:
+    def _begin_clock(self) -> None:
+        """Publish the graph's time, unless a node publishes the time already."""
         graph = self.graph
-        if not graph.simulated:
-            return
         port = graph.master if self.server is not None else _StandingStill(graph.master_uri, self.network)
-        published = [name for name, _ in port.call("getPublishedTopics", "/rosmini", "")[2]]
-        if "/clock" not in published:
-            graph.keeps_time = True
-            node = graph.node(CLOCK_NODE)
-            port.call("setParam", node.name, USE_SIM_TIME, True)
-            publisher = node.publisher("/clock", graph.clock_class, queue_size=1)
+        if CLOCK in (name for name, _ in port.call("getPublishedTopics", "/rosmini", "")[2]):
+            return
+        graph.clock_node = f"/{CLOCK_NODE}"
+        node = graph.node(CLOCK_NODE)
+        port.call("setParam", node.name, USE_SIM_TIME, True)
+        publisher = node.publisher(CLOCK, graph.clock_class, queue_size=1)
 
-            if live:
-                self.keep_pace(lambda: True)
+        def tell_time(_: Any) -> None:
+            if not graph.keeps_time:  # a simulator or a bag player has started
+                graph.clock_node = None
+                node.shutdown(f"another node publishes {CLOCK}")
+            elif publisher.num_connections():
+                publisher.publish(clock=graph.now())
 
-            def tell_time(_: Any) -> None:
-                if publisher.num_connections():
-                    publisher.publish(clock=graph.now())
-
-            node.timer(1 / CLOCK_HZ, tell_time)
+        node.timer(1 / CLOCK_HZ, tell_time)
 
     def keep_pace(self, condition: Callable[[], bool]) -> None:
         """Limit simulated time to real time while ``condition()`` is true; has no effect in wall-clock time."""
@@ -214,14 +216,14 @@ class Online:
     def end(self) -> None:
         """Disconnect from other processes; nodes of this process continue among themselves."""
         graph = self.graph
-        graph.keeps_time = False
         port: MasterPort = _StandingStill(self.where.master_uri, self.network) if self.joined else self._own
         if self._is_live_of_ours and graph._live is not None:  # noqa: SLF001
             graph._live.stop()  # noqa: SLF001
         if self.joined:
             graph.master = port
         self._pace.end()
-        clock = graph.nodes.get(f"/{CLOCK_NODE}")
+        clock = graph.nodes.get(graph.clock_node or "")
+        graph.clock_node = None
         if clock is not None:
             clock.shutdown("the graph goes offline")
             self._ask(port, "deleteParam", "/rosmini", USE_SIM_TIME)

@@ -143,6 +143,10 @@ class TestWire(unittest.TestCase):
     def test_the_release(self):
         self.assertEqual(os.environ["ROS_DISTRO"], rospy.get_param("/rosdistro").strip())
 
+    def test_no_clock_without_a_simulator(self):
+        self.assertFalse(rospy.has_param("/use_sim_time"))
+        self.assertNotIn(["/clock", "rosgraph_msgs/Clock"], rospy.get_published_topics())
+
 rostest.rosrun("speaking", "hears", TestWire, sys.argv)
 """
 
@@ -153,8 +157,38 @@ def test_tests_have_a_master_that_other_processes_reach(folder: Path, monkeypatc
     status = main(["test", "speaking", "talk.test"])
     out = capsys.readouterr().out
     assert status == 0, out
-    assert " * TESTS: 6\n" in out
+    assert " * TESTS: 7\n" in out
     assert os.environ["ROS_MASTER_URI"] == "http://localhost:9"
+
+
+CLOCK = """#!/usr/bin/env python3
+import sys, unittest
+import rosgraph, rospy, rostest
+from nav_msgs.msg import Odometry
+
+class TestClock(unittest.TestCase):
+    def test_the_clock(self):
+        rospy.init_node("reads_the_clock")
+        stamp = rospy.wait_for_message("/odom", Odometry).header.stamp
+        self.assertAlmostEqual(stamp.to_sec(), rospy.get_time(), delta=0.1)
+        publishers = dict(rosgraph.Master("/test").getSystemState()[0])
+        self.assertEqual(publishers["/clock"], ["/gazebo"])
+
+rostest.rosrun("speaking", "clock", TestClock, sys.argv)
+"""
+
+
+def test_a_simulator_publishes_the_time_of_a_test(folder: Path, capsys: Any) -> None:
+    (folder / "scripts" / "hears.py").write_text(CLOCK, encoding="utf-8")
+    file = folder / "launch" / "clock.test"
+    world = (
+        '<include file="$(find turtlebot3_gazebo)/launch/turtlebot3_empty_world.launch">'
+        '<arg name="model" value="burger"/></include>'
+    )
+    test = '<test test-name="clock" pkg="speaking" type="hears.py"/>'
+    file.write_text(f"<launch>{world}{test}</launch>", encoding="utf-8")
+    status = main(["test", str(file)])
+    assert status == 0, capsys.readouterr().out
 
 
 @pytest.mark.usefixtures("folder")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -14,6 +15,7 @@ from rosmini.core.graph import Graph
 from rosmini.core.graph.clock import GraphClock, TopicClock
 from rosmini.core.graph.local_transport import LocalTransport
 from rosmini.core.graph.master import Master
+from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
 from rosmini.ros.net import connect
 from rosmini.ros.net.addresses import addresses
@@ -161,6 +163,27 @@ def test_others_live_on_the_time_of_a_graph_that_is_simulated(
     assert "/rosmini_clock" not in graph.nodes
 
 
+def test_a_simulator_that_starts_replaces_the_clock(
+    graph: Graph, elsewhere: Graph, environ: dict[str, str]
+) -> None:
+    before = graph.node("before")
+    graph.online(environ=environ)
+    heard: list[float] = []
+    clock = graph.clock_class
+    elsewhere.node("far").subscriber("/clock", clock, lambda message: heard.append(message.clock.to_sec()))
+    together(graph, elsewhere, until=lambda: heard)
+    simulator = graph.node("simulator")
+    publisher = simulator.publisher("/clock", clock)
+    after = graph.node("after")
+    simulator.timer(0.01, lambda _: publisher.publish(clock=Time.from_sec(graph.now().to_sec() - 1000)))
+    together(graph, elsewhere, until=lambda: heard[-1] < 1000 and after.now() and len(heard) > 20)
+    assert sum(late < early for early, late in itertools.pairwise(heard)) == 1
+    assert "/rosmini_clock" not in graph.nodes
+    assert after.now().to_sec() < 1000 <= before.now().to_sec()
+    graph.offline()
+    assert graph.ask_as("/test").find("getParam", "/use_sim_time") is True  # for the simulator
+
+
 @pytest.mark.parametrize("live", [True, False])
 def test_time_that_others_live_on_goes_no_faster_than_the_wall(
     graph: Graph, environ: dict[str, str], live: bool
@@ -220,6 +243,7 @@ def test_a_graph_of_a_notebook_can_stand_still_online(graph: Graph, environ: dic
     graph.notebook = True
     graph.online(environ=environ, live=False)
     assert not graph.is_live
+    assert graph.ask_as("/test").find("getParam", "/use_sim_time") is None
     now = graph.now()
     with connect(environ) as elsewhere:
         assert elsewhere.ask_as("/test").find("lookupNode", "/rosout") == graph.nodes["/rosout"].uri
