@@ -15,6 +15,8 @@ from rosmini.core.rosparam import ParamClient
 from rosmini.ros.scripts import Console, NodeHandle, NodeSpec, ScriptHandle, ScriptSpec
 from rosmini.ros.scripts.handle import SIGINT_TIMEOUT_S, SIGTERM_TIMEOUT_S, LaneHandle, shell_status
 
+from .processes import environment
+
 if TYPE_CHECKING:
     from rosmini.core.graph import Graph
 
@@ -252,7 +254,8 @@ def in_graph(
                 graph, NodeSpec(found, words, node.environment), lambda: shared, owns_console=False
             )
         else:
-            spec = ScriptSpec(str(found.path), words, environ=node.environment)
+            environ = tuple(environment({}, node.environment, node.namespace).items())
+            spec = ScriptSpec(str(found.path), words, environ=environ)
             handle = ScriptHandle(graph, spec, lambda: shared, seed=f"0/{name}", owns_console=False)
         return Running(name, node, handle)
 

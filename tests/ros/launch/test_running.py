@@ -66,6 +66,26 @@ def test_nodes_run_with_their_names_environment_and_parameters(
     assert said[-2:] == ["[second-2] killing on exit", "[robot1/first-1] killing on exit"]
 
 
+def test_a_node_finds_its_namespace_in_its_environment(
+    graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Tools that it starts resolve relative names there."""
+    monkeypatch.setenv("ROS_NAMESPACE", "/elsewhere")
+    folder = make(tmp_path)
+    script = '#!/usr/bin/env python3\nimport os\nprint(os.environ["ROS_NAMESPACE"], flush=True)\n'
+    (folder / "speaking" / "scripts" / "talker.py").write_text(script, encoding="utf-8")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(folder))
+    node = '<node pkg="speaking" type="talker.py" name="talker" output="screen"/>'
+    plan = read(
+        text=f'<launch>{node}<group ns="robot1"><group ns="arm">{node}</group></group></launch>',
+        namespace="/",
+    )
+    out = io.StringIO()
+    Launch(plan, graph, in_graph(graph, stdout=out, stderr=out)).start()
+    graph.run(1.0)
+    assert {line.split()[-1] for line in out.getvalue().splitlines()} == {"/", "/robot1/arm"}
+
+
 def test_a_node_is_respawned_after_its_delay(
     graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
