@@ -57,10 +57,30 @@ def parse(arguments: tuple[str, ...], period: str = "") -> tuple[str, str, Rigid
         raise ScriptError(f"static_transform_publisher: {error}\n{usage}") from error
 
 
+def words_of_parameter(node: Node, name: str) -> tuple[str, ...]:
+    """Return the arguments for the `geometry_msgs/TransformStamped` of a parameter. Raises `ScriptError`."""
+    stamped = node.get_param(name, None)
+    try:
+        transform = stamped["transform"]
+        numbers = [transform["translation"][axis] for axis in "xyz"]
+        numbers += [transform["rotation"][axis] for axis in "xyzw"]
+        return *map(str, numbers), str(stamped["header"]["frame_id"]), str(stamped["child_frame_id"])
+    except (KeyError, TypeError, IndexError) as error:
+        raise ScriptError(
+            f"static_transform_publisher: the parameter {node.resolve_parameter(name)} must have header/frame_id, "
+            "child_frame_id, transform/translation/x, y, z and transform/rotation/x, y, z, w"
+        ) from error
+
+
 class StaticTransformPublisher:
-    """`tf2_ros/static_transform_publisher`: one transform, latched on `/tf_static`."""
+    """`tf2_ros/static_transform_publisher`: one transform, latched on `/tf_static`.
+
+    Its only argument may be the name of a parameter that has the transform.
+    """
 
     def __init__(self, node: Node, *arguments: str) -> None:
+        if len(arguments) == 1:
+            arguments = words_of_parameter(node, *arguments)
         self.frame, self.child, self.transform = parse(arguments)
         self.broadcaster = StaticTransformBroadcaster(node)
         self.broadcaster.send_rigid(self.frame, self.child, self.transform)

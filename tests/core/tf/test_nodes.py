@@ -34,6 +34,23 @@ def test_tf2s_static_transform_publisher(graph, capsys):
     )
 
 
+def test_tf2s_static_transform_publisher_reads_a_parameter(graph):
+    node = graph.node("looker")
+    buffer = TransformListener(node).buffer
+    pose = {
+        "translation": {"x": 0.5, "y": -1, "z": 0.0},
+        "rotation": {"x": 0.0, "y": 0.0, "z": 1.0, "w": 0.0},
+    }
+    node.set_param("/camera", {"header": {"frame_id": "base"}, "child_frame_id": "lens", "transform": pose})
+    rosrun("tf2_ros", "static_transform_publisher", "camera", graph=graph).instance()
+    graph.run(1)
+    assert buffer.tree.lookup("base", "lens").transform == (0.5, -1, 0, 0, 0, 1, 0)
+    for value in ({"child_frame_id": "lens"}, 3):
+        node.set_param("/camera", value)
+        with pytest.raises(ScriptError, match=r"/camera .*frame_id"):
+            rosrun("tf2_ros", "static_transform_publisher", "camera", graph=graph).instance()
+
+
 def test_tfs_static_transform_publisher(graph):
     buffer = TransformListener(graph.node("looker")).buffer
     rosrun(

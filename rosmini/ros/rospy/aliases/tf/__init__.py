@@ -63,6 +63,7 @@ class Transformer:
     def __init__(self, interpolate: bool = True, cache_time: Duration | None = None) -> None:
         del interpolate  # tf2 always does
         self._buffer = Buffer(cache_time)
+        self._may_wait = False
 
     def setTransform(self, transform: Any, authority: str = "default_authority") -> None:
         """Add a ``geometry_msgs/TransformStamped``."""
@@ -88,8 +89,12 @@ class Transformer:
         timeout: Duration,
         polling_sleep_duration: Duration | None = None,
     ) -> None:
-        """Block until a lookup would succeed. Raises ``tf.Exception`` with the reason after ``timeout``."""
+        """Block until a lookup would succeed. Raises ``tf.Exception`` with the reason after ``timeout``.
+
+        Only a listener may wait, or after ``setUsingDedicatedThread(True)``, as in tf.
+        """
         del polling_sleep_duration  # each arriving transform is checked
+        self._check_thread()
         verdict = self._buffer.can_transform(_bare(target_frame), _bare(source_frame), time, timeout, True)
         _require(verdict)
 
@@ -105,6 +110,7 @@ class Transformer:
     ) -> None:
         """Block until a lookup with a fixed frame would succeed. Raises ``tf.Exception``."""
         del polling_sleep_duration
+        self._check_thread()
         names = _bare(target_frame), target_time, _bare(source_frame), source_time, _bare(fixed_frame)
         _require(self._buffer.can_transform_full(*names, timeout, True))
 
@@ -199,7 +205,15 @@ class Transformer:
         self._buffer.clear()
 
     def setUsingDedicatedThread(self, value: bool) -> None:
-        """Do nothing: a wait parks its lane."""
+        """Set whether ``waitForTransform`` may wait: True says that transforms arrive meanwhile."""
+        self._may_wait = value
+
+    def _check_thread(self) -> None:
+        if not self._may_wait:
+            raise TransformException(
+                "cannot wait for a transform without a dedicated thread that receives transforms: use a "
+                "tf.TransformListener, or call setUsingDedicatedThread(True) if another thread sets them"
+            )
 
     def getTFPrefix(self) -> str:
         """Return the parameter ``tf_prefix`` nearest upwards from the node; empty if it is not set."""
@@ -252,6 +266,7 @@ class TransformListener(TransformerROS):
 
     def __init__(self, interpolate: bool = True, cache_time: Duration | None = None) -> None:
         super().__init__(interpolate, cache_time)
+        self.setUsingDedicatedThread(True)
         self._listener = tf.TransformListener(require_node("tf.TransformListener"), self._buffer)
 
     def unregister(self) -> None:

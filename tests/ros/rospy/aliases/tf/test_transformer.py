@@ -12,6 +12,7 @@ from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Duration, Time
 from rosmini.msgs.geometry_msgs.msg import PoseStamped, Quaternion, QuaternionStamped
 from rosmini.ros.rospy.aliases import tf2_geometry_msgs
+from rosmini.ros.rospy.aliases.tf import Exception as TransformException
 from rosmini.ros.rospy.aliases.tf import ExtrapolationException, Transformer, TransformerROS
 
 SPEED, TURN = 0.5, 0.8
@@ -113,3 +114,14 @@ def test_a_quaternion_of_length_zero_counts_as_no_rotation(sim, quaternion, caps
     warned = capsys.readouterr().err
     kinds = ("geometry_msgs/PoseStamped", "geometry_msgs/QuaternionStamped")
     assert [warned.count(kind) for kind in kinds] == ([0, 0] if quaternion[3] else [1, 1])
+
+
+def test_only_a_transformer_that_others_fill_waits(transformer):
+    """As in tf: without a thread that receives transforms, a wait could never end."""
+    names = "odom", "base", Time(0), Duration(0.1)
+    with pytest.raises(TransformException, match="dedicated thread"):
+        transformer.waitForTransform(*names)
+    with pytest.raises(TransformException, match="dedicated thread"):
+        transformer.waitForTransformFull("map", Time(0), "base", Time(0), "odom", Duration(0.1))
+    transformer.setUsingDedicatedThread(True)
+    transformer.waitForTransform(*names)
