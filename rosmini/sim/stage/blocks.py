@@ -115,7 +115,7 @@ def picture(path: Path, place: Place, room: int) -> Picture:
         what = f"cannot be read: {error}"
         raise StageError(place, f"the bitmap {path} {what}", f"the bitmap {what}") from error
     if not dark.any():
-        odd = f"nothing in the bitmap {path} is dark (first channel up to {THRESHOLD}), so it has no body"
+        odd = f"nothing in the bitmap is dark (first channel up to {THRESHOLD}), so it has no body"
         return Picture((), (0.0, 0.0, 1.0, 1.0), pixels, odd)
     columns, rows = np.flatnonzero(dark.any(axis=0)), np.flatnonzero(dark.any(axis=1))
     box = (float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1))

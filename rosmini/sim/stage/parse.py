@@ -155,7 +155,7 @@ class _Parser:
         macro = _Macro(name.text, base.text, _between(words, name), define.place)
         if macro.name in self._macros:
             first = self._macros[macro.name].place
-            what = f"{macro.name} is defined already, in {first}, and keeps its first definition"
+            what = f"{_quoted(name)} is defined already, in {first}, and keeps its first definition"
             self._parsed.notes.append((define.place, what))
             return
         self._macros[macro.name] = macro
@@ -209,7 +209,7 @@ def _property(name: Token, words: _Words, notes: list[tuple[Place, str]]) -> Pro
     while True:
         word = words.next()
         if word is None and words.whole:  # Stage treats the end of the file as the bracket
-            notes.append((name.place, f"the [ after {name.text} has no ]; it ends with the file"))
+            notes.append((name.place, f"the [ after {_quoted(name)} has no ]; it ends with the file"))
         if word is None and not words.whole:
             raise StageError(name.place, f"the [ after {name.text} has no ]")
         if word is None or word.kind == "]":
@@ -224,7 +224,7 @@ def _value(word: Token, notes: list[tuple[Place, str]]) -> Value:
         return word.text
     number, whole = leading_number(word.text)
     if not whole:
-        notes.append((word.place, f"Stage reads {word.text} as the number {number:g}"))
+        notes.append((word.place, f"Stage reads {_quoted(word)} as the number {number:g}"))
     return number
 
 
@@ -235,6 +235,11 @@ def leading_number(text: str) -> tuple[float, bool]:
     """
     found = _NUMBER.match(text)
     return (float(found.group()), found.end() == len(text.rstrip())) if found else (0.0, False)
+
+
+def _quoted(word: Token) -> str:
+    """Return a word for a note, which does not quote an included file."""
+    return "a word of this line" if word.place.included else word.text
 
 
 def _shown(word: Token) -> str:

@@ -218,7 +218,11 @@ class Maker:
         if found is None:
             hint = suggestion(name, self.units.hint)
             what = f'there is no colour "{name}" among those of X11, so it is red, as in Stage'
-            self.units.note(reader.place("color"), f"{what}{'; ' + hint if hint else ''}")
+            self.units.note(
+                reader.place("color"),
+                f"{what}{'; ' + hint if hint else ''}",
+                unquoted="the colour is not among those of X11, so it is red, as in Stage",
+            )
             return rgb(1.0, 0.0, 0.0)
         return found
 

@@ -29,11 +29,15 @@ class Units:
     hint: Hints = field(default_factory=Hints)
     _notes: dict[str, list[str]] = field(default_factory=dict)
 
-    def note(self, place: Place, what: str, who: str = "", left_out: str = "") -> None:
+    def note(self, place: Place, what: str, who: str = "", left_out: str = "", unquoted: str = "") -> None:
         """Record a difference from the file, or from Stage; `{}` in `what` is replaced by the name `who`.
 
-        `left_out` is a short description of what is left out.
+        `left_out` is a short description of what is left out. `unquoted` replaces a note that quotes the file, for
+        included files: see `StageError`.
         """
+        if place.included:
+            what, who = unquoted or what, "a model of this file"
+            left_out = "something in an included file" if unquoted and left_out else left_out
         self._notes.setdefault(what, []).append(f"{place}: {what.replace('{}', who)}")
         if left_out:
             self.left_out[left_out] += 1
@@ -81,7 +85,11 @@ class Reader:
             hint = nearest(value, choices)
             options = " or ".join(f'"{choice}"' for choice in choices)
             what = f'{name} is "{value}", and it must be {options}; "{default}" is used, as in Stage'
-            self.units.note(found.place, f"{what}{'; ' + hint if hint else ''}")
+            self.units.note(
+                found.place,
+                f"{what}{'; ' + hint if hint else ''}",
+                unquoted=f'{name} must be {options}; "{default}" is used, as in Stage',
+            )
             return default
         return value
 
@@ -158,7 +166,9 @@ class Reader:
         number, whole = leading_number(value)
         if not whole:
             self.units.note(
-                found.place, f'{found.name} is "{value}", which Stage reads as the number {number:g}'
+                found.place,
+                f'{found.name} is "{value}", which Stage reads as the number {number:g}',
+                unquoted=f"{found.name} is no number; Stage reads it as {number:g}",
             )
         return number
 
@@ -170,7 +180,12 @@ class Reader:
             hint = self.units.hint(name, [*self.read, *known])
             title = self.entity.title or "the world"
             what = f"{name} is no property of {title} that is known here, and is left out{'; ' + hint if hint else ''}"
-            self.units.note(found.place, what, left_out=f"the property {name}")
+            self.units.note(
+                found.place,
+                what,
+                left_out=f"the property {name}",
+                unquoted=f"a property that is not known here is left out{'; ' + hint if hint else ''}",
+            )
 
 
 def units_of(root: Entity) -> Units:

@@ -183,6 +183,30 @@ def test_errors_do_not_quote_a_file_that_is_included(text: str, name: str, tmp_p
     assert "secret" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        'secret "secret"',
+        "secret [1",
+        "define secret model ( ) define secret model ( )",
+        'color "secret"',
+        'model ( name "secret" pose [0 0 -5 0] )',
+        'model ( name "secret" bitmap "secret.png" )',
+        'model ( color "secret" )',
+        'position ( drive "secret" )',
+        'model ( size "secret" )',
+        'position ( name "secret" laser ( ) ranger ( ) mass -1 )',
+    ],
+)
+def test_notes_do_not_quote_a_file_that_is_included(text: str, tmp_path: Path):
+    Image.new("L", (4, 4), 255).save(tmp_path / "secret.png")
+    (tmp_path / "passwd").write_text(f"\n{text}\n", encoding="utf-8")
+    world = tmp_path / "a.world"
+    world.write_text('include "passwd"\n', encoding="utf-8")
+    read = load(world)
+    assert "secret" not in " ".join([*read.notes, *read.left_out])
+
+
 def test_definitions_that_explode_are_refused():
     levels = [f"define m{i} model ( {f'm{i - 1}( ) ' * 10} )" for i in range(1, 12)]
     with pytest.raises(StageError, match="more than 100000 entities"):
@@ -205,7 +229,7 @@ def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path
     )
     stage = world('include "inc/a.inc"\nthing( name "t" )\n')
     assert stage.world.obstacles[0].shape == Box(1.0, 2.0)
-    assert stage.notes[0].startswith(f"{tmp_path / 'inc' / 'b.inc'}:2: colour is no property of thing")
+    assert stage.notes[0].startswith(f"{tmp_path / 'inc' / 'b.inc'}:2: a property")
     assert "did you mean color" in stage.notes[0]
     (tmp_path / "far").mkdir()
     (tmp_path / "inc" / "a.inc").rename(tmp_path / "far" / "a.inc")
