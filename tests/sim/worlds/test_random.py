@@ -47,8 +47,8 @@ def regions(free):
 
 @given(
     st.integers(0, 2**32),
-    st.tuples(st.floats(5, 10), st.floats(5, 10)),
-    st.integers(1, 6),
+    st.tuples(st.floats(5, 14), st.floats(5, 14)),
+    st.integers(1, 8),
     st.integers(0, 15),
     st.integers(0, 2),
 )
