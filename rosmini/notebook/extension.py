@@ -8,11 +8,15 @@ from collections.abc import Callable
 from typing import Any
 
 from rosmini.core.errors import RosminiError, UsageError
+from rosmini.core.geometry import machine_code
+from rosmini.core.graph.notebook import kernel_shell
 from rosmini.core.packages import PackageIndex
 from rosmini.ros.rospy.importer import install, ros_is_installed, uninstall
 from rosmini.tools import magics
+from rosmini.viz.embed import book_form
 
 from . import file_cells, logo_cell, node_cell
+from .output import progress_in_cell
 from .saving import save_package
 from .session import Session, begin_session, end_session, session_of
 
@@ -26,6 +30,8 @@ def load(shell: Any) -> None:
     if is_loaded(shell):
         return
     install(shadow=True)
+    if kernel_shell() is not None and not book_form():
+        machine_code.show_progress = progress_in_cell
     report_which_ros()
     session = begin_session(shell)
     magics.register(shell, say=session.say, warn=session.warn, around=lambda: session_of(shell).raising())
@@ -51,6 +57,7 @@ def unload(shell: Any) -> None:
     atexit.unregister(end_session)
     end_session(shell)
     uninstall()
+    machine_code.show_progress = machine_code.progress
 
 
 def is_loaded(shell: Any) -> bool:

@@ -7,14 +7,15 @@ import io
 import signal
 import sys
 import threading
-from typing import TYPE_CHECKING, TextIO, cast
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
 from rosmini.core.errors import ScriptError
 from rosmini.ros.scripts.stdin import Feed
 from rosmini.ros.scripts.streams import OutputSink
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from rosmini.ros.scripts.stdin import Blocker
     from rosmini.ros.scripts.streams import ScriptOutput
@@ -23,6 +24,19 @@ MAX_LINES = 2_000
 """Largest number of lines that scripts may print in one cell: a loop without a pause prints a million a second."""
 
 _A_MOMENT_NS = 1_000_000
+
+
+@contextmanager
+def progress_in_cell(text: str) -> Iterator[None]:
+    """Show a text below the running cell during the block, and remove it at the end."""
+    from IPython import display
+
+    show: Any = display.display
+    shown = show({"text/plain": text}, raw=True, display_id=True)
+    try:
+        yield
+    finally:
+        shown.update({"text/plain": ""}, raw=True)
 
 
 class CellStream(io.TextIOBase):

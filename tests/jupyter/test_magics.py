@@ -68,3 +68,12 @@ def test_below_a_traceback_stands_what_roswtf_knows(shared_kernel: Any) -> None:
         "roswtf: ERROR Nothing in the graph is called /chater; did you mean /chatter?\n"
     )
     assert shared_kernel.run("1 / 0").stdout == ""
+
+
+def test_a_cell_shows_what_is_being_compiled(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini")
+    cell = new_kernel.ok(
+        "from rosmini.core.geometry import machine_code\n"
+        "with machine_code.show_progress('compiling the planner'):\n    pass"
+    )
+    assert cell.shown == ["compiling the planner"]

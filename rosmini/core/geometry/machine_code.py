@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
 LOADING = 1_000_000
@@ -51,7 +51,7 @@ def machine_code(
 
     Raises `ImportError` without numba.
     """
-    with progress(f"compiling {function.__name__} (once on this machine) ..."):
+    with show_progress(f"compiling {function.__name__} (once on this machine) ..."):
         import numba
         from numba.extending import register_jitable
 
@@ -80,3 +80,7 @@ def progress(text: str) -> Iterator[None]:
     finally:
         stream.write("\r" + " " * len(text) + "\r")
         stream.flush()
+
+
+show_progress: Callable[[str], AbstractContextManager[None]] = progress
+"""Shows a text while something is compiled; a notebook replaces it."""

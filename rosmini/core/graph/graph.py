@@ -29,7 +29,7 @@ from .observers.history import History
 from .observers.recording import Recording
 from .scheduler import Scheduler
 from .show import find_extension, show
-from .threads import running_scheduler
+from .threads import in_thread, running_scheduler
 from .transport import Transports
 
 if TYPE_CHECKING:
@@ -111,6 +111,8 @@ class Graph:
         self.log_class = message_class("rosgraph_msgs/Log")
         self.clock_class = message_class("rosgraph_msgs/Clock")
         self._live: LiveDrive | None = None
+        self._preparations: list[Callable[[], object]] = []
+        """Functions to call when :meth:`live` starts the graph."""
         self._anonymous = AnonymousNames() if simulated else AnonymousNames(os.getpid())
         self.clock_node: str | None = None
         """Name of the node that publishes the graph's time on ``/clock`` for other processes, or None."""
@@ -194,6 +196,11 @@ class Graph:
         """True while the graph runs in the background after :meth:`~rosmini.core.graph.graph.Graph.live`."""
         return self._live is not None and self._live.running
 
+    @property
+    def runs_in_real_time(self) -> bool:
+        """True in wall time, and while the graph is live."""
+        return not self.simulated or self.is_live
+
     def rng(self, name: str) -> np.random.Generator:
         """Return a separate random generator for ``name``, which gives the same numbers in each run."""
         import numpy as np
@@ -274,7 +281,17 @@ class Graph:
         if self._live is not None:
             self._live.stop()
         self._live = live = LiveDrive(self, loop, rate=rate)
+        self.scheduler.call_soon_threadsafe(self._prepare)
         return live
+
+    def before_live(self, function: Callable[[], object]) -> None:
+        """Call a slow function in a helper thread when :meth:`live` starts the graph; time stands still meanwhile."""
+        self._preparations.append(function)
+
+    def _prepare(self) -> None:
+        preparations, self._preparations = self._preparations, []
+        for function in preparations:
+            self.scheduler.spawn("preparations", partial(in_thread, self.scheduler, function))
 
     def online(
         self, master_uri: str | None = None, environ: Mapping[str, str] | None = None, *, live: bool = True

@@ -221,10 +221,11 @@ def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], b
     return scheduler.report(waiter.value)
 
 
-def in_thread(scheduler: Scheduler, function: Callable[[], T]) -> T:
-    """Return ``function()``, run in a helper thread; the calling lane is parked, and simulated time is held."""
+def in_thread(scheduler: Scheduler, function: Callable[[], T], *, hold: bool = True) -> T:
+    """Return ``function()``, run in a helper thread while the lane is parked; ``hold`` stops simulated time."""
     waiter = Waiter(scheduler, "the operating system")
-    scheduler.hold()
+    if hold:
+        scheduler.hold()
 
     def work() -> None:
         try:
@@ -232,7 +233,8 @@ def in_thread(scheduler: Scheduler, function: Callable[[], T]) -> T:
         except BaseException as error:
             waiter.fail(error)
         finally:
-            scheduler.release()
+            if hold:
+                scheduler.release()
 
     threading.Thread(target=work, name="rosmini-helper", daemon=True).start()
     waiter.wait()

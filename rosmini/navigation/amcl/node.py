@@ -23,6 +23,7 @@ from rosmini.core.tf.messages import set_pose
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class, service_class
+from rosmini.navigation.kernels import prepare
 from rosmini.navigation.nav_core.poses import planar_pose, planar_transform
 
 from .laser import Scan
@@ -57,6 +58,7 @@ class Amcl:
     """Localisation as a node."""
 
     def __init__(self, node: Node) -> None:
+        prepare(node)
         self.node = node
         self.parameters = self._with_known_models(AmclParameters.read(node))
         self._warn_of_prefix()

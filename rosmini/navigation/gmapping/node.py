@@ -17,6 +17,7 @@ from rosmini.core.tf import Buffer, TransformBroadcaster, TransformException, Tr
 from rosmini.core.tf.rigid import from_yaw
 from rosmini.core.time import Duration, Time
 from rosmini.msgs import message_class, service_class
+from rosmini.navigation.kernels import prepare
 from rosmini.navigation.nav_core.poses import planar_transform
 
 from .extent import first_extent, published
@@ -37,6 +38,7 @@ class SlamGmapping:
     """Simultaneous localisation and mapping as a node."""
 
     def __init__(self, node: Node) -> None:
+        prepare(node)
         self.node = node
         self.parameters = p = GmappingParameters.read(node)
         self.slam: GridSlam | None = None

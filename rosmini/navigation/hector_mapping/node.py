@@ -22,6 +22,7 @@ from rosmini.core.tf.messages import set_pose, transform_of
 from rosmini.core.tf.rigid import IDENTITY, Rigid, compose, from_yaw, inverse, rpy
 from rosmini.core.time import Time
 from rosmini.msgs import message_class, service_class
+from rosmini.navigation.kernels import prepare
 from rosmini.navigation.nav_core.poses import planar_pose, pose_stamped
 
 from .matching import UNKNOWN_VARIANCE
@@ -44,6 +45,7 @@ class HectorMapping:
     """Mapping and localisation without odometry, as a node."""
 
     def __init__(self, node: Node) -> None:
+        prepare(node)
         self.node = node
         self.parameters = p = HectorMappingParameters.read(node)
         self.slam = HectorSlam(p.settings())

@@ -24,6 +24,7 @@ from rosmini.core.tf import TransformListener
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d import FREE_SPACE
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
+from rosmini.navigation.kernels import prepare
 from rosmini.navigation.nav_core import BadGoal, NavigationFailure, TransformMissing, planar_pose
 from rosmini.navigation.nav_core.poses import checked_goal
 
@@ -64,6 +65,7 @@ class MoveBase:
         self.local_costmap.pause()
         self.planners.local_costmap = self.local_costmap
         self.planners.load(LOCAL, own.base_local_planner)
+        prepare(node)
         self.global_costmap.start()
         self.local_costmap.start()
         radius = float(node.get_param("~local_costmap/circumscribed_radius", 0.46))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -140,8 +141,11 @@ class Laser(RangeDevice):
         self._rep_117 = rep_117
         if sweep:
             host.engine.trails.remember(1.01 * self._beam_time * lidar.beams)
-        if not host.node.graph.simulated:
-            raycast.expect(lidar.beams * (rate or lidar.rate))
+        graph, expect = host.node.graph, partial(raycast.expect, lidar.beams * (rate or lidar.rate))
+        if graph.runs_in_real_time:
+            expect()
+        else:
+            graph.before_live(expect)
 
     def describe(self, message: Any) -> None:
         """Fill in the laser's constants."""
