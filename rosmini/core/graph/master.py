@@ -8,7 +8,9 @@ the Master API (http://wiki.ros.org/ROS/Master_API) or of the Parameter Server A
 a status text that people can read;
 - a value, or a dummy of its type if the call failed.
 
-A call never raises: wrong arguments give the code -1. Notices to other nodes go to the :class:`Notifier`.
+A call never raises: wrong arguments give the code -1. The
+:class:`~rosmini.core.graph.notices.Notices` inform other nodes; they only post events, so they may be called during the
+Master's own work.
 """
 
 # ruff: noqa: ARG002 - every call has a caller_id, whether it needs one or not
@@ -18,7 +20,7 @@ import functools
 import os
 import threading
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Protocol
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec
 
 from rosmini.core.errors import ParameterError
 from rosmini.core.names import resolve_for
@@ -29,28 +31,14 @@ from .parameters import ParameterTree, closed, updates, wire_copy
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from .notices import Notices
+
     Check = Callable[[Any, str], Any]
 
-__all__ = ["Master", "Notifier"]
+__all__ = ["Master"]
 
 Triple = list[Any]
 P = ParamSpec("P")
-
-
-class Notifier(Protocol):
-    """Sends the Master's notices to nodes. It is called during the Master's own work, so it only posts events."""
-
-    def publisher_update(self, caller_api: str, topic: str, uris: list[str]) -> None:
-        """Send the node at ``caller_api`` the slave URIs of all current publishers of ``topic``."""
-
-    def param_update(self, caller_api: str, key: str, value: Any) -> None:
-        """Notify the node at ``caller_api`` that a parameter has changed; ``{}`` means that it was deleted."""
-
-    def shutdown(self, caller_api: str, reason: str) -> None:
-        """Ask the node at ``caller_api`` to shut down."""
-
-    def registrations_changed(self) -> None:
-        """Called after each registration and each removal of one."""
 
 
 # ---- argument checks; each returns the argument, resolved if it is a name ----
@@ -219,7 +207,7 @@ class Master(MasterPort):
 
     is_local = True
 
-    def __init__(self, uri: str, notifier: Notifier, parameters: ParameterTree | None = None) -> None:
+    def __init__(self, uri: str, notifier: Notices, parameters: ParameterTree | None = None) -> None:
         self.uri = uri
         self.shutdown_reason: str | None = None
         self._lock = threading.RLock()  # nodes in real threads call it too

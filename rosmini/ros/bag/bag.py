@@ -16,13 +16,15 @@ from __future__ import annotations
 
 import os
 import sys
+from collections import Counter
 from collections.abc import Mapping
 from io import BytesIO, FileIO, IOBase, TextIOBase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
-from rosmini.core.errors import DeserializationError, shown
+from rosmini.core.errors import DeserializationError, nearest, shown
 from rosmini.core.files import check
+from rosmini.core.names import canonicalize
 from rosmini.core.time import Time
 
 from .errors import (
@@ -37,7 +39,15 @@ from .info import info_text, info_yaml
 from .reader import Input, RawMessage, Reader, index_position, read_index
 from .records import Compression, check_compression, check_magic, check_threshold
 from .scan import Scan, scan
-from .summary import BagMessage, BagMessageWithConnectionHeader, Summaries
+from .summary import (
+    BagMessage,
+    BagMessageWithConnectionHeader,
+    CompressionTuple,
+    TopicTuple,
+    TypesAndTopicsTuple,
+    frequency,
+    seconds,
+)
 from .types import Types, serialized
 from .writer import CHUNK_THRESHOLD, Writer
 
@@ -51,7 +61,7 @@ if TYPE_CHECKING:
     from .table import Table
 
 
-class Bag(Summaries):
+class Bag:
     """A bag, open for reading ("r"), writing ("w": it starts empty) or appending ("a").
 
     Args:
@@ -401,6 +411,127 @@ class Bag(Summaries):
         from .table import table
 
         return table(self.message_class(topic), self.read_messages(topic))
+
+    def connections(
+        self,
+        topics: str | Iterable[str] | None = None,
+        connection_filter: ConnectionFilter | None = None,
+    ) -> list[Connection]:
+        """Return the connections of one, several or all topics.
+
+        ``connection_filter(topic, type, md5, definition, header)`` selects among them.
+        """
+        if isinstance(topics, str):
+            topics = [topics]
+        names = None if not topics else {name for topic in topics for name in (topic, canonicalize(topic))}
+        return [
+            found
+            for found in self.index.connections.values()
+            if (names is None or found.topic in names or canonicalize(found.topic) in names)
+            and (
+                connection_filter is None
+                or connection_filter(
+                    found.topic, found.type, found.md5sum, found.definition, dict(found.header)
+                )
+            )
+        ]
+
+    def message_class(self, topic_or_connection: str | Connection) -> Any:
+        """Return the class of the messages on a topic.
+
+        Raises ``ROSBagException``, which suggests similar names, for an unknown topic.
+        """
+        if isinstance(topic_or_connection, Connection):
+            return self._types.of(topic_or_connection)
+        found = self.connections(topic_or_connection)
+        if not found:
+            raise self.no_topic(topic_or_connection)
+        return self._types.of(found[0])
+
+    def no_topic(self, topic: str) -> ROSBagException:
+        """Return the error for a topic that is not in the bag."""
+        topics = sorted({found.topic for found in self.index.connections.values()})
+        hint = nearest(topic, topics) or f"it has {', '.join(topics) or 'no topics'}"
+        return ROSBagException(f"{self._name} has no topic {topic}: {hint}")
+
+    def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
+        """Return the number of messages on one, several or all topics."""
+        if topic_filters is None:
+            return self.index.messages
+        return sum(self.index.count(found.id) for found in self.connections(topic_filters))
+
+    def get_start_time(self) -> float:
+        """Return the time of the first message [s]. Raises ``ROSBagException`` for an empty bag."""
+        return seconds(self.index.start)
+
+    def get_end_time(self) -> float:
+        """Return the time of the last message [s]. Raises ``ROSBagException`` for an empty bag."""
+        return seconds(self.index.end)
+
+    def get_compression_info(self) -> CompressionTuple:
+        """Return the compression of most chunks, and the number of bytes without and with it."""
+        chunks = self.index.chunks
+        ranked = sorted(
+            ((count, name) for name, count in Counter(chunk.compression for chunk in chunks).items()),
+            reverse=True,
+        )
+        return CompressionTuple(
+            ranked[0][1] if ranked else self.compression,
+            sum(chunk.size for chunk in chunks),
+            sum(chunk.compressed for chunk in chunks),
+        )
+
+    def get_type_and_topic_info(self, topic_filters: str | list[str] | None = None) -> TypesAndTopicsTuple:
+        """Return the types, and the summaries of one, several or all topics."""
+        return TypesAndTopicsTuple(self.md5sums(), self.topics(topic_filters))
+
+    def md5sums(self) -> dict[str, str]:
+        """Return the md5 sum of each type, sorted by name."""
+        found: dict[str, str] = {}
+        for each in self.index.connections.values():
+            found.setdefault(each.type, each.md5sum)
+        return dict(sorted(found.items()))
+
+    def topics(
+        self, topic_filters: str | list[str] | None = None, *, freq: bool = True
+    ) -> dict[str, TopicTuple]:
+        """Return the summaries of one, several or all topics by name; frequencies require reading all index data."""
+        reader = self.reader()
+        topics = {}
+        for topic in sorted({found.topic for found in self.connections(topic_filters)}):
+            here = self.connections(topic)
+            count = sum(self.index.count(found.id) for found in here)
+            topics[topic] = TopicTuple(
+                here[0].type, count, len(here), frequency(reader, here) if freq else None
+            )
+        return topics
+
+    def show(self, **options: Any) -> Any:
+        """Return a picture of the bag's messages over time, like that of ``rqt_bag``.
+
+        Options and their defaults:
+            topics=None: only these topics; None: all
+            gap=3.0: a pause is a gap if it is this many times the usual one, and a hundredth of the bag
+            title=None: a caption under the picture, and the first words of its text form
+            width=660.0: width of the picture [CSS px]
+        """
+        from rosmini.core.graph.show import show
+
+        return show("bag", self, **options)
+
+    def replay(self, **options: Any) -> Any:
+        """Return a player that shows the bag from above: robots, maps, plans, particles, scans, markers.
+
+        Options and their defaults:
+            title=None: a caption under the player, and the first words of its text form
+            names=None: a list with the run's name
+            topics=None: only these topics; None: all that can be shown
+            frame=None: frame in which everything is drawn; None: map, odom or world, the first that exists
+            robot=None: appearance of robots from above: a model or its name; None: an arrow head
+        """
+        from rosmini.core.graph.show import show
+
+        return show("replay", self, **options)
 
     def info(self, *, freq: bool = False, utc: bool = False) -> str:
         """Return the output of ``rosbag info``, with frequencies if asked for; times are local, or in UTC."""

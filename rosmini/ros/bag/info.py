@@ -12,7 +12,8 @@ from .errors import ROSBagException
 from .records import Compression
 
 if TYPE_CHECKING:
-    from .summary import Summaries, TopicTuple
+    from .bag import Bag
+    from .summary import TopicTuple
 
 
 def human_size(size: float) -> str:
@@ -51,7 +52,7 @@ def human_time(seconds: float, *, utc: bool = False) -> str:
     return time.strftime("%b %d %Y %H:%M:%S", clock) + fraction
 
 
-def info_text(bag: Summaries, *, freq: bool = True, path: str | None = None, utc: bool = False) -> str:
+def info_text(bag: Bag, *, freq: bool = True, path: str | None = None, utc: bool = False) -> str:
     """Return the output of ``rosbag info``; frequencies need ``--freq``, but ``str(bag)`` includes them as in ROS.
 
     ``path`` replaces the file's own path; ``utc`` shows times in UTC instead of the machine's time zone.
@@ -71,7 +72,7 @@ def info_text(bag: Summaries, *, freq: bool = True, path: str | None = None, utc
     return "\n".join(f"{name + ':' if name else '':<{width}} {value}" for name, value in rows).rstrip()
 
 
-def _version(bag: Summaries) -> str:
+def _version(bag: Bag) -> str:
     return f"{bag.version // 100}.{bag.version % 100}"
 
 
@@ -79,7 +80,7 @@ def _labelled(name: str, values: list[str]) -> list[tuple[str, str]]:
     return [(name if number == 0 else "", value) for number, value in enumerate(values)]
 
 
-def _summary(bag: Summaries, *, utc: bool) -> list[tuple[str, str]]:
+def _summary(bag: Bag, *, utc: bool) -> list[tuple[str, str]]:
     start, end = bag.get_start_time(), bag.get_end_time()
     return [
         ("duration", human_duration(end - start)),
@@ -91,7 +92,7 @@ def _summary(bag: Summaries, *, utc: bool) -> list[tuple[str, str]]:
     ]
 
 
-def _compression_rows(bag: Summaries, duration: float) -> list[tuple[str, str]]:
+def _compression_rows(bag: Bag, duration: float) -> list[tuple[str, str]]:
     chunks = bag.index.chunks
     counts = Counter(chunk.compression for chunk in chunks)
     parts = []
@@ -114,7 +115,7 @@ def _compression_rows(bag: Summaries, duration: float) -> list[tuple[str, str]]:
     return [*rows, ("uncompressed", first), ("compressed", f"{second} ({100 * packed / plain:.2f}%)")]
 
 
-def _type_rows(bag: Summaries) -> list[str]:
+def _type_rows(bag: Bag) -> list[str]:
     types = bag.md5sums()
     width = max(map(len, types))
     return [f"{name:<{width}} [{md5}]" for name, md5 in types.items()]
@@ -139,7 +140,7 @@ def _topic_rows(topics: dict[str, TopicTuple]) -> list[str]:
     return rows
 
 
-def info_yaml(bag: Summaries, key: str | None = None, *, freq: bool = True) -> str | None:
+def info_yaml(bag: Bag, key: str | None = None, *, freq: bool = True) -> str | None:
     """Return the output of ``rosbag info -y``, or the value at ``key`` (such as ``topics[0].type``) as ``-k`` does.
 
     Raises ``ROSBagException`` if there is no such key.
@@ -156,7 +157,7 @@ def info_yaml(bag: Summaries, key: str | None = None, *, freq: bool = True) -> s
     return _shown(_lookup(tree, key))
 
 
-def _yaml(bag: Summaries, *, freq: bool) -> str:
+def _yaml(bag: Bag, *, freq: bool) -> str:
     lines = [f"path: {bag.filename}"] if bag.filename is not None else []
     lines.append(f"version: {_version(bag)}")
     if not bag.index.messages:

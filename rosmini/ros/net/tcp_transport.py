@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from socket import gaierror
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.core.errors import DeserializationError, TransportException, TransportInitError, shown
 from rosmini.core.graph.headers import decode_fields, encode_header
@@ -26,11 +26,9 @@ if TYPE_CHECKING:
 
     from rosmini.core.graph.connection import Connection
     from rosmini.core.graph.node import Node
-    from rosmini.core.graph.scheduler import Scheduler
     from rosmini.core.graph.transport import Header, Triple
 
-    from .addresses import Addresses
-    from .xmlrpc_client import XmlRpcClient
+    from .network import Network
 
 CONNECT_S = 30.0
 """Timeout of a connection until the peer has sent its header, in wall-clock time [s]."""
@@ -44,27 +42,12 @@ class _Place(NamedTuple):
     topics: TcpServer
 
 
-class NetworkPort(Protocol):
-    """The parts of :class:`~rosmini.ros.net.network.Network` that the transport uses."""
-
-    scheduler: Scheduler
-    io: IoThread
-    client: XmlRpcClient
-    where: Addresses
-
-    def warn(self, text: str, cause: tuple[str, ...] = ()) -> None:
-        """Warn about a fault of a peer, not repeatedly for the same cause; may be called from any thread."""
-
-    def close(self) -> None:
-        """End the I/O thread and close what is open."""
-
-
 class TcpTransport:
     """TCPROS transport; each node has one port for its slave API and one for topics and services, as roscpp needs."""
 
     protocol = "TCPROS"
 
-    def __init__(self, network: NetworkPort) -> None:
+    def __init__(self, network: Network) -> None:
         self.network = network
         self._places: dict[str, _Place] = {}
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from importlib.machinery import ModuleSpec
     from pathlib import Path
 
-    from .script import Script
+    from .context import ScriptContext
 
 _NEVER_LOCAL = frozenset(sys.builtin_module_names) | {"rosmini", "builtins", "os", "io", "abc", "codecs"}
 """Names that are loaded before any script, so that a file beside it cannot hide them."""
@@ -48,7 +48,7 @@ _LIKE_MESSAGES = ("_msgs", "_msg", "_srvs", "_srv", "_interfaces")
 class Importer:
     """The modules of one script, and its ``__import__``."""
 
-    def __init__(self, context: Script, given: Mapping[str, ModuleType]) -> None:
+    def __init__(self, context: ScriptContext, given: Mapping[str, ModuleType]) -> None:
         self._context = context
         self._given = given
         self.local: dict[str, ModuleType] = {}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rosmini.core.errors import RosminiError
 from rosmini.viz.live.page import module
@@ -25,7 +25,8 @@ except ImportError as error:
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.core.graph import Graph, Node
+    from rosmini.core.graph import Node
+    from rosmini.viz.rqt.panel import Panel
 
 SCRIPTS = ("rosmini-rqt.js",)
 REST = 2.0
@@ -34,42 +35,13 @@ QUIET_S = 0.6
 """How often a page learns that the kernel answers, where nothing has changed [s]."""
 
 
-class LinkedPanel(Protocol):
-    """A panel, as its page sees it: :class:`~rosmini.viz.rqt.panel.Panel`."""
-
-    graph: Graph
-    look_s: ClassVar[float]
-    """How often what it shows is looked at [s]."""
-
-    @property
-    def node(self) -> Node:
-        """The panel's own."""
-
-    @property
-    def gone(self) -> str | None:
-        """Why there is nothing to operate any more."""
-
-    def set(self, key: str, value: object = True) -> None:
-        """Operate a control."""
-
-    def markup(self, *, live: bool) -> str:
-        """What it shows."""
-
-    @property
-    def scripts(self) -> tuple[str, ...]:
-        """What its page has beside `SCRIPTS`."""
-
-    def news(self, *, whole: bool) -> tuple[dict[str, Any], list[bytes]] | None:
-        """What its page is to be sent beside the sheet."""
-
-
 class PanelLink(PageLink):
     """Takes what the page of a panel sends (see `rosmini-rqt.js`), and sends it what it shows."""
 
     acts = frozenset({"set", "start"})
     signs = frozenset({"hello", "beat", "seen"})
 
-    def __init__(self, panel: LinkedPanel, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, panel: Panel, clock: Callable[[], float] = time.monotonic) -> None:
         self.panel = panel
         self._last_sent = 0.0
         self._unseen = False

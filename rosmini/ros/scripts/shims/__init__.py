@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 PRIVATE_COPIES = frozenset(
     {
@@ -53,18 +53,18 @@ _BUILDERS_IN = {
 }
 
 
-def _build(name: str, context: Script) -> ModuleType:
+def _build(name: str, context: ScriptContext) -> ModuleType:
     maker = importlib.import_module(f"{__name__}.{_BUILDERS_IN[name]}")
     module: ModuleType = getattr(maker, f"make_{name.strip('_').replace('.', '_')}")(context)
     return module
 
 
-BUILDERS: dict[str, Callable[[Script], ModuleType]] = {
+BUILDERS: dict[str, Callable[[ScriptContext], ModuleType]] = {
     name: functools.partial(_build, name) for name in _BUILDERS_IN
 }
 
 
-def finish_copy(context: Script, name: str, module: ModuleType) -> None:
+def finish_copy(context: ScriptContext, name: str, module: ModuleType) -> None:
     """Change the parts of a private copy that its imports do not cover."""
     if name == "queue":
         # The C version blocks the whole process; the standard library also has a Python version.

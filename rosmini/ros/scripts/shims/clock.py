@@ -17,12 +17,12 @@ from . import as_builtins, copy_of
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 _COUNTERS = ("monotonic", "perf_counter", "process_time", "thread_time")
 
 
-def make_time(context: Script) -> ModuleType:
+def make_time(context: ScriptContext) -> ModuleType:
     """Create the ``time`` of one script."""
     module = copy_of(real_time)
     scheduler = context.scheduler
@@ -75,7 +75,7 @@ def make_time(context: Script) -> ModuleType:
     return module
 
 
-def make_datetime(context: Script) -> ModuleType:
+def make_datetime(context: ScriptContext) -> ModuleType:
     """Create the ``datetime`` of one script: the real one in wall-clock time."""
     module = copy_of(dt)
     if not context.scheduler.simulated:

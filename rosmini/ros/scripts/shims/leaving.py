@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from . import as_builtins
 
 if TYPE_CHECKING:
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 
 class _ScriptOs(ModuleType):
@@ -29,7 +29,7 @@ class _ScriptOs(ModuleType):
         return sorted({*dir(real_os), *self.__dict__})
 
 
-def make_os(context: Script) -> ModuleType:
+def make_os(context: ScriptContext) -> ModuleType:
     """Create the ``os`` of one script."""
     module = _ScriptOs()
     home = real_os.getpid()

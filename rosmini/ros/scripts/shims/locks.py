@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
     from rosmini.core.graph.lanes import Waiter
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 
 def to_ns(seconds: float | None) -> int | None:
@@ -24,7 +24,7 @@ def to_ns(seconds: float | None) -> int | None:
 class ForScript:
     """Base class of objects that belong to one script."""
 
-    _script: ClassVar[Script]
+    _script: ClassVar[ScriptContext]
 
 
 class Lock(ForScript):

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from types import ModuleType
 
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 _CALLS = ("run", "call", "check_call", "check_output", "getoutput", "getstatusoutput")
 
 
-def _going_on(context: Script, function: Callable[..., Any]) -> Callable[..., Any]:
+def _going_on(context: ScriptContext, function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function that does the same while the graph runs."""
 
     @functools.wraps(function)
@@ -34,7 +34,7 @@ def _going_on(context: Script, function: Callable[..., Any]) -> Callable[..., An
     return call
 
 
-def make_subprocess(context: Script) -> ModuleType:
+def make_subprocess(context: ScriptContext) -> ModuleType:
     """Create a ``subprocess`` whose functions, ``Popen.wait`` and ``communicate`` let the graph run."""
     module = copy_of(real_subprocess)
 
@@ -52,12 +52,12 @@ def make_subprocess(context: Script) -> ModuleType:
     return module
 
 
-def make_xmlrpc(context: Script) -> ModuleType:  # noqa: ARG001 - the signature of all makers
+def make_xmlrpc(context: ScriptContext) -> ModuleType:  # noqa: ARG001 - the signature of all makers
     """Create the package ``xmlrpc`` of one script."""
     return copy_of(xmlrpc)
 
 
-def make_xmlrpc_client(context: Script) -> ModuleType:
+def make_xmlrpc_client(context: ScriptContext) -> ModuleType:
     """Create an ``xmlrpc.client`` whose calls let the graph run."""
     module = copy_of(real_client)
 

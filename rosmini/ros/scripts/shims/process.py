@@ -15,7 +15,7 @@ from . import as_builtins, copy_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 _OWN = ("argv", "path", "stdin", "stdout", "stderr")
 
@@ -23,7 +23,7 @@ _OWN = ("argv", "path", "stdin", "stdout", "stderr")
 class _ScriptSys(ModuleType):
     """A script's ``sys``: its arguments, path and streams, also in its real threads; otherwise the real module."""
 
-    def __init__(self, context: Script) -> None:
+    def __init__(self, context: ScriptContext) -> None:
         super().__init__("sys", real_sys.__doc__)
         self.__dict__["_context"] = context
         self.__dict__["excepthook"] = real_sys.excepthook
@@ -43,17 +43,17 @@ class _ScriptSys(ModuleType):
         return sorted({*dir(real_sys), *self.__dict__})
 
 
-def make_sys(context: Script) -> ModuleType:
+def make_sys(context: ScriptContext) -> ModuleType:
     """Create the ``sys`` of one script."""
     return _ScriptSys(context)
 
 
-def make_builtins(context: Script) -> ModuleType:
+def make_builtins(context: ScriptContext) -> ModuleType:
     """Return the script's builtins; its changes stay private."""
     return context.builtins_module
 
 
-def make_importlib(context: Script) -> ModuleType:
+def make_importlib(context: ScriptContext) -> ModuleType:
     """Create an ``importlib`` that finds the modules beside the script."""
     module = copy_of(real_importlib)
     load = context.importer.load
@@ -74,7 +74,7 @@ def make_importlib(context: Script) -> ModuleType:
     return module
 
 
-def make_atexit(context: Script) -> ModuleType:
+def make_atexit(context: ScriptContext) -> ModuleType:
     """Create an ``atexit`` whose functions run when this script ends, last in, first out."""
     module = copy_of(real_atexit)
     calls = context.exit_calls
@@ -99,7 +99,7 @@ def make_atexit(context: Script) -> ModuleType:
     return module
 
 
-def make_signal(context: Script) -> ModuleType:
+def make_signal(context: ScriptContext) -> ModuleType:
     """Create a ``signal`` that stores handlers for this script; on Ctrl-C the runner calls them."""
     module = copy_of(real_signal)
     handlers = context.handlers
@@ -139,7 +139,7 @@ def make_signal(context: Script) -> ModuleType:
 class _Alarm:
     """``alarm`` and ``setitimer`` in graph time; only ``ITIMER_REAL``, since a script has no processor time."""
 
-    def __init__(self, context: Script) -> None:
+    def __init__(self, context: ScriptContext) -> None:
         self._context = context
         self._timer: Any = None
         self._interval = 0.0
@@ -174,7 +174,7 @@ class _Alarm:
         self._context.process.signal_itself(real_signal.SIGALRM, in_place=False)
 
 
-def make_builtins_module(context: Script) -> ModuleType:
+def make_builtins_module(context: ScriptContext) -> ModuleType:
     """Create the builtins of one script, with its own ``__import__``, ``input``, ``print``, ``exit`` and ``quit``."""
     module = copy_of(real_builtins)
 

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 
-def seed_copy(context: Script, module: ModuleType) -> None:
+def seed_copy(context: ScriptContext, module: ModuleType) -> None:
     """Make a private ``random`` repeatable in simulated time, including unseeded ``Random()`` objects."""
     if not context.scheduler.simulated:
         return
@@ -38,7 +38,7 @@ class NumpyRandom:
     In numpy they are bound methods of one ``RandomState``; here each script has its own.
     """
 
-    def __init__(self, context: Script) -> None:
+    def __init__(self, context: ScriptContext) -> None:
         from numpy import random
 
         seed = None

@@ -16,10 +16,10 @@ from rosmini.ros.scripts.stdin import ConsoleFeed, ScriptInput
 from . import as_builtins, copy_of
 
 if TYPE_CHECKING:
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 
-def _own_input(context: Script, item: object) -> ScriptInput | None:
+def _own_input(context: ScriptContext, item: object) -> ScriptInput | None:
     """Return the script's standard input if ``item`` (a file or a descriptor) refers to it."""
     stdin = context.get_own("stdin")
     if isinstance(item, ScriptInput):
@@ -29,7 +29,7 @@ def _own_input(context: Script, item: object) -> ScriptInput | None:
     return None
 
 
-def make_select(context: Script) -> ModuleType:
+def make_select(context: ScriptContext) -> ModuleType:
     """Create a ``select`` whose ``select()`` parks the lane; ``poll`` and the others are the real ones."""
     module = copy_of(real_select)
     scheduler = context.scheduler
@@ -85,7 +85,7 @@ def _console(stdin: object) -> ConsoleFeed | None:
     return feed if isinstance(feed, ConsoleFeed) else None
 
 
-def make_msvcrt(context: Script) -> ModuleType:
+def make_msvcrt(context: ScriptContext) -> ModuleType:
     """Create an ``msvcrt`` whose keys park the lane. Raises ``ModuleNotFoundError`` except on Windows."""
     real = _optional("msvcrt")
     if real is None:
@@ -112,7 +112,7 @@ def make_msvcrt(context: Script) -> ModuleType:
     return module
 
 
-def make_termios(context: Script) -> ModuleType:
+def make_termios(context: ScriptContext) -> ModuleType:
     """Create a ``termios`` that ignores input which is not a terminal.
 
     On Windows, which has no termios, it switches between lines and keys. Raises ``ModuleNotFoundError`` if neither
@@ -169,7 +169,7 @@ def _descriptor(item: Any) -> int:
     return item if isinstance(item, int) else int(item.fileno())
 
 
-def make_tty(context: Script) -> ModuleType:
+def make_tty(context: ScriptContext) -> ModuleType:
     """Create a ``tty`` to go with :func:`make_termios`."""
     termios: Any = context.importer.load("termios")
     real = _optional("tty")

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rosmini.core.graph.lanes import Lane
-    from rosmini.ros.scripts.script import Script
+    from rosmini.ros.scripts.context import ScriptContext
 
 
 _REUSED = (
@@ -48,7 +48,7 @@ _REUSED = (
 class Threads:
     """The threads of one script, by lane."""
 
-    def __init__(self, context: Script) -> None:
+    def __init__(self, context: ScriptContext) -> None:
         self.context = context
         self.by_lane: dict[Lane, LaneThread] = {}
         self.idents = itertools.count(1)
@@ -92,6 +92,7 @@ class LaneThread(locks.ForScript):
     _initialized: bool
     _started: locks.Event
     _ident: int | None
+    ident: int | None
     name: str
     daemon: bool
     run: Callable[[], None]
@@ -232,7 +233,7 @@ class LaneThread(locks.ForScript):
 class _Threading(ModuleType):
     """A script's ``threading``; ``local`` is created on first use, because it needs the rest."""
 
-    def __init__(self, context: Script) -> None:
+    def __init__(self, context: ScriptContext) -> None:
         super().__init__("threading", real_threading.__doc__)
         self.__dict__["_context"] = context
         self.__dict__["__all__"] = list(real_threading.__all__)
@@ -262,7 +263,7 @@ def _definitions() -> dict[str, CodeType]:
     }
 
 
-def script_classes(context: Script) -> dict[str, type]:
+def script_classes(context: ScriptContext) -> dict[str, type]:
     """Create the classes of one script's ``threading``."""
 
     def own(*bases: type, **more: object) -> type:
@@ -297,7 +298,7 @@ def script_classes(context: Script) -> dict[str, type]:
     return {name: names[name] for name in ("Lock", "RLock", "Event", *_REUSED) if name[0] != "_"}
 
 
-def make_threading(context: Script) -> ModuleType:
+def make_threading(context: ScriptContext) -> ModuleType:
     """Create the ``threading`` of one script."""
     threads = context.threads
     module: Any = _Threading(context)
@@ -333,7 +334,7 @@ def make_threading(context: Script) -> ModuleType:
     return module  # type: ignore[no-any-return]
 
 
-def make_thread(context: Script) -> ModuleType:
+def make_thread(context: ScriptContext) -> ModuleType:
     """Create the ``_thread`` of one script."""
     module = ModuleType("_thread", real_thread.__doc__)
     lock: Any = context.thread_classes["Lock"]
