@@ -72,10 +72,6 @@ class Places:
         share = next((each for each in self.shares if (each / package).exists()), self.shares[0])
         return f"{match[1]}{share}{'/' * bool(package)}{package}"
 
-    def real_list(self, value: str) -> str:
-        """Return a list of folders (``~/ws/src:/opt/ros/noetic/share``) as in this machine's environment."""
-        return os.pathsep.join(self.real(each) for each in value.split(":") if each)
-
     def find(self, word: str, folder: Path, *, writes: bool = False) -> Path:
         """Return the path that a word means in a folder.
 
