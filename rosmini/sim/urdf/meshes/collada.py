@@ -1,7 +1,7 @@
 """Reads COLLADA 1.4.1 (https://www.khronos.org/files/collada_spec_1_4.pdf) as needed for meshes in plain colours.
 
-That is triangles, polylists and polygons below the nodes of the scene, with their transforms, the unit, and the diffuse
-colours of their materials. Textures are ignored, and so is `up_axis`, as in Gazebo
+That is triangles, strips, fans, polylists and polygons below the nodes of the scene, with their transforms, the unit,
+and the diffuse colours of their materials. Textures are ignored, and so is `up_axis`, as in Gazebo
 (https://github.com/gazebosim/gazebo-classic/issues/1305) and RViz (which drops the rotation that assimp puts on the
 root of the scene): so robots and worlds made for these have the orientation of the numbers in their files.
 """
@@ -49,7 +49,8 @@ class _Reader:
 
     def __init__(self, root: Element) -> None:
         self.root = root
-        self.by_id = {each.get("id"): each for each in root.walk() if each.get("id")}
+        self.by_id = {(each.tag, each.get("id")): each for each in root.walk() if each.get("id")}
+        """By tag, too: in many files a scene and a node have the same id."""
         meter = root.find("asset/unit")
         scale = 1.0 if meter is None else meter.number("meter", 1.0, most=FARTHEST)
         if scale <= 0:
@@ -65,9 +66,11 @@ class _Reader:
     def target(self, element: Element, attribute: str) -> Element:
         """Return the target of a reference `#id`."""
         name = element.attribute(attribute).removeprefix("#")
-        if name not in self.by_id:
+        kinds = ("source", "vertices") if element.tag == "input" else (element.tag.removeprefix("instance_"),)
+        found = next((self.by_id[kind, name] for kind in kinds if (kind, name) in self.by_id), None)
+        if found is None:
             raise element.error(f"there is nothing with the id {name!r} in this file")
-        return self.by_id[name]
+        return found
 
     def surfaces(self, part: str) -> Iterator[Surface]:
         shown = self.root.find("scene/instance_visual_scene")
@@ -91,8 +94,10 @@ class _Reader:
                 self.places[node] = _transform(node)
             place = matrix_product(above, self.places[node])
             size = abs(determinant(place[:3, :3]))
-        if not (np.abs(place).max() <= FARTHEST and size > 0):
-            raise node.error("the transforms of this node make it infinitely large, or flat")
+        if not np.abs(place).max() <= FARTHEST:
+            raise node.error("the transforms of this node make it infinitely large")
+        if not size > 0:
+            return  # nothing can be seen of it, such as a viewpoint that SketchUp saves
         if part in (node.get("name"), node.get("id")):
             part = ""
         for child in node:
@@ -133,7 +138,7 @@ class _Reader:
         mesh = geometry.find("mesh")
         if mesh is None:
             return
-        for piece in mesh.all("triangles", "polylist", "polygons"):
+        for piece in mesh.all("triangles", "tristrips", "trifans", "polylist", "polygons"):
             if piece not in self.pieces:
                 self.pieces[piece] = self.piece(piece)
             found, corners = self.pieces[piece]
@@ -159,7 +164,7 @@ class _Reader:
             raise at.error("these vertices have no POSITION")
         points = self.floats(self.target(position, "source"))
         corners = self.column(piece, index, streams["VERTEX"], len(points))
-        faces = _fans(sizes)
+        faces = _strips(sizes) if piece.tag == "tristrips" else _fans(sizes)
         normals = None
         if "NORMAL" in streams:
             directions = self.floats(self.target(streams["NORMAL"], "source"))
@@ -213,7 +218,7 @@ def _indices(piece: Element, stride: int) -> tuple[NDArray[np.int64], list[int]]
     if not lists:
         return np.empty((0, stride), dtype=np.int64), []
     index = np.vstack(lists)
-    if piece.tag == "polygons":
+    if piece.tag in ("polygons", "trifans", "tristrips"):
         sizes = [len(rows) for rows in lists]
     elif piece.tag == "polylist":
         sizes = [int(size) for size in piece.floats(piece.need("vcount").text)]
@@ -230,6 +235,16 @@ def _fans(sizes: list[int]) -> NDArray[np.int64]:
     first = 0
     for size in sizes:
         faces += [(first, first + i, first + i + 1) for i in range(1, size - 1)]
+        first += size
+    return np.array(faces, dtype=np.int64)
+
+
+def _strips(sizes: list[int]) -> NDArray[np.int64]:
+    """Return the triangles of consecutive strips with these numbers of corners; every second one is turned."""
+    faces = []
+    first = 0
+    for size in sizes:
+        faces += [(first + i, first + i + 1 + i % 2, first + i + 2 - i % 2) for i in range(size - 2)]
         first += size
     return np.array(faces, dtype=np.int64)
 

@@ -71,24 +71,33 @@ def _flat(triangles: Floats) -> Surface:
 
 
 def _stl(file: Path) -> Floats:
+    """Return the triangles (m, 3, 3) of a binary or text file; a binary header may begin with "solid", too."""
     data = _bytes(file)
     count = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
-    if count >= 0 and len(data) == 84 + 50 * count:
-        rows = np.frombuffer(
-            data, dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")], offset=84
-        )
-        return _finite(rows["corners"].astype(np.float64), file)
-    if not data.lstrip().startswith(b"solid"):
+    length = 84 + 50 * count
+    is_text = data.lstrip()[:5].lower() == b"solid"
+    if is_text and len(data) != length:
+        triangles = _text_stl(data, file)
+        if len(triangles) or not 0 < length <= len(data):
+            return triangles
+    if count < 0 or len(data) < length:
         raise MeshError(
             f"this is not an STL file: {max(count, 0)} triangles would be {84 + 50 * max(count, 0)} bytes, "
             f"not {len(data)}",
             file,
         )
+    kind = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]
+    rows = np.frombuffer(data, dtype=kind, offset=84, count=count)
+    return _finite(rows["corners"].astype(np.float64), file)
+
+
+def _text_stl(data: bytes, file: Path) -> Floats:
     corners = []
-    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), start=1):
+    for number, line in enumerate(data.decode("utf-8", "replace").lower().splitlines(), start=1):
         words = line.split()
-        if words[:1] == ["vertex"]:
-            corners.append(_three(words[1:], file, number))
+        corners += [
+            _three(words[i + 1 : i + 4], file, number) for i, word in enumerate(words) if word == "vertex"
+        ]
     if len(corners) % 3:
         raise MeshError(f"{len(corners)} corners are no triangles", file)
     return _finite(np.array(corners).reshape(-1, 3, 3), file)

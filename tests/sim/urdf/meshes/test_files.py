@@ -107,7 +107,6 @@ def test_collada_of_others_units_nodes_and_polygons(tmp_path, up):
         ('offset="0"', 'offset="1e9"', "an offset is a whole number from 0 to 99"),
         ('offset="0"', 'offset="-1"', "an offset is a whole number from 0 to 99"),
         ("<p>0 1 2 3</p>", "<p>0 1 2 99999999999999999999</p>", "<p> holds whole numbers"),
-        ("<matrix>2 0", "<matrix>0 0", "or flat"),
         ("<matrix>2 0", "<matrix>1e300 1e300", "is too large"),
         (
             "<node><translate>",
@@ -199,6 +198,47 @@ def test_stl_binary_and_text(tmp_path):
         (surface,) = read(path)
         assert surface.triangles.tolist() == np.array(triangles, dtype=float).tolist()
         assert surface.colour is None
+
+
+def _binary(name, count, triangles):
+    return name.ljust(80) + struct.pack("<I", count) + bytes(50 * triangles)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet endsolid a",
+        b"SOLID a\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\nENDLOOP\nENDFACET\n",
+        _binary(b"solid a", 1, 1) + b"\r\n",
+        _binary(b"a", 1, 1) + b"\0",
+    ],
+)
+def test_unusual_forms_of_stl(tmp_path, data):
+    (tmp_path / "a.stl").write_bytes(data)
+    (surface,) = read(tmp_path / "a.stl")
+    assert len(surface.faces) == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (("polylist", "<vcount>4</vcount>", "0 1 2 3"), ("trifans", "", "0 1 2 3")),
+        (("polylist", "<vcount>4</vcount>", "0 1 2 3"), ("tristrips", "", "0 1 3 2")),
+        (('id="vs"><node>',), ('id="vs"><node id="vs">',)),  # as exported by 3ds Max
+        (('id="vs">',), ('id="vs"><node><scale>0 0 0</scale></node>',)),  # as exported by SketchUp
+    ],
+)
+def test_forms_of_collada_that_programs_export(tmp_path, old, new):
+    text = DAE
+    for before, after in zip(old, new, strict=True):
+        text = text.replace(before, after)
+    (tmp_path / "a.dae").write_text(DAE, encoding="utf-8")
+    (tmp_path / "b.dae").write_text(text, encoding="utf-8")
+    (expected,), (found,) = read(tmp_path / "a.dae"), read(tmp_path / "b.dae")
+    assert len(found.faces) == 2
+    assert volume([found]) == volume([expected])
+    assert (found.vertices.min(axis=0) == expected.vertices.min(axis=0)).all()
+    assert (found.vertices.max(axis=0) == expected.vertices.max(axis=0)).all()
 
 
 def test_obj(tmp_path):
