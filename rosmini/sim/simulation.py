@@ -73,7 +73,7 @@ class Simulation(ABC):
             self._check_running()
             return action()
 
-        return self.node.scheduler.on_hub(act)
+        return self.node.scheduler.run_in_scheduler(act)
 
     def _check_running(self) -> None:
         if self._ended:

@@ -256,7 +256,7 @@ class Simulator(Simulation):
             self._end()
             self._service.shutdown("the robot was removed")
 
-        self.node.scheduler.on_hub(end)
+        self.node.scheduler.run_in_scheduler(end)
 
     def _end(self) -> None:
         super()._end()

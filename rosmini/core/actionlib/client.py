@@ -101,7 +101,7 @@ class ClientGoalHandle:
 
     def cancel(self) -> None:
         """Ask the server to cancel this goal; no effect if it is over or being cancelled."""
-        self._client.node.scheduler.on_hub(self._cancel)
+        self._client.node.scheduler.run_in_scheduler(self._cancel)
 
     def _cancel(self) -> None:
         client = self._client
@@ -181,7 +181,7 @@ class ActionClient:
         self.ns = node.resolve(ns)
         self._goals: dict[str, ClientGoalHandle] = {}
         self._server = ""
-        node.scheduler.on_hub(lambda: self._connect(numpy))
+        node.scheduler.run_in_scheduler(lambda: self._connect(numpy))
 
     def _connect(self, numpy: bool) -> None:
         node, ns, types = self.node, self.ns, self.types
@@ -218,7 +218,7 @@ class ActionClient:
         ``transition_cb(handle)`` is called for each state that the client enters, ``feedback_cb(handle, feedback)`` on
         feedback. Raises ``ActionException`` if ``goal`` is not a message of the action's goal type.
         """
-        return self.node.scheduler.on_hub(lambda: self._send(goal, transition_cb, feedback_cb))
+        return self.node.scheduler.run_in_scheduler(lambda: self._send(goal, transition_cb, feedback_cb))
 
     def _send(self, goal: Any, *callbacks: Any) -> ClientGoalHandle:
         wanted = self.types.goal
@@ -262,10 +262,10 @@ class ActionClient:
         """
         node = self.node
         waiter = node.waiter(f"an action server on {self.ns}")
-        node.scheduler.on_hub(lambda: node.graph.changes.watch(self._connected, waiter))
+        node.scheduler.run_in_scheduler(lambda: node.graph.changes.watch(self._connected, waiter))
         try:
             found = wait_on(node, waiter, timeout, self._connected)
-            return found and node.scheduler.on_hub(self._wait_until_counted)
+            return found and node.scheduler.run_in_scheduler(self._wait_until_counted)
         finally:
             waiter.wake()
 

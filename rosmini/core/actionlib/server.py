@@ -125,7 +125,7 @@ class ActionServer:
 
     def start(self) -> None:
         """Open the five topics. Safe to call again."""
-        self.node.scheduler.on_hub(self._start)
+        self.node.scheduler.run_in_scheduler(self._start)
 
     def _start(self) -> None:
         if self.started:
@@ -162,7 +162,7 @@ class ActionServer:
 
     def stop(self) -> None:
         """Unregister from the five topics; goals keep their status, which is no longer published."""
-        self.node.scheduler.on_hub(self._stop)
+        self.node.scheduler.run_in_scheduler(self._stop)
 
     def _stop(self) -> None:
         if not self.started:

@@ -182,7 +182,7 @@ class ServerGoalHandle:
         if self.goal is None:
             self._complain(ActionException(f"{event.value}() was called on a goal handle that has no goal"))
         else:
-            self._server().node.scheduler.on_hub(self._go, event, text, result)
+            self._server().node.scheduler.run_in_scheduler(self._go, event, text, result)
 
     def _go(self, event: GoalEvent, text: str, result: Any) -> None:
         server, status = self._server(), self.status

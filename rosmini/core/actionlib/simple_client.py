@@ -63,7 +63,7 @@ class SimpleActionClient:
         ``done_cb(state, result)`` once, at the end. Raises ``ActionException`` if ``goal`` is not a message of the
         action's goal type.
         """
-        self.node.scheduler.on_hub(lambda: self._send(goal, done_cb, active_cb, feedback_cb))
+        self.node.scheduler.run_in_scheduler(lambda: self._send(goal, done_cb, active_cb, feedback_cb))
 
     def _send(self, goal: Any, done_cb: Any, active_cb: Any, feedback_cb: Any) -> None:
         """Send a goal in the scheduler's thread, so that it cannot end before ``gh`` and the callbacks are set."""

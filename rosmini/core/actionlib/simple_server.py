@@ -121,7 +121,7 @@ class SimpleActionServer:
 
         If no goal is waiting: raises ``ActionException`` if strict, otherwise logs an error and returns None.
         """
-        return self.node.scheduler.on_hub(self._accept)
+        return self.node.scheduler.run_in_scheduler(self._accept)
 
     def _accept(self) -> Any:
         new, old = self.next_goal, self.current_goal

@@ -146,7 +146,7 @@ def wait_on(node: Node, waiter: Waiter, timeout: Timeout, holds: Callable[[], bo
     cancel = None
     if seconds is not None:
         when = node.clock.now_ns() + max(int(seconds * 1e9), 0)
-        cancel = node.scheduler.on_hub(lambda: node.clock.call_at(when, waiter.wake))
+        cancel = node.scheduler.run_in_scheduler(lambda: node.clock.call_at(when, waiter.wake))
     try:
         if not holds():
             node.wait(waiter)

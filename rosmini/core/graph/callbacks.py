@@ -97,7 +97,7 @@ class TopicHandle(ABC):
 
     def unregister(self) -> None:
         """End this handle. The node leaves the topic when its last handle ends. Harmless when repeated."""
-        self.node.scheduler.on_hub(self._unregister)
+        self.node.scheduler.run_in_scheduler(self._unregister)
 
     def connected(self, peer: str) -> None:
         """Called when the node ``peer`` has been connected."""

@@ -218,7 +218,7 @@ class EventQueue:
         """Let the scheduler sleep in ``sleeper`` when it has nothing to do; None means in the inbox."""
         self._inbox.sleeper = sleeper
 
-    def is_hub_thread(self) -> bool:
+    def is_scheduler_thread(self) -> bool:
         """Return True if the caller is in the thread that runs the queue."""
         return get_ident() == self.thread
 

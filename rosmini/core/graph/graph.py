@@ -220,7 +220,7 @@ class Graph:
     @property
     def unreachable(self) -> tuple[str, ...]:
         """The nodes that the Master knows but that do not answer: they ended without unregistering."""
-        return self.scheduler.on_hub(self._find_unreachable)
+        return self.scheduler.run_in_scheduler(self._find_unreachable)
 
     def _find_unreachable(self) -> tuple[str, ...]:
         master = self.ask_as("/graph")
@@ -315,7 +315,7 @@ class Graph:
         if self._online is not None:
             raise RosminiError(f"this graph is online already, at {self.master_uri}; offline() ends that")
         begin = find_extension("rosmini.wires", "online")
-        self._online = self.scheduler.on_hub(lambda: begin(self, master_uri, environ, live=live))
+        self._online = self.scheduler.run_in_scheduler(lambda: begin(self, master_uri, environ, live=live))
         return self._online
 
     @property
@@ -332,7 +332,7 @@ class Graph:
         """Disconnect from other processes; the nodes of this one keep running. Harmless when repeated."""
         online, self._online = self._online, None
         if online is not None:
-            self.scheduler.on_hub(online.end)
+            self.scheduler.run_in_scheduler(online.end)
 
     def _run_errand(self, waiter: Waiter) -> Callable[[], None]:
         return Errand(self, waiter).complain
@@ -342,7 +342,7 @@ class Graph:
 
         The graph is then empty and can be used again.
         """
-        self.scheduler.on_hub(lambda: self._shutdown(reason))
+        self.scheduler.run_in_scheduler(lambda: self._shutdown(reason))
 
     def _shutdown(self, reason: str) -> None:
         if self._live is not None:
@@ -425,13 +425,15 @@ class Graph:
         Call ``stop()`` on the result to end the recording, or use it in a ``with`` statement. ``%roswhy`` and
         ``%rossequence`` use the recording. A graph that does not record has no overhead.
         """
-        return self.scheduler.on_hub(self._record)
+        return self.scheduler.run_in_scheduler(self._record)
 
     def _record(self) -> Recording:
         self._recordings += 1
         if self.scheduler.history is None:
             self._set_history(History(self.scheduler, self.nodes))
-        return Recording(self.scheduler.history, lambda: self.scheduler.on_hub(self._record_no_more))
+        return Recording(
+            self.scheduler.history, lambda: self.scheduler.run_in_scheduler(self._record_no_more)
+        )
 
     @property
     def recorded(self) -> Recording | None:

@@ -211,10 +211,10 @@ class Waiter:
     thread drives it until it is woken.
     """
 
-    __slots__ = ("_error", "_event", "_hub", "cause", "done", "greenlet", "queued", "reason", "value")
+    __slots__ = ("_error", "_event", "_scheduler", "cause", "done", "greenlet", "queued", "reason", "value")
 
-    def __init__(self, hub: Scheduler, reason: str) -> None:
-        self._hub = hub
+    def __init__(self, scheduler: Scheduler, reason: str) -> None:
+        self._scheduler = scheduler
         self.reason = reason
         self.done = False
         self.value: Any = None
@@ -236,15 +236,15 @@ class Waiter:
         self._finish(None, error)
 
     def _finish(self, value: Any, error: BaseException | None) -> None:
-        hub = self._hub
-        if get_ident() != hub.thread:
-            hub.call_soon_threadsafe(lambda: self._finish(value, error))
+        scheduler = self._scheduler
+        if get_ident() != scheduler.thread:
+            scheduler.call_soon_threadsafe(lambda: self._finish(value, error))
         elif not self.done:
             self.value = value
             self._error = error
             self.done = True
-            if hub.history is not None:
-                self.cause = hub.history.cause()
+            if scheduler.history is not None:
+                self.cause = scheduler.history.cause()
             self._go_on()
 
     def _go_on(self) -> None:
@@ -252,7 +252,7 @@ class Waiter:
             self._event.set()
         elif self.greenlet is not None and not self.queued:
             self.queued = True
-            self._hub.ready.append(self.resume)
+            self._scheduler.ready.append(self.resume)
 
     @property
     def settled(self) -> bool:
@@ -271,10 +271,14 @@ class Waiter:
         Raises the error given to :meth:`fail`, and :class:`~rosmini.core.errors.GraphEnded` if the main program waits
         in simulated time and nothing is left that could wake it.
         """
-        hub = self._hub
-        end = None if timeout_ns is None else hub.now_ns() + timeout_ns
+        scheduler = self._scheduler
+        end = None if timeout_ns is None else scheduler.now_ns() + timeout_ns
         while not self.done:
-            drives = get_ident() == hub.thread or hub.take_hub(to_wait=True) or self._wait_in_thread(end)
+            drives = (
+                get_ident() == scheduler.thread
+                or scheduler.acquire_scheduler(to_wait=True)
+                or self._wait_in_thread(end)
+            )
             if not drives or self.done or self._park(end):
                 break
         if self._error is not None:
@@ -282,12 +286,12 @@ class Waiter:
         return self.done
 
     def _park(self, end_ns: int | None) -> bool:
-        hub = self._hub
+        scheduler = self._scheduler
         if end_ns is None:
-            return hub.park(self)
-        timer = hub.call_at(end_ns, self._time_out)
+            return scheduler.park(self)
+        timer = scheduler.call_at(end_ns, self._time_out)
         try:
-            return hub.park(self)
+            return scheduler.park(self)
         finally:
             timer.cancel()
 
@@ -298,24 +302,24 @@ class Waiter:
 
     def _wait_in_thread(self, end_ns: int | None) -> bool:
         """Sleep while another thread drives; return True if none does any longer and this thread now drives."""
-        hub = self._hub
+        scheduler = self._scheduler
         event = self._event = threading.Event()
         try:
             if self.done:
                 return False
-            if end_ns is not None and hub.simulated:
-                hub.call_soon_threadsafe(lambda: hub.call_at(end_ns, self._time_out))
-            complain: Callable[[], None] | None = hub.ask_driver(self)
+            if end_ns is not None and scheduler.simulated:
+                scheduler.call_soon_threadsafe(lambda: scheduler.call_at(end_ns, self._time_out))
+            complain: Callable[[], None] | None = scheduler.ask_driver(self)
             impatient = time.monotonic() + PATIENCE_S
             look = LOOK_S
             while not event.wait(look):
-                if not hub.simulated:
+                if not scheduler.simulated:
                     if end_ns is not None:
-                        left = (end_ns - hub.now_ns()) / 1e9 / hub.rate
+                        left = (end_ns - scheduler.now_ns()) / 1e9 / scheduler.rate
                         if left <= 0:
                             return False
                         look = min(look, left)
-                    if get_ident() == hub.thread or hub.take_hub(to_wait=True):
+                    if get_ident() == scheduler.thread or scheduler.acquire_scheduler(to_wait=True):
                         return True
                 if complain is not None and time.monotonic() > impatient:
                     complain()
@@ -336,8 +340,8 @@ class RemoteWaiter(Waiter):
 
     def wait(self, timeout_ns: int | None = None) -> bool:
         """Block like :meth:`Waiter.wait`."""
-        self._hub.count_remote(1)
+        self._scheduler.count_remote(1)
         try:
             return super().wait(timeout_ns)
         finally:
-            self._hub.count_remote(-1)
+            self._scheduler.count_remote(-1)

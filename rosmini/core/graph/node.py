@@ -126,7 +126,7 @@ class Node:
         self.logger = Logger(self)
         self.slave = SlaveApi(self)
         self.uri = ""
-        self.scheduler.on_hub(lambda: self._start(has_rosout=has_rosout))
+        self.scheduler.run_in_scheduler(lambda: self._start(has_rosout=has_rosout))
 
     def _start(self, *, has_rosout: bool) -> None:
         """Register: the Master learns of the node by its first registration, that of ``/rosout`` if the node has it."""
@@ -177,7 +177,7 @@ class Node:
         ``headers`` are additional fields of the connection header for subscribers that connect from now on.
         Raises ``TypeMismatch`` if this node publishes the topic with a type of another md5 sum.
         """
-        return self.scheduler.on_hub(
+        return self.scheduler.run_in_scheduler(
             lambda: self._publisher(
                 self.resolve(topic), message_class, queue_size, latch, headers, on_connect, on_disconnect
             )
@@ -282,7 +282,7 @@ class Node:
                 self._subscribe(subscription)
             return handle
 
-        return self.scheduler.on_hub(make)
+        return self.scheduler.run_in_scheduler(make)
 
     def _subscribe(self, subscription: Subscription) -> None:
         topic = subscription.topic
@@ -487,7 +487,7 @@ class Node:
 
     def _wait_on_topic(self, clock: TopicClock, when_ns: int, reason: str) -> None:
         waiter = self.waiter(reason)
-        cancel = self.scheduler.on_hub(lambda: clock.call_at(when_ns, waiter.wake))
+        cancel = self.scheduler.run_in_scheduler(lambda: clock.call_at(when_ns, waiter.wake))
         try:
             self.wait(waiter)
         finally:
@@ -540,7 +540,7 @@ class Node:
         def begin() -> None:
             self.graph.changes.watch(condition, waiter)
 
-        self.scheduler.on_hub(begin)
+        self.scheduler.run_in_scheduler(begin)
         if not self.wait(waiter, timeout):
             waiter.wake()
             msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure()}"
@@ -565,7 +565,7 @@ class Node:
         end = None if timeout is None else scheduler.now_ns() + int(timeout * 1e9)
         while True:
             waiter = self.waiter(reason)
-            scheduler.on_hub(
+            scheduler.run_in_scheduler(
                 partial(self.graph.changes.next, waiter)
             )  # before the call, so that no change is missed
             try:
@@ -659,7 +659,9 @@ class Node:
     ) -> Timer:
         """Call ``callback(event)`` every ``period`` seconds."""
         span = period if isinstance(period, Duration) else Duration.from_sec(period)
-        return self.scheduler.on_hub(lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset))
+        return self.scheduler.run_in_scheduler(
+            lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset)
+        )
 
     # -- shutdown ------------------------------------------------------------------------------------------------
 
@@ -672,13 +674,13 @@ class Node:
 
         Without ``hooks``, none is called, and a running hook is not waited for.
         """
-        self.scheduler.on_hub(lambda: self._shutdown(reason, hooks=hooks))
+        self.scheduler.run_in_scheduler(lambda: self._shutdown(reason, hooks=hooks))
 
     def vanish(self) -> None:
         """End like a killed process: no hook runs, and the Master is not notified."""
         self.master.is_mute = True
         if self.process is not None:
-            self.scheduler.on_hub(self.process.kill)
+            self.scheduler.run_in_scheduler(self.process.kill)
         self.shutdown("it was killed", hooks=False)
 
     def shutdown_requested(self, caller: str, reason: str) -> None:

@@ -138,7 +138,7 @@ class Scheduler(EventQueue):
         """
         return RemoteWaiter(self, reason) if remote else Waiter(self, reason)
 
-    def on_hub(self, function: Callable[..., T], *arguments: Any) -> T:
+    def run_in_scheduler(self, function: Callable[..., T], *arguments: Any) -> T:
         """Return ``function(*arguments)``, run in the scheduler's thread, in a lane with the caller's node and context.
 
         A call from another thread goes through the inbox and waits for the answer. If no thread drives, it soon warns
@@ -146,12 +146,12 @@ class Scheduler(EventQueue):
         """
         if get_ident() == self.thread:
             return function(*arguments)
-        if not self.take_hub(to_wait=True):
-            return threads.on_hub(self, partial(function, *arguments))
+        if not self.acquire_scheduler(to_wait=True):
+            return threads.call_from_thread(self, partial(function, *arguments))
         try:
             return function(*arguments)
         finally:
-            self._return_hub()
+            self._release_scheduler()
 
     # -- blocking ------------------------------------------------------------------------------------------------
 
@@ -197,7 +197,7 @@ class Scheduler(EventQueue):
 
     def give_way(self) -> None:
         """Let all other due events and lanes run before the caller continues. No effect in another thread."""
-        if self.is_hub_thread():
+        if self.is_scheduler_thread():
             waiter = Waiter(self, "its turn")
             waiter.done = waiter.queued = True
             self._inbox.put(partial(self.ready.append, waiter.resume))
@@ -207,9 +207,9 @@ class Scheduler(EventQueue):
 
     def in_thread(self, function: Callable[[], T]) -> T:
         """Run a blocking call of the operating system in a helper thread while the caller is parked."""
-        return threads.in_thread(self, function) if self.is_hub_thread() else function()
+        return threads.in_thread(self, function) if self.is_scheduler_thread() else function()
 
-    def take_hub(self, *, to_wait: bool = False) -> bool:
+    def acquire_scheduler(self, *, to_wait: bool = False) -> bool:
         """Move the scheduler to the calling thread, which is about to drive; return False if it is bound to another.
 
         ``to_wait``: the caller would drive only because it waits. In simulated time only the thread that made the graph
@@ -228,14 +228,14 @@ class Scheduler(EventQueue):
                 or (to_wait and self.simulated)
             ):
                 return False
-            self._move_hub(get_ident())
+            self._bind_to_thread(get_ident())
         return True
 
     @staticmethod
     def _lives(ident: int) -> bool:
         return any(thread.ident == ident for thread in threading.enumerate())
 
-    def _move_hub(self, ident: int) -> None:
+    def _bind_to_thread(self, ident: int) -> None:
         self._idle.clear()  # greenlets are bound to their thread
         self._starter = None
         self.thread = ident
@@ -296,10 +296,10 @@ class Scheduler(EventQueue):
         if self._root_waiter is waiter:
             return True
         with self._owner_lock:
-            if not self.is_hub_thread():
+            if not self.is_scheduler_thread():
                 if self.driven or self._parked:
                     return False
-                self._move_hub(get_ident())  # the other thread was not driving
+                self._bind_to_thread(get_ident())  # the other thread was not driving
             self._root_waiter = waiter
         self._left = len(self.ready)
         self._interrupts.arm()
@@ -312,13 +312,13 @@ class Scheduler(EventQueue):
         self._interrupts.disarm()
         if self.thread != MAIN_THREAD:
             self._end_workers()  # no other thread could use them
-            self._return_hub()
+            self._release_scheduler()
 
-    def _return_hub(self) -> None:
+    def _release_scheduler(self) -> None:
         """Give the scheduler back to the thread that made the graph, unless code is parked in this thread."""
         with self._owner_lock:
             if self.thread != self._home and not self._parked and self._lives(self._home):
-                self._move_hub(self._home)
+                self._bind_to_thread(self._home)
 
     # -- called by lanes and waiters -----------------------------------------------------------------------------
 
@@ -374,9 +374,9 @@ class Scheduler(EventQueue):
 
         Only from the main program, a notebook cell, or a thread while no other thread drives.
         """
-        is_free = self.is_hub_thread() or self.take_hub()
+        is_free = self.is_scheduler_thread() or self.acquire_scheduler()
         if is_free and self.current() is self.root and until is not None and until():
-            self._return_hub()
+            self._release_scheduler()
             return self.report("condition")
         waiter = Waiter(self, "the end of the run")
         if not is_free or self.current() is not self.root or not self._start_drive(waiter):
@@ -426,7 +426,7 @@ class Scheduler(EventQueue):
             if lane is not self.root:
                 lane.dead = True
                 waiter.fail(LaneExit("the graph was closed"))
-        if self.is_hub_thread() and self._current is self.root:
+        if self.is_scheduler_thread() and self._current is self.root:
             for _ in range(3):  # a lane may block again while it cleans up
                 if not any(lane is not self.root for lane in self._parked.values()):
                     break

@@ -68,7 +68,7 @@ class Services(dict[str, "ServiceServer"]):
                 raise
             return server
 
-        return self._node.scheduler.on_hub(make)
+        return self._node.scheduler.run_in_scheduler(make)
 
     def drop(self, server: ServiceServer) -> None:
         """Withdraw a service. For the server only."""
@@ -340,7 +340,7 @@ class ServiceClient:
             request = args[0]
         else:
             request = request_class(*args, **fields)
-        return self.node.scheduler.on_hub(self._call, request)
+        return self.node.scheduler.run_in_scheduler(self._call, request)
 
     def _call(self, given: Any) -> Any:
         link = self._link or self._connect()

@@ -84,14 +84,14 @@ class SlaveApi:
         )
 
     def _current(self) -> _Connections:
-        if self._is_stale and self._node.scheduler.is_hub_thread():
+        if self._is_stale and self._node.scheduler.is_scheduler_thread():
             self._renew()
         return self._connections
 
     def _post(self, effect: Callable[[], None]) -> None:
         """Run ``effect`` in the scheduler's thread; immediately if this is that thread."""
         scheduler = self._node.scheduler
-        if scheduler.is_hub_thread():
+        if scheduler.is_scheduler_thread():
             effect()
         else:
             scheduler.call_soon_threadsafe(effect)

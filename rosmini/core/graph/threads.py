@@ -166,7 +166,7 @@ LOOK_S = 0.005
 """Interval at which a run beside another thread's checks whether it is over [s]."""
 
 
-def on_hub(scheduler: Scheduler, function: Callable[[], T]) -> T:
+def call_from_thread(scheduler: Scheduler, function: Callable[[], T]) -> T:
     """Return ``function()``, called through the inbox in a lane with the caller's node and context; blocks."""
     waiter = Waiter(scheduler, "the thread that runs the graph")
     caller = scheduler.current()

@@ -210,7 +210,7 @@ class Buffer(BufferCore):
             return False
         node = self.node
         waiter = node.waiter(what)
-        node.scheduler.on_hub(lambda: self._waiting.__setitem__(waiter, ready))
+        node.scheduler.run_in_scheduler(lambda: self._waiting.__setitem__(waiter, ready))
         try:
             return node.wait(waiter, timeout_ns=span) or ready()
         finally:

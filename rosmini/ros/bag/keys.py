@@ -39,7 +39,7 @@ class Keys:
         player.node.on_shutdown(self.close)
         self._file = stdin.fileno()
         threading.Thread(target=self._read, name="keys of rosbag play", daemon=True).start()
-        self._scheduler.on_hub(self._show)
+        self._scheduler.run_in_scheduler(self._show)
 
     def close(self) -> None:
         """Restore the terminal; may be called repeatedly."""

@@ -112,7 +112,7 @@ class Player:
         self._origin = self.start
         """Time in the bags that corresponds to the graph's time ``_began`` [ns]."""
         self._began = 0
-        node.scheduler.on_hub(self._begin)
+        node.scheduler.run_in_scheduler(self._begin)
 
     def __repr__(self) -> str:
         state = "done" if self.done else "paused" if self.paused else "playing"
@@ -317,7 +317,7 @@ class Player:
             raise ROSBagException("only a player that is paused can step: call pause() first")
         if self._next is None or self.done:
             return False
-        self._scheduler.on_hub(self._step)
+        self._scheduler.run_in_scheduler(self._step)
         return True
 
     def _step(self) -> None:

@@ -142,7 +142,7 @@ class Recorder:
         self._cancel: Callable[[], None] = _nothing
         self._ended = False
         node.on_shutdown(self._finish)
-        node.scheduler.on_hub(self._begin)
+        node.scheduler.run_in_scheduler(self._begin)
 
     def __repr__(self) -> str:
         state = "ended" if self._ended else "recording"

@@ -1,7 +1,7 @@
-"""Connected sockets that the hub's own thread reads while it is idle.
+"""Connected sockets that the scheduler's own thread reads while it is idle.
 
-Normally an incoming message wakes the I/O thread, which then wakes the hub's: two thread switches, each as long as
-the rest of a message's path. So an idle hub waits for the sockets themselves instead of for a wake-up. When it
+Normally a message wakes the I/O thread, which then wakes the scheduler's: two thread switches, each as long as the
+rest of a message's path. So an idle scheduler waits for the sockets themselves instead of for a wake-up. When it
 has been busy for a while, the I/O thread reads them again, so that incoming data is received and bounded during a
 long callback.
 
@@ -32,10 +32,10 @@ COARSE_S = 0.1
 """Timeout from which precision does not matter [s]; epoll's has a resolution of a millisecond."""
 
 BEAT_S = 0.02
-"""How long the hub may be busy before the I/O thread reads [s]."""
+"""How long the scheduler may be busy before the I/O thread reads [s]."""
 
 QUIET_BEATS = 10
-"""Number of beats without activity after which the hub's state is not checked until data arrives."""
+"""Number of beats without activity after which the scheduler's state is not checked until data arrives."""
 
 
 class IdleReads:
@@ -43,7 +43,7 @@ class IdleReads:
 
     def __init__(self, loop: asyncio.AbstractEventLoop, scheduler: Scheduler) -> None:
         self.is_asleep = False
-        """True while the hub sleeps here or is about to; only then must it be woken for new work."""
+        """True while the scheduler sleeps here or is about to; only then must it be woken for new work."""
         self._loop = loop
         self._scheduler = scheduler
         self._lock = threading.RLock()
@@ -51,19 +51,21 @@ class IdleReads:
         self._is_closed = False
         self._is_on = True
         self.beats = False
-        """True if the loop checks periodically how busy the hub is."""
+        """True if the loop checks periodically how busy the scheduler is."""
         self._naps = self._seen = self._quiet = 0
         self._set = select.epoll()
         self._switch = select.epoll()
         self._alarm = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
-        self._alarm_lock = threading.RLock()  # of its own: who wakes the hub may hold what a reader wants
+        self._alarm_lock = (
+            threading.RLock()
+        )  # of its own: who wakes the scheduler may hold what a reader wants
         self._set.register(self._alarm, select.EPOLLIN)
         self._switch.register(self._set, select.EPOLLIN)
         loop.add_reader(self._switch, self._read_in_loop)
         scheduler.sleep_in(self)
 
     def add(self, sock: socket.socket, reader: Callable[[], None]) -> None:
-        """Call ``reader`` when there is data to read, in the hub's thread or the loop's, one at a time."""
+        """Call ``reader`` when there is data to read, in the scheduler's thread or the loop's, one at a time."""
         with self._lock:
             if not self._is_closed:
                 self._readers[sock.fileno()] = reader
@@ -76,15 +78,15 @@ class IdleReads:
                 self._set.unregister(sock)
 
     def wake(self) -> None:
-        """Wake the hub; may be called from any thread and from a signal handler."""
+        """Wake the scheduler; may be called from any thread and from a signal handler."""
         with self._alarm_lock:
             if not self._set.closed:
                 os.eventfd_write(self._alarm, 1)
 
-    # -- in the hub's thread -------------------------------------------------------------------------------------
+    # -- in the scheduler's thread -------------------------------------------------------------------------------
 
     def sleep(self, timeout: float, nothing_came: Callable[[], bool]) -> None:
-        """Sleep until data arrives or the hub is woken, unless something came already; then read the data."""
+        """Sleep until data arrives or the scheduler is woken, unless something came already; then read the data."""
         with self._lock:
             if self._is_closed:
                 return
@@ -116,7 +118,7 @@ class IdleReads:
             if self._is_closed:
                 self._end()
             elif self.beats:
-                pass  # if the hub does not sleep soon, the loop notices
+                pass  # if the scheduler does not sleep soon, the loop notices
             elif something_came:
                 self.beats = True
                 self._loop.call_soon_threadsafe(self._beat)
@@ -147,7 +149,7 @@ class IdleReads:
                 self._read(self._set.poll(0))
 
     def _beat(self) -> None:
-        """Start reading in the loop if the hub has been awake since the last beat."""
+        """Start reading in the loop if the scheduler has been awake since the last beat."""
         with self._lock:
             if self._is_closed:
                 return
@@ -160,7 +162,7 @@ class IdleReads:
                 self._loop.call_later(BEAT_S, self._beat)
 
     def close(self) -> None:
-        """Stop reading; the hub then sleeps at its inbox."""
+        """Stop reading; the scheduler then sleeps at its inbox."""
         self._scheduler.sleep_in(None)
         self._loop.remove_reader(self._switch)
         with self._lock:
@@ -179,5 +181,5 @@ class IdleReads:
 
 
 def idle_reads(loop: asyncio.AbstractEventLoop, scheduler: Scheduler) -> IdleReads | None:
-    """Return the sockets that the hub reads too; None if the system has no epoll."""
+    """Return the sockets that the scheduler reads too; None if the system has no epoll."""
     return IdleReads(loop, scheduler) if hasattr(select, "epoll") and hasattr(os, "eventfd") else None

@@ -38,13 +38,13 @@ TURNS = 6
 class IoThread:
     """Starts on first use; after :meth:`close` it can be used again, with a new loop.
 
-    With a scheduler, the hub of that scheduler reads shared sockets while it is idle.
+    If a ``scheduler`` is given, it reads shared sockets while it is idle.
     """
 
     def __init__(self, scheduler: Scheduler | None = None) -> None:
         self._scheduler = scheduler
         self.idle: IdleReads | None = None
-        """Sockets that an idle hub reads, or None. Loop's thread only."""
+        """Sockets that an idle scheduler reads, or None. Loop's thread only."""
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._thread: threading.Thread | None = None
@@ -108,8 +108,8 @@ class IoThread:
             raise
         return cast("T", waiter.value)
 
-    def on_hub(self, scheduler: Scheduler, function: Callable[[], T]) -> asyncio.Future[T]:
-        """Return a future for a function that is called in the hub's thread. Loop's thread only."""
+    def submit(self, scheduler: Scheduler, function: Callable[[], T]) -> asyncio.Future[T]:
+        """Return a future for a function that is called in the scheduler's thread. Loop's thread only."""
         loop = asyncio.get_running_loop()
         result: asyncio.Future[T] = loop.create_future()
 

@@ -48,7 +48,7 @@ class TcpClient:
         elif self._requests:
             self._handle()
 
-    # -- in the I/O thread, or in an idle hub's ---------------------------------------------------------------------
+    # -- in the I/O thread, or in an idle scheduler's ------------------------------------------------------------
 
     def _arrived(self, frames: list[bytes]) -> None:
         self._requests.extend(frames)
@@ -60,7 +60,7 @@ class TcpClient:
     def _ended(self, _error: Exception | None) -> None:
         self._scheduler.call_soon_threadsafe(self._gone)
 
-    # -- in the hub's thread -------------------------------------------------------------------------------------
+    # -- in the scheduler's thread -------------------------------------------------------------------------------
 
     def _handle(self) -> None:
         if self._is_busy or self._is_over or self._is_stuck:

@@ -168,7 +168,7 @@ class _Arrival:
             self._answer.append(encode_header(answer))
         self._stream.close()
 
-    # -- in the hub's thread -------------------------------------------------------------------------------------
+    # -- in the scheduler's thread -------------------------------------------------------------------------------
 
     def _take_subscriber(self, header: Header, more: list[bytes]) -> None:  # noqa: ARG002 - it ought to be silent
         server, stream = self._server, self._stream

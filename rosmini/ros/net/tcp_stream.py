@@ -28,7 +28,7 @@ READS = 16
 class Stream:
     """Reads frames in the I/O thread, where it is created; data that the socket refuses at once is written there.
 
-    A ``shared`` stream is read in the hub's thread while the hub is idle: ``on_frames`` may then be called there.
+    A ``shared`` stream is read in the scheduler's thread while it is idle: ``on_frames`` may then be called there.
 
     ``source`` returns the next bytes to send, or b"" if none; it is called with :attr:`lock` held, and code that
     fills it takes the lock too. ``on_frames`` and ``on_end`` are called in the I/O thread; ``on_end`` once, with the
@@ -75,7 +75,7 @@ class Stream:
     # -- reading, in the I/O thread ------------------------------------------------------------------------------
 
     def share(self) -> None:
-        """Let an idle hub read it too; may be called from any thread while nothing reads it."""
+        """Let an idle scheduler read it too; may be called from any thread while nothing reads it."""
         self._is_shared = True
 
     def resume(self) -> None:

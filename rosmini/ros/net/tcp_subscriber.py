@@ -59,7 +59,7 @@ class TopicInlet:
             self._arrived(first)
         stream.resume()
 
-    # -- in the I/O thread, or in an idle hub's ---------------------------------------------------------------------
+    # -- in the I/O thread, or in an idle scheduler's ------------------------------------------------------------
 
     def _arrived(self, frames: list[bytes]) -> None:
         size = self._receiver.queue_size
@@ -83,7 +83,7 @@ class TopicInlet:
             self._is_due = True
             self._scheduler.call_soon(self._take)
 
-    # -- in the hub's thread -------------------------------------------------------------------------------------
+    # -- in the scheduler's thread -------------------------------------------------------------------------------
 
     def _more(self) -> None:
         """Hand over the messages held back, once callbacks have processed the rest."""

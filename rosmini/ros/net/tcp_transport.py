@@ -119,7 +119,7 @@ class TcpTransport:
         return answer
 
     def retry(self, seconds: float, function: Callable[[], object]) -> bool:
-        """Call a function in the hub's thread after some seconds of wall-clock time."""
+        """Call a function in the scheduler's thread after some seconds of wall-clock time."""
         network = self.network
         if network.io.runs:  # else the graph is ending
             later(network.io.loop, seconds, lambda: network.scheduler.call_soon_threadsafe(function))

@@ -70,7 +70,7 @@ class Watch:
         scheduler = self._graph.scheduler
         while True:
             await asyncio.sleep(PERIOD_S)
-            nodes = await self._io.on_hub(scheduler, self._nodes)
+            nodes = await self._io.submit(scheduler, self._nodes)
             if nodes:
                 await self._look(nodes)
 
@@ -92,11 +92,11 @@ class Watch:
         is_new = self._is_lost or self._pid not in (None, pid)
         self._is_lost, self._pid = False, pid
         if is_new:
-            await self._io.on_hub(scheduler, partial(self._register_again, nodes, "is back"))
+            await self._io.submit(scheduler, partial(self._register_again, nodes, "is back"))
         elif code != 1 and self._may_register(chosen):
-            await self._io.on_hub(scheduler, partial(self._register_again, [chosen], "has forgotten"))
+            await self._io.submit(scheduler, partial(self._register_again, [chosen], "has forgotten"))
         elif code == 1 and uri != chosen.uri:
-            await self._io.on_hub(scheduler, partial(self._end_replaced, chosen))
+            await self._io.submit(scheduler, partial(self._end_replaced, chosen))
 
     def _may_register(self, seen: _Seen) -> bool:
         """Return True if an unknown node is to be registered again: less and less often if that has no effect."""
@@ -107,7 +107,7 @@ class Watch:
         answer = await self._client.request(self._uri, method, (caller_id, *arguments), TIMEOUT_S)
         return checked(self._uri, method, answer)
 
-    # -- in the hub's thread -------------------------------------------------------------------------------------
+    # -- in the scheduler's thread -------------------------------------------------------------------------------
 
     def _nodes(self) -> list[_Seen]:
         """Return the running, registered nodes; for a starting one, the Master may have a killed one's address."""

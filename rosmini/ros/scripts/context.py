@@ -37,7 +37,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.core.graph.lanes import LaneExit
 from rosmini.core.graph.rosout import caller
-from rosmini.core.graph.threads import on_hub, running_scheduler
+from rosmini.core.graph.threads import call_from_thread, running_scheduler
 from rosmini.core.packages import package_around
 
 from .environment import ScriptEnviron, folders_of_the_users
@@ -207,8 +207,8 @@ class ScriptContext:
 
     @contextmanager
     def put_aside(self) -> Iterator[None]:
-        """Return the process state to the host for a while, if this script has it and the hub's thread calls."""
-        if not self._entered or not self.scheduler.is_hub_thread():
+        """Return the process state to the host for a while, if this script has it and the scheduler's thread calls."""
+        if not self._entered or not self.scheduler.is_scheduler_thread():
             yield
             return
         self.leave()
@@ -219,7 +219,7 @@ class ScriptContext:
 
     def after_import(self, name: str) -> None:
         """Handle numpy's random generator after the script has imported a package (``name``) that may use it."""
-        if self._numpy is not None or "numpy" not in sys.modules or not self.scheduler.is_hub_thread():
+        if self._numpy is not None or "numpy" not in sys.modules or not self.scheduler.is_scheduler_thread():
             return
         if name.partition(".")[0] not in sys.stdlib_module_names:
             with self.put_aside():
@@ -227,7 +227,7 @@ class ScriptContext:
 
     def get_own(self, name: str) -> Any:
         """Return the script's ``sys.argv``, ``path``, ``stdin``, ``stdout`` or ``stderr``; from any thread."""
-        if self._entered and name != "path" and self.scheduler.is_hub_thread():
+        if self._entered and name != "path" and self.scheduler.is_scheduler_thread():
             return getattr(sys, name)
         return self._own[name]
 
@@ -239,7 +239,7 @@ class ScriptContext:
 
     def module_added(self, name: str, module: ModuleType) -> None:
         """Show a module of the script in ``sys.modules`` while the script runs."""
-        if self._entered and self.scheduler.is_hub_thread():
+        if self._entered and self.scheduler.is_scheduler_thread():
             self._put_module(name, module)
 
     def module_removed(self, name: str) -> None:
@@ -288,7 +288,7 @@ class ScriptContext:
     def block(self, waiter: Waiter, timeout_ns: int | None = None) -> bool:
         """Wait for ``waiter`` in such a way that the script can be interrupted or ended meanwhile."""
         self.check()
-        if self.scheduler.is_hub_thread():
+        if self.scheduler.is_scheduler_thread():
             lane = self.scheduler.current()
             self._blocked[lane] = waiter
             try:
@@ -304,7 +304,7 @@ class ScriptContext:
 
     def outside(self, function: Callable[[], Any]) -> Any:
         """Return ``function()``, which waits for another process; the graph runs meanwhile if that can reach it."""
-        if not self.scheduler.is_hub_thread() or (self.graph.simulated and not self.graph.is_online):
+        if not self.scheduler.is_scheduler_thread() or (self.graph.simulated and not self.graph.is_online):
             return function()
         waiter = self.scheduler.waiter("another process", remote=True)
 
@@ -411,18 +411,18 @@ class ScriptContext:
     def raise_signal(self, signum: int, /) -> None:
         """Do the same as ``os.kill(os.getpid(), signum)``: call its handler at once, or end the script without one."""
         number = signal.Signals(signum)
-        self._on_hub(lambda: self.process.signal_itself(number))
+        self._run_in_scheduler(lambda: self.process.signal_itself(number))
 
     def leave_process(self, returncode: int) -> None:
         """End the script like ``os._exit``, without ending the process."""
-        self._on_hub(lambda: self.process.leave(returncode))
+        self._run_in_scheduler(lambda: self.process.leave(returncode))
 
-    def _on_hub(self, function: Callable[[], object]) -> None:
+    def _run_in_scheduler(self, function: Callable[[], object]) -> None:
         """Call a function that may end the script in the thread that drives the graph; leave the caller if it did."""
-        if self.scheduler.is_hub_thread():
+        if self.scheduler.is_scheduler_thread():
             function()
         else:
-            on_hub(self.scheduler, function)
+            call_from_thread(self.scheduler, function)
         self.check()
 
     def await_signal(self) -> None:

@@ -61,11 +61,13 @@ class SimulationView(LiveView):
     @property
     def names(self) -> tuple[str, ...]:
         """Names of everything that can be dragged."""
-        return self._on_hub(lambda: tuple(body.name for body in self.watch.bodies() if body.is_draggable))
+        return self._run_in_scheduler(
+            lambda: tuple(body.name for body in self.watch.bodies() if body.is_draggable)
+        )
 
     def pose(self, name: str) -> Pose:
         """Return the pose of a robot or an object: x [m], y [m], heading [rad]. Raises `ViewError` for another name."""
-        return self._on_hub(lambda: self.watch.pose(self.watch.body(name)))
+        return self._run_in_scheduler(lambda: self.watch.pose(self.watch.body(name)))
 
     def drag(self, name: str, to: Sequence[float]) -> None:
         """Move a robot or a box to x, y [m], with its present heading or with a third number [rad].
@@ -85,7 +87,7 @@ class SimulationView(LiveView):
             )
             self.message = f"{body.name} is at {pose_text(self.watch.pose(body))}"
 
-        self._on_hub(put)
+        self._run_in_scheduler(put)
 
     def turn(self, name: str, heading: float) -> None:
         """Turn a robot or a box to a heading [rad, counter-clockwise from x]. Raises the same errors as `drag`."""
@@ -121,7 +123,7 @@ class SimulationView(LiveView):
             self._try(action)
             self.message = said
 
-        self._on_hub(act)
+        self._run_in_scheduler(act)
 
     def _try(self, action: Callable[[], object]) -> None:
         """Run the action, and store its error as the message."""
@@ -136,8 +138,8 @@ class SimulationView(LiveView):
         if why is not None:
             raise ViewError(why)
 
-    def _on_hub(self, function: Callable[[], T]) -> T:
-        return self.watch.node.scheduler.on_hub(function)
+    def _run_in_scheduler(self, function: Callable[[], T]) -> T:
+        return self.watch.node.scheduler.run_in_scheduler(function)
 
     # -- showing -------------------------------------------------------------------------------------------------
 
@@ -150,7 +152,7 @@ class SimulationView(LiveView):
     @property
     def text(self) -> str:
         """The time, and the poses of everything that can be dragged, robots first."""
-        return self._on_hub(self._describe)
+        return self._run_in_scheduler(self._describe)
 
     def _describe(self) -> str:
         watch = self.watch
@@ -170,7 +172,7 @@ class SimulationView(LiveView):
 
     def still(self) -> Picture:
         """Return a picture of the current state."""
-        return self._on_hub(lambda: self.watch.picture(self.title))
+        return self._run_in_scheduler(lambda: self.watch.picture(self.title))
 
     @property
     def alt(self) -> str:

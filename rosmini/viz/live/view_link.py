@@ -73,7 +73,7 @@ class ViewLink(PageLink):
         self._last: tuple[Any, ...] = ()
         self._last_sent = self._last_looked = 0.0
         self._seen: list[Pose] = []
-        data = self.node.scheduler.on_hub(self._data)
+        data = self.node.scheduler.run_in_scheduler(self._data)
         super().__init__(module(SCRIPTS, "rosminiViewKernel"), data, clock)
 
     @property

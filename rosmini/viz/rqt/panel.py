@@ -143,7 +143,7 @@ class Panel(Plugin, LiveView):
                 raise ViewError(f"{self.tool} has no control {key!r:.80}; {hint}")
             return known[key]
 
-        self._try(lambda: self._set(self._on_hub(find), value))
+        self._try(lambda: self._set(self._run_in_scheduler(find), value))
 
     def _set(self, control: Control, given: object) -> None:
         value: Value = control.taken(given)
@@ -176,8 +176,8 @@ class Panel(Plugin, LiveView):
         """Close the panel. Calling it again has no effect."""
         self.node.shutdown("the panel was closed")
 
-    def _on_hub(self, function: Callable[[], T]) -> T:
-        return self.graph.scheduler.on_hub(function)
+    def _run_in_scheduler(self, function: Callable[[], T]) -> T:
+        return self.graph.scheduler.run_in_scheduler(function)
 
     # -- showing --------------------------------------------------------------------------------------------------
 
@@ -194,7 +194,7 @@ class Panel(Plugin, LiveView):
     @property
     def text(self) -> str:
         """The name of the tool, and its contents."""
-        return f"{self.tool}\n{self._on_hub(lambda: text_of(self.shown()))}".rstrip()
+        return f"{self.tool}\n{self._run_in_scheduler(lambda: text_of(self.shown()))}".rstrip()
 
     @property
     def alt(self) -> str:
@@ -204,7 +204,7 @@ class Panel(Plugin, LiveView):
 
     def markup(self, *, live: bool) -> str:
         """Return its contents as HTML."""
-        return self._on_hub(lambda: page(self.heading, self.shown(), live=live))
+        return self._run_in_scheduler(lambda: page(self.heading, self.shown(), live=live))
 
     def _images(self) -> dict[str, bytes]:
         return {}

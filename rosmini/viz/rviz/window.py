@@ -189,7 +189,7 @@ class RVizWindow(Panel):
         """Return what a page in three dimensions needs in addition to the sheet."""
         if not self.is_solid:
             return None
-        return self._on_hub(
+        return self._run_in_scheduler(
             lambda: self._solid.news(
                 self.scene, self._layers, self.tools.current, self._tool_primitives(), self._size, whole=whole
             )

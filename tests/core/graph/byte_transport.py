@@ -204,7 +204,7 @@ class ByteTransport:
                 (endpoint.slave_call(cast("str", name), *values),), methodresponse=True
             )
 
-        reply = self._ask(uri, serve, on_hub=False)
+        reply = self._ask(uri, serve, in_scheduler=False)
         return cast("Triple", xmlrpc.client.loads(reply)[0][0])
 
     def retry(self, seconds: float, function: Callable[[], object]) -> bool:
@@ -249,7 +249,7 @@ class ByteTransport:
             raise TransportInitError(msg)
         return found[1]
 
-    def _ask(self, uri: str, serve: Callable[[Node], Any], *, on_hub: bool = True) -> Any:
+    def _ask(self, uri: str, serve: Callable[[Node], Any], *, in_scheduler: bool = True) -> Any:
         """Have ``serve`` run in the node's thread, or in the hub's on its behalf; park the caller meanwhile."""
         found = self._endpoints.get(uri)
         if found is None:
@@ -271,7 +271,7 @@ class ByteTransport:
             problem.__cause__ = error
             waiter.fail(problem)
 
-        job = partial(self.scheduler.call_soon_threadsafe, work) if on_hub else work
+        job = partial(self.scheduler.call_soon_threadsafe, work) if in_scheduler else work
         wire.carry(job, failed)
         waiter.wait()
         return waiter.value

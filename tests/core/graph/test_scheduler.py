@@ -272,7 +272,7 @@ def test_a_real_thread_calls_and_waits() -> None:
     def foreign() -> None:
         scheduler.adopt_thread("camera", node="node")
         seen.append(scheduler.current().node)
-        seen.append(scheduler.on_hub(scheduler.is_hub_thread))
+        seen.append(scheduler.run_in_scheduler(scheduler.is_scheduler_thread))
         waiter = scheduler.waiter("a word")
         scheduler.call_soon_threadsafe(lambda: waiter.wake("hello"))
         waiter.wait()

@@ -264,7 +264,7 @@ def test_in_simulated_time_a_thread_leaves_the_driving_to_who_made_the_graph() -
         graph.run(1.0)
     thread.join(PATIENCE)
     assert woke
-    assert graph.scheduler.is_hub_thread()
+    assert graph.scheduler.is_scheduler_thread()
     graph.shutdown()
 
 
@@ -292,7 +292,7 @@ def test_a_look_from_another_thread_just_before_a_drive_does_not_stop_it(graph, 
 
     def look_first(when_ns, callback):  # the last moment at which the hub is free to move to another thread
         monkeypatch.undo()
-        looker = threading.Thread(target=lambda: looks.append(scheduler.on_hub(lambda: "seen")))
+        looker = threading.Thread(target=lambda: looks.append(scheduler.run_in_scheduler(lambda: "seen")))
         looker.start()
         looker.join(PATIENCE)
         return call_at(when_ns, callback)
@@ -347,13 +347,13 @@ def test_of_two_threads_that_begin_to_run_at_once_each_runs_until_its_own_condit
     assert ended == ["spin"]
 
 
-def test_a_call_from_another_thread_leaves_the_hub_where_it_was(graph: Graph) -> None:
+def test_a_call_from_another_thread_leaves_the_scheduler_in_its_thread(graph: Graph) -> None:
     node = graph.node("node")
     caller = threading.Thread(target=lambda: node.subscriber("chatter", String))
     caller.start()
     caller.join(PATIENCE)  # nobody drives: in wall time the call need not wait for that
     assert not caller.is_alive()
-    assert graph.scheduler.is_hub_thread()
+    assert graph.scheduler.is_scheduler_thread()
     assert "/chatter" in node.subscriptions
 
 
@@ -363,14 +363,14 @@ def test_in_simulated_time_a_call_from_another_thread_waits_for_whoever_drives()
     made_in: list[int] = []
 
     def call() -> None:
-        graph.scheduler.on_hub(lambda: made_in.append(threading.get_ident()))
+        graph.scheduler.run_in_scheduler(lambda: made_in.append(threading.get_ident()))
 
     caller = threading.Thread(target=call)
     caller.start()
     while caller.is_alive():
         graph.run(0.1)
     assert made_in == [threading.get_ident()]
-    assert graph.scheduler.is_hub_thread()
+    assert graph.scheduler.is_scheduler_thread()
     assert node.name in graph.nodes
     graph.shutdown()
 

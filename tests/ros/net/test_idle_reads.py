@@ -68,7 +68,7 @@ def wire() -> Iterator[Wire]:
     made.close()
 
 
-def test_a_sleeping_hub_reads_by_itself(wire: Wire) -> None:
+def test_a_sleeping_scheduler_reads_by_itself(wire: Wire) -> None:
     for number in range(1000):  # on a loaded machine many arrive before the hub sleeps
         threading.Thread(target=wire.there.send, args=(b"%d" % number,)).start()
         wire.scheduler.run(until=lambda number=number: wire.got(b"%d" % number))
@@ -77,7 +77,7 @@ def test_a_sleeping_hub_reads_by_itself(wire: Wire) -> None:
     pytest.fail("the hub's own thread read nothing")
 
 
-def test_what_comes_while_the_hub_is_busy_is_read_by_the_io_thread(wire: Wire) -> None:
+def test_what_comes_while_the_scheduler_is_busy_is_read_by_the_io_thread(wire: Wire) -> None:
     """First while nobody has ever slept there, then after a sleep, and after one that something ended."""
     for number in range(3):
         wire.there.send(b"%d" % number)
@@ -90,7 +90,7 @@ def test_what_comes_while_the_hub_is_busy_is_read_by_the_io_thread(wire: Wire) -
         wire.scheduler.run(until_ns=wire.scheduler.now_ns() + 1_000_000)
 
 
-def test_a_sleeping_hub_is_woken_for_what_others_want(wire: Wire) -> None:
+def test_a_sleeping_scheduler_is_woken_for_what_others_want(wire: Wire) -> None:
     done: list[int] = []
     for number in range(200):
         thread = threading.Thread(
@@ -101,7 +101,7 @@ def test_a_sleeping_hub_is_woken_for_what_others_want(wire: Wire) -> None:
         thread.join()
 
 
-def test_a_hub_that_has_something_to_do_already_reads_by_itself_the_next_time(
+def test_a_scheduler_that_has_something_to_do_already_reads_by_itself_the_next_time(
     wire: Wire, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The I/O thread is not given the reading back: whoever answers fast would keep it there."""
@@ -121,7 +121,7 @@ def test_a_connection_that_was_closed_is_read_to_its_end_once(wire: Wire) -> Non
     wire.idle.remove(wire.here)  # harmless when repeated
 
 
-def test_it_may_be_closed_while_the_hub_sleeps_there_and_leaves_no_descriptor() -> None:
+def test_it_may_be_closed_while_the_scheduler_sleeps_there_and_leaves_no_descriptor() -> None:
     before = len(os.listdir("/proc/self/fd"))
     wire = Wire()
     woken: list[int] = []
@@ -140,7 +140,7 @@ def test_it_may_be_closed_while_the_hub_sleeps_there_and_leaves_no_descriptor() 
     wait_until(lambda: len(os.listdir("/proc/self/fd")) == before, "the descriptors of before")
 
 
-def test_a_hub_that_stays_quiet_stops_the_beats(wire: Wire, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_scheduler_that_stays_quiet_stops_the_beats(wire: Wire, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(idle_reads, "BEAT_S", 0.001)
     wire.there.send(b"x")
     wire.scheduler.run(until=lambda: wire.got(b"x"))

@@ -197,7 +197,7 @@ class History:
 
     def called(self, who: str, uri: str, method: str, arguments: tuple[Any, ...], answer: Any) -> None:
         """Record a call of the Master's API (no ``uri``), or of the slave API at ``uri``, and its answer."""
-        if not self._scheduler.is_hub_thread():
+        if not self._scheduler.is_scheduler_thread():
             self._scheduler.call_soon_threadsafe(
                 partial(self.called, who, uri, method, arguments, answer)
             )  # the event on which the caller acts is unknown then
