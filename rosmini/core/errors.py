@@ -280,9 +280,9 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
 
 
 class Hints:
-    """`nearest` for the warnings of one file. Only the first `MOST` names get a hint, since each takes milliseconds."""
+    """`nearest` for the warnings of one file. Only the first `MAX_HINTS` names get a hint: each takes milliseconds."""
 
-    MOST = 20
+    MAX_HINTS = 20
 
     def __init__(self) -> None:
         self._count = 0
@@ -290,7 +290,7 @@ class Hints:
     def __call__(self, name: str, candidates: Iterable[str]) -> str:
         """Return the clause of `nearest`, or an empty text."""
         self._count += 1
-        return nearest(name, candidates) if self._count <= self.MOST else ""
+        return nearest(name, candidates) if self._count <= self.MAX_HINTS else ""
 
 
 def shown(value: object, limit: int = 60) -> str:

@@ -10,9 +10,9 @@ import errno
 import os
 import stat
 
-__all__ = ["LARGEST", "check", "exists", "is_file", "names_in", "path_of", "read"]
+__all__ = ["MAX_BYTES", "check", "exists", "is_file", "names_in", "path_of", "read"]
 
-LARGEST = 64_000_000
+MAX_BYTES = 64_000_000
 """Maximum size of a file that is read at once [bytes]."""
 
 KINDS = (
@@ -51,7 +51,7 @@ def path_of(address: str) -> str:
     return url2pathname(address.partition("://")[2])
 
 
-def check(path: Path, largest: int = LARGEST) -> os.stat_result:
+def check(path: Path, largest: int = MAX_BYTES) -> os.stat_result:
     """Return the `stat` of a readable file. Raises `OSError` if it is missing, not a regular file, or too large."""
     try:
         found = os.stat(path)  # noqa: PTH116 (a path of any kind)
@@ -65,7 +65,7 @@ def check(path: Path, largest: int = LARGEST) -> os.stat_result:
     return found
 
 
-def read(path: Path, largest: int = LARGEST) -> bytes:
+def read(path: Path, largest: int = MAX_BYTES) -> bytes:
     """Return the bytes of a file. Raises `OSError` as `check` does."""
     size = check(path, largest).st_size
     with open(path, "rb") as file:  # noqa: PTH123 (a path of any kind)

@@ -14,9 +14,9 @@ from rosmini.core.errors import RosminiError
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-__all__ = ["LARGEST", "ImageError", "opened", "strips"]
+__all__ = ["MAX_PIXELS", "ImageError", "opened", "strips"]
 
-LARGEST = 100_000_000
+MAX_PIXELS = 100_000_000
 """Maximum number of pixels: a map of 10,000 x 10,000 cells."""
 
 LONGEST = 65_535
@@ -45,7 +45,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
     from PIL import Image, UnidentifiedImageError
 
     try:
-        files.check(path, LARGEST * BYTES)
+        files.check(path, MAX_PIXELS * BYTES)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # our limit replaces it
             with Image.open(path, formats=FORMATS) as image:
@@ -56,7 +56,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
     except UnidentifiedImageError as error:
         raise ImageError(f"this is no image ({', '.join(FORMATS)})") from error
     except Image.DecompressionBombError as error:
-        raise ImageError(f"it has too many pixels; {LARGEST} are allowed") from error
+        raise ImageError(f"it has too many pixels; {MAX_PIXELS} are allowed") from error
     # Errors that Pillow raises for broken files.
     except (
         OSError,
@@ -76,8 +76,8 @@ def _check(image: Image) -> None:
     """Raise `ImageError` for an image that would take too much memory."""
     pixels = image.width * image.height
     text = f"it has {image.width} x {image.height} pixels in mode {image.mode}"
-    if pixels > LARGEST or max(image.size) > LONGEST:
-        raise ImageError(f"{text}; {LARGEST} are allowed, and {LONGEST} along a side")
+    if pixels > MAX_PIXELS or max(image.size) > LONGEST:
+        raise ImageError(f"{text}; {MAX_PIXELS} are allowed, and {LONGEST} along a side")
     needed = pixels * _bytes(image) + max(pixels, _decoder_memory(image))
     if needed > MEMORY:
         raise ImageError(

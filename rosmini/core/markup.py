@@ -24,15 +24,15 @@ from rosmini.core.files import read
 if TYPE_CHECKING:
     from xml.sax.xmlreader import AttributesImpl, Locator
 
-__all__ = ["DEEPEST", "FARTHEST", "HEAVIEST", "Element", "MarkupError", "parse", "parse_file"]
+__all__ = ["MAX_DEPTH", "MAX_LENGTH_M", "MAX_MASS_KG", "Element", "MarkupError", "parse", "parse_file"]
 
-FARTHEST = 1e9
+MAX_LENGTH_M = 1e9
 """Maximum of a length [m] or an angle; larger ones are mistakes and cause overflows."""
 
-HEAVIEST = 1e15
+MAX_MASS_KG = 1e15
 """Maximum of a mass [kg] or an inertia."""
 
-DEEPEST = 200
+MAX_DEPTH = 200
 """Maximum nesting depth of elements."""
 
 NO_PATH = "<text>"
@@ -191,7 +191,7 @@ def parse(
     With `late_declaration`, comments and blank lines may precede `<?xml ...?>`, as in TinyXML, which Gazebo uses.
 
     Raises `MarkupError`, or its subclass `failure`, for a text that is not XML, defines entities, or is nested
-    deeper than `DEEPEST`; `Element.error` of all elements makes errors of that class too.
+    deeper than `MAX_DEPTH`; `Element.error` of all elements makes errors of that class too.
     """
     from defusedxml.common import DefusedXmlException
     from defusedxml.sax import make_parser
@@ -256,8 +256,8 @@ class _Builder(xml.sax.handler.ContentHandler):
 
     def startElement(self, name: str, attrs: AttributesImpl) -> None:
         element = Element(name, dict(attrs.items()), "", [], self.place(), self.path, self.failure)
-        if len(self.open) >= DEEPEST:
-            raise element.error(f"elements are nested deeper than {DEEPEST}")
+        if len(self.open) >= MAX_DEPTH:
+            raise element.error(f"elements are nested deeper than {MAX_DEPTH}")
         if self.open:
             self.open[-1][0].children.append(element)
         else:

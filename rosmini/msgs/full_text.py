@@ -11,7 +11,7 @@ from .registry import Registry
 
 _SEPARATOR = re.compile(r"^={80}\n", re.MULTILINE)
 
-MOST_TYPES = 500
+MAX_TYPES = 500
 """Maximum number of nested types: each class contains the texts of all its nested types."""
 
 
@@ -23,8 +23,8 @@ class FullText:
 
     def __init__(self, name: str, text: str) -> None:
         first, *rest = _SEPARATOR.split(text)
-        if len(rest) > MOST_TYPES:
-            raise DefinitionError(f"the full text of {name} has more than {MOST_TYPES} nested types")
+        if len(rest) > MAX_TYPES:
+            raise DefinitionError(f"the full text of {name} has more than {MAX_TYPES} nested types")
         self._texts = {name: first}
         for part in rest:
             head, _, body = part.partition("\n")

@@ -63,10 +63,10 @@ class ModelError(RosminiError, ValueError):
 Drive = Literal["differential", "holonomic"]
 """Two driven wheels, or wheels for motion in any direction, as in Gazebo's planar move and Stage's "omni"."""
 
-MOST_BEAMS = 100_000
+MAX_BEAMS = 100_000
 """Maximum number of beams of a laser; a file with more is wrong, and would exhaust the memory."""
 
-MOST_PIXELS = 1 << 24
+MAX_PIXELS = 1 << 24
 """Maximum number of pixels of a camera's image: 4096 by 4096."""
 
 
@@ -96,10 +96,10 @@ class LidarModel:
 
     def __post_init__(self) -> None:
         numbers = (*self.mount, self.angle_min, self.yaw, 0.0 if self.angle_max is None else self.angle_max)
-        within = 1 <= self.beams <= MOST_BEAMS and 0 <= self.range_min <= self.range_max
+        within = 1 <= self.beams <= MAX_BEAMS and 0 <= self.range_min <= self.range_max
         if not within or not all(map(is_finite, numbers)):
             msg = (
-                f"the laser {self.name!r} is not possible: it needs 1 to {MOST_BEAMS} beams, finite angles, a mount, "
+                f"the laser {self.name!r} is not possible: it needs 1 to {MAX_BEAMS} beams, finite angles, a mount, "
                 "and range_min and range_max with 0 <= range_min <= range_max, "
                 f"not beams={self.beams}, mount={self.mount}, angle_min={self.angle_min}, "
                 f"angle_max={self.angle_max}, yaw={self.yaw}, range_min={self.range_min}, range_max={self.range_max}"
@@ -164,12 +164,12 @@ class CameraModel:
         if (
             self.width < 1
             or self.height < 1
-            or self.width * self.height > MOST_PIXELS
+            or self.width * self.height > MAX_PIXELS
             or not 0 < self.horizontal_fov < math.pi
             or not 0 < self.near < self.far
         ):
             msg = (
-                f"the camera {self.name!r} is not possible: it needs pixels, {MOST_PIXELS} at most, 0 < near < far "
+                f"the camera {self.name!r} is not possible: it needs pixels, {MAX_PIXELS} at most, 0 < near < far "
                 f"and an angle between 0 and pi, not {self.width} x {self.height} pixels, near={self.near}, "
                 f"far={self.far}, horizontal_fov={self.horizontal_fov}"
             )

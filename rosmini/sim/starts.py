@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
 """Possible keys in an entry of the parameter `~robots`."""
 
-MOST_ROBOTS = 1000
+MAX_ROBOTS = 1000
 """Maximum number of initial robots."""
 
 START_HELP = (
@@ -62,11 +62,11 @@ def read_starts(
     if given is None:
         return [Start(model.name, model, pose, "", tf_prefix)]
     where = node.resolve_parameter("~robots")
-    if isinstance(given, int) and not isinstance(given, bool) and 0 < given <= MOST_ROBOTS:
+    if isinstance(given, int) and not isinstance(given, bool) and 0 < given <= MAX_ROBOTS:
         given = [f"tb3_{i}" for i in range(given)]
-    if not isinstance(given, list) or not 0 < len(given) <= MOST_ROBOTS:
+    if not isinstance(given, list) or not 0 < len(given) <= MAX_ROBOTS:
         msg = (
-            f"parameter {where} is {shown(given)}; it must be a number of robots, up to {MOST_ROBOTS}, or a list of "
+            f"parameter {where} is {shown(given)}; it must be a number of robots, up to {MAX_ROBOTS}, or a list of "
             "their names or of what is to be known of each"
         )
         raise ParameterError(msg)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rosmini.core.verbs import Call, Span
     from rosmini.ros.introspection.topics import Found
 
-LOOK_NS = SECOND // 10
+POLL_PERIOD_NS = SECOND // 10
 """Period at which the Master is polled for a missing topic [ns]."""
 
 
@@ -25,7 +25,7 @@ def await_topic(call: Call, name: str, span: Span) -> Found | None:
         return found
     call.warn(f"WARNING: topic [{name}] does not appear to be published yet")
     call.warn(what_next(call.peers, name))
-    for _ in span.every(LOOK_NS):
+    for _ in span.every(POLL_PERIOD_NS):
         found = look_up(call.peers, name)
         if found is not None:
             return found

@@ -47,7 +47,7 @@ class Queries:
         return VerbError(f"[{self.tool.name}] Error: {text}")
 
     @contextmanager
-    def told(self, missing: str) -> Iterator[None]:
+    def original_errors(self, missing: str) -> Iterator[None]:
         """Raise errors in the form of the original tool; ``missing`` is its text for an unknown name."""
         try:
             yield
@@ -73,7 +73,7 @@ class Queries:
         """Return the answer to a query on one of them."""
         known = self.known()
         name = self.name(given, known)
-        with self.told(f"no such {self.noun} {name}"):
+        with self.original_errors(f"no such {self.noun} {name}"):
             return Lines(lines=tuple(ask(known, name)))
 
     def parser(self, verb: str, *options: str, named: str = "") -> Callable[[], ArgumentParser]:
@@ -133,7 +133,7 @@ class Queries:
     def _find(self, given: argparse.Namespace, _call: Call) -> Lines:
         known = self.known()
         name = self.name(given, known)
-        with self.told(f"{self.noun} '{name}' not found"):
+        with self.original_errors(f"{self.noun} '{name}' not found"):
             return Lines(lines=(str(known.path(name)),))
 
     def _list(self, _given: argparse.Namespace, _call: Call) -> Lines:
@@ -171,7 +171,7 @@ class Queries:
         target = given.target
 
         def ask(known: Dependencies, name: str) -> list[str]:
-            with self.told(f"{self.noun} '{target}' not found"):
+            with self.original_errors(f"{self.noun} '{target}' not found"):
                 known.path(target)
             known.path(name)
             chains = [f"* {' -> '.join(chain)} " for chain in known.chains(name, target)]
@@ -190,7 +190,7 @@ class Queries:
     def _dependents(self, given: argparse.Namespace, *, direct: bool) -> Lines:
         known = self.known()
         name = self.name(given, known)
-        with self.told(f"no such {self.noun} {name}"):
+        with self.original_errors(f"no such {self.noun} {name}"):
             known.path(name)
             found, broken = known.dependents(name, direct=direct)
         return Lines(lines=tuple(found), complaints=self._broken(known, broken))

@@ -37,7 +37,7 @@ def contents(given: argparse.Namespace, _call: Call) -> Lines:
     known = QUERIES.known()
     name = QUERIES.name(given, known)
     index = known.index
-    with QUERIES.told(f"no such stack {name}"):
+    with QUERIES.original_errors(f"no such stack {name}"):
         folder: Path = known.path(name)
         if name in index.stacks():
             return Lines(lines=tuple(each for each in index.names() if folder in index.path(each).parents))

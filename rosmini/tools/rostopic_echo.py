@@ -162,7 +162,7 @@ class _Echo:
         self._kind: str | None = None
         self._kept: list[Any] = []
         self._problem: Exception | None = None
-        self._tell: Callable[[], None] = lambda: None
+        self._on_done: Callable[[], None] = lambda: None
         self._clear = CLEAR if given.clear and call.in_terminal else ""
 
     def look_at(self, kind: str, path: str) -> None:
@@ -180,11 +180,11 @@ class _Echo:
         if self._kind is not None and path.rstrip("/").endswith("]"):
             self._kind = None if ":" not in path.rpartition("[")[2] else self._kind
 
-    def when_done(self, tell: Callable[[], None]) -> None:
-        """Call ``tell`` when no more messages are needed."""
-        self._tell = tell
+    def when_done(self, on_done: Callable[[], None]) -> None:
+        """Call ``on_done`` when no more messages are needed."""
+        self._on_done = on_done
         if self.is_done:
-            tell()
+            on_done()
 
     def result(self) -> Echoed:
         """Return the received messages. Raises ``VerbError`` if an error occurred."""
@@ -223,7 +223,7 @@ class _Echo:
     def _end(self, problem: Exception | None) -> None:
         self._problem = problem
         self.is_done = True
-        self._tell()
+        self._on_done()
 
     def _print(self, value: Any, when: Time | None) -> None:
         if not self._given.plot:

@@ -50,13 +50,17 @@ class TopicList(Result):
             return "\n".join(f"{indent}{name}" for name in names)
         lines = [""]
         if self.sides[0]:
-            lines += [f"{indent}Published topics:", *_told(found.published, "publisher", indent)]
+            lines += [f"{indent}Published topics:", *_topic_lines(found.published, "publisher", indent)]
         if self.sides[1]:
-            lines += [indent, f"{indent}Subscribed topics:", *_told(found.subscribed, "subscriber", indent)]
+            lines += [
+                indent,
+                f"{indent}Subscribed topics:",
+                *_topic_lines(found.subscribed, "subscriber", indent),
+            ]
         return "\n".join(lines[0 if self.sides[0] else 1 :]) + "\n"
 
 
-def _told(side: tuple[Topic, ...], what: str, indent: str) -> list[str]:
+def _topic_lines(side: tuple[Topic, ...], what: str, indent: str) -> list[str]:
     counted = ((each, len(each.nodes)) for each in side)
     return [
         f"{indent} * {each.name} [{each.type}] {count} {what}{'' if count == 1 else 's'}"

@@ -539,7 +539,7 @@ _FAN_CSS = (
 
 MAX_PARTICLES = 400
 """Maximum number of particles that are drawn for a step."""
-HEAVIEST = 100
+HEAVY_PARTICLES = 100
 """Number of the heaviest particles among these; the others are a sample of the rest."""
 MAX_STEPS = 200
 """Maximum number of steps."""
@@ -639,8 +639,8 @@ def _thinned(weights: Floats) -> NDArray[np.int64]:
     order = np.argsort(weights, kind="stable").astype(np.int64)
     if len(order) <= MAX_PARTICLES:
         return order
-    rest, heavy = np.sort(order[:-HEAVIEST]), order[-HEAVIEST:]
-    every = np.linspace(0, len(rest) - 1, MAX_PARTICLES - HEAVIEST).astype(np.int64)
+    rest, heavy = np.sort(order[:-HEAVY_PARTICLES]), order[-HEAVY_PARTICLES:]
+    every = np.linspace(0, len(rest) - 1, MAX_PARTICLES - HEAVY_PARTICLES).astype(np.int64)
     return np.concatenate([rest[every], heavy])
 
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import DefinitionError, RosminiError
-from rosmini.core.markup import DEEPEST, Element, MarkupError, parse, parse_file
+from rosmini.core.markup import MAX_DEPTH, Element, MarkupError, parse, parse_file
 
 TEXT = """<?xml version="1.0"?>
 <robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
@@ -113,8 +113,8 @@ def test_entities_and_other_files_are_refused(text):
 
 
 def test_depth_has_an_end():
-    deep = "<a>" * DEEPEST + "</a>" * DEEPEST
-    assert len(list(parse(deep).walk())) == DEEPEST
+    deep = "<a>" * MAX_DEPTH + "</a>" * MAX_DEPTH
+    assert len(list(parse(deep).walk())) == MAX_DEPTH
     with pytest.raises(MarkupError, match="nested deeper"):
         parse("<a>" * 100000)
 

@@ -123,9 +123,9 @@ class ClientGoalHandle:
         if state is CommState.DONE:
             client.forget(self)
         client.node.logdebug(f"goal {self.id}: {state.name}")
-        self._tell(self._transition_cb, "transitions", self)
+        self._run_callback(self._transition_cb, "transitions", self)
 
-    def _tell(self, callback: Callable[..., object] | None, what: str, *arguments: Any) -> None:
+    def _run_callback(self, callback: Callable[..., object] | None, what: str, *arguments: Any) -> None:
         if callback is not None and self._following:
             self._client.node.guarded(callback, *arguments, what=f"{what} of {self._client.ns}")
 
@@ -153,7 +153,7 @@ class ClientGoalHandle:
     def feed(self, feedback: Any) -> None:
         """Handle feedback. Called by the client."""
         if self.machine.state is not CommState.DONE:
-            self._tell(self._feedback_cb, "feedback", self, feedback)
+            self._run_callback(self._feedback_cb, "feedback", self, feedback)
 
 
 _STATUSES = frozenset(int(status) for status in Status)

@@ -154,18 +154,18 @@ class SimpleActionClient:
         state = handle.get_comm_state()
         if state in (CommState.ACTIVE, CommState.PREEMPTING) and self.simple_state is SimpleGoalState.PENDING:
             self.simple_state = SimpleGoalState.ACTIVE
-            self._tell(self._active_cb, "active_cb")
+            self._run_callback(self._active_cb, "active_cb")
         elif state is CommState.DONE:
-            self._tell(self._done_cb, "done_cb", handle.get_goal_status(), handle.get_result())
+            self._run_callback(self._done_cb, "done_cb", handle.get_goal_status(), handle.get_result())
             if self.gh is handle:  # the callback may have sent the next goal
                 self.simple_state = SimpleGoalState.DONE
                 for waiter in list(self._waiting):
                     waiter.wake()
 
     def _feed(self, _: ClientGoalHandle, feedback: Any) -> None:
-        self._tell(self._feedback_cb, "feedback_cb", feedback)
+        self._run_callback(self._feedback_cb, "feedback_cb", feedback)
 
-    def _tell(self, callback: Callable[..., object] | None, what: str, *arguments: Any) -> None:
+    def _run_callback(self, callback: Callable[..., object] | None, what: str, *arguments: Any) -> None:
         if callback is not None:
             self.node.guarded(callback, *arguments, what=f"{what} of {self.action_client.ns}")
 

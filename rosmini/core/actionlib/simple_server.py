@@ -186,7 +186,7 @@ class SimpleActionServer:
         if self.is_active():
             self._request_preemption()
         if self.goal_callback is not None:
-            self._tell(self.goal_callback, "goal callback")
+            self._run_callback(self.goal_callback, "goal callback")
         if self.execute_callback is not None:
             self._lane.submit(self._execute)
 
@@ -200,9 +200,9 @@ class SimpleActionServer:
     def _request_preemption(self) -> None:
         self.preempt_request = True
         if self.preempt_callback is not None:
-            self._tell(self.preempt_callback, "preempt callback")
+            self._run_callback(self.preempt_callback, "preempt callback")
 
-    def _tell(self, callback: Callable[[], object], what: str) -> None:
+    def _run_callback(self, callback: Callable[[], object], what: str) -> None:
         self.node.guarded(callback, what=f"{what} of {self.action_server.ns}")
 
     # -- the execute callback ------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from rosmini.core.errors import RosminiError
 BITS = 4096
 """Maximum size of an integer [bits]."""
 
-LARGEST = 1_000_000
+MAX_ELEMENTS = 1_000_000
 """Maximum total number of elements and characters in a value."""
 
 STEPS = 2_000_000
@@ -109,8 +109,8 @@ class Budget:
 
     def room(self, size: int) -> None:
         """Charge for a value of `size` elements before it is made. Raises `NotAllowed` if it would be too large."""
-        if size > LARGEST:
-            raise NotAllowed(f"a value of more than {LARGEST} elements")
+        if size > MAX_ELEMENTS:
+            raise NotAllowed(f"a value of more than {MAX_ELEMENTS} elements")
         self.spend(size)
 
     def collect(self, values: Iterable[Any]) -> list[Any]:
@@ -127,13 +127,13 @@ def check_bits(bits: int) -> None:
 
 
 def weight(value: Any) -> int:
-    """Return the total number of elements and characters in a value; slightly above `LARGEST` if it is larger.
+    """Return the total number of elements and characters in a value; slightly above `MAX_ELEMENTS` if it is larger.
 
     The digits of large integers count as characters.
     """
     total = 0
     waiting: list[Any] = [value]
-    while waiting and total <= LARGEST:
+    while waiting and total <= MAX_ELEMENTS:
         part = waiting.pop()
         if isinstance(part, (str, bytes)):
             total += len(part)

@@ -14,10 +14,10 @@ from rosmini.core.errors import nearest, shown
 from .budget import Budget, ExpressionError, NotAllowed, check_bits, cut
 from .functions import FUNCTIONS, MATH, METHODS, OPERATORS, Function, Namespace, compute, method
 
-DEEPEST = 100
+MAX_DEPTH = 100
 """Maximum nesting depth of an expression."""
 
-LONGEST = 10_000
+MAX_LENGTH = 10_000
 """Maximum length of an expression [characters]."""
 
 Fields = Callable[[Any, str], Any]
@@ -68,8 +68,8 @@ class Expression:
         methods: Mapping[type, Collection[str]] = MappingProxyType({}),
     ) -> None:
         self.text = text.strip()
-        if len(self.text) > LONGEST:
-            raise NotAllowed(f"an expression of {len(self.text)} characters; {LONGEST} are allowed")
+        if len(self.text) > MAX_LENGTH:
+            raise NotAllowed(f"an expression of {len(self.text)} characters; {MAX_LENGTH} are allowed")
         if functions is None:
             functions = {**MATH, **FUNCTIONS, "math": Namespace("math", MATH)}
         self._names, self._functions, self._fields = names, functions, fields
@@ -93,8 +93,8 @@ class Expression:
         if make is None:
             raise self._refused(node, f"{type(node).__name__} is not allowed")
         self._depth += 1
-        if self._depth > DEEPEST:
-            raise NotAllowed(f"an expression is nested deeper than {DEEPEST}")
+        if self._depth > MAX_DEPTH:
+            raise NotAllowed(f"an expression is nested deeper than {MAX_DEPTH}")
         made = make(self, node)
         self._depth -= 1
         return made if isinstance(node, ast.Constant) else self._with_spot(node, made)

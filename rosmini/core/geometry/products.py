@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
 
-MOST_SWEEPS = 50
+MAX_SWEEPS = 50
 """Maximum number of sweeps; Jacobi's method converges in fewer than ten."""
 
 
@@ -88,7 +88,7 @@ def eigen(matrix: ArrayLike) -> tuple[Floats, Floats]:
     table = np.array(matrix, dtype=np.float64)
     size = len(table)
     vectors = np.identity(size)
-    for _ in range(MOST_SWEEPS):
+    for _ in range(MAX_SWEEPS):
         if not (table - np.diag(np.diag(table))).any():
             break
         for p in range(size - 1):

@@ -101,13 +101,13 @@ class TopicHandle(ABC):
 
     def connected(self, peer: str) -> None:
         """Called when the node ``peer`` has been connected."""
-        self._tell(self._on_connect, peer)
+        self._run_callback(self._on_connect, peer)
 
     def disconnected(self, peer: str) -> None:
         """Called when the node ``peer`` has been disconnected."""
-        self._tell(self._on_disconnect, peer)
+        self._run_callback(self._on_disconnect, peer)
 
-    def _tell(self, callback: Callable[[str], object] | None, peer: str) -> None:
+    def _run_callback(self, callback: Callable[[str], object] | None, peer: str) -> None:
         if callback is not None:
             self.node.spawn(
                 f"{self.node.name} connections of {self.topic}",

@@ -87,7 +87,7 @@ class Observer:
         """Called when all callbacks have returned."""
 
 
-def _tell(observers: Iterable[Observer], frozen: Any) -> None:
+def _notify_observers(observers: Iterable[Observer], frozen: Any) -> None:
     """Pass a message to the observers before the callbacks get it; None means that the callbacks have returned."""
     for observer in observers:
         if frozen is None:
@@ -457,7 +457,7 @@ class Connection:
                     self.received += 1
                     message = take()
                     if observers:
-                        _tell(observers, message)
+                        _notify_observers(observers, message)
                     if type(message) is not own and own is not None:
                         message = recast(message, own)
                         set_header(message, header)
@@ -472,7 +472,7 @@ class Connection:
                         except Exception as error:
                             self._failed(error, callback, message)
                     if observers:
-                        _tell(observers, None)
+                        _notify_observers(observers, None)
                     if size and parks != lane.parks:  # a callback has blocked: messages may have piled up
                         parks = lane.parks
                         self._trim()

@@ -326,7 +326,7 @@ class Graph:
     def keep_pace(self, condition: Callable[[], bool]) -> None:
         """Limit simulated time to the pace of real time while ``condition()`` is true; only with :meth:`online`."""
         if self._online is not None:
-            self.scheduler.on_hub(self._online.keep_pace, condition)
+            self.scheduler.run_in_scheduler(self._online.keep_pace, condition)
 
     def offline(self) -> None:
         """Disconnect from other processes; the nodes of this one keep running. Harmless when repeated."""

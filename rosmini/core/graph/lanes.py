@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 PATIENCE_S = 2.0
 """Time after which a call that waits in another thread reports why it waits [s]."""
 
-LOOK_S = 0.05
+POLL_PERIOD_S = 0.05
 """Interval at which a waiting thread checks, in wall time, whether the driver has stopped and it must take over [s]."""
 
 
@@ -311,14 +311,14 @@ class Waiter:
                 scheduler.call_soon_threadsafe(lambda: scheduler.call_at(end_ns, self._time_out))
             complain: Callable[[], None] | None = scheduler.ask_driver(self)
             impatient = time.monotonic() + PATIENCE_S
-            look = LOOK_S
-            while not event.wait(look):
+            pause = POLL_PERIOD_S
+            while not event.wait(pause):
                 if not scheduler.simulated:
                     if end_ns is not None:
                         left = (end_ns - scheduler.now_ns()) / 1e9 / scheduler.rate
                         if left <= 0:
                             return False
-                        look = min(look, left)
+                        pause = min(pause, left)
                     if get_ident() == scheduler.thread or scheduler.acquire_scheduler(to_wait=True):
                         return True
                 if complain is not None and time.monotonic() > impatient:

@@ -111,7 +111,7 @@ class ParameterClient:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._callbacks: dict[str, list[Callable[[Any], object]]] = {}
-        self._told: dict[str, Any] = {}
+        self._reported_values: dict[str, Any] = {}
         self._lane: Lane | None = None
 
     def get(self, name: str, default: Any = UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
@@ -190,7 +190,7 @@ class ParameterClient:
         except ROSException:
             callbacks.remove(callback)
             raise
-        self._told.setdefault(key, value)
+        self._reported_values.setdefault(key, value)
         return wire_copy(value)
 
     def unwatch(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
@@ -211,7 +211,7 @@ class ParameterClient:
             self._callbacks[resolved] = kept
             return
         del self._callbacks[resolved]
-        self._told.pop(resolved, None)
+        self._reported_values.pop(resolved, None)
         self._node.master.unregister("unsubscribeParam", self._node.uri, resolved, warn=self._node.logwarn)
 
     @property
@@ -239,11 +239,13 @@ class ParameterClient:
                 continue
             now = self._value_now(name)
             callbacks = self._callbacks.get(name, [])
-            if repr(self._told.get(name, UNSET)) == repr(now):  # 1, 1.0 and True are equal, but not the same
+            if repr(self._reported_values.get(name, UNSET)) == repr(
+                now
+            ):  # 1, 1.0 and True are equal, but not the same
                 continue
-            self._told[name] = now
+            self._reported_values[name] = now
             for callback in callbacks:
-                self._tell(name, callback, wire_copy(now))
+                self._call_in_lane(name, callback, wire_copy(now))
 
     def _value_now(self, name: str) -> Any:
         code, _, value = self._node.master.insist("getParam", name, warn=self._node.logerr)
@@ -252,9 +254,9 @@ class ParameterClient:
     def _note(self) -> None:
         """Treat the values that this node has just set as reported, because the Master does not report them to it."""
         for name in list(self._callbacks):
-            self._told[name] = self._value_now(name)
+            self._reported_values[name] = self._value_now(name)
 
-    def _tell(self, name: str, callback: Callable[[Any], object], value: Any) -> None:
+    def _call_in_lane(self, name: str, callback: Callable[[Any], object], value: Any) -> None:
         self._node.spawn(
             f"{self._node.name} parameter {name}",
             partial(self._node.guarded, callback, value, what=f"parameter {name}"),

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 E = TypeVar("E", bound=BaseException)
 
-ROUNDS_PER_LOOK = 16
+ROUNDS_PER_POLL = 16
 """Number of rounds after which timers and other threads are checked while lanes only wake one another."""
 
 TICKS_PER_YIELD = 1_000
@@ -461,7 +461,7 @@ class Scheduler(EventQueue):
         ready, heap, simulated = self.ready, self._timed.heap, self.simulated
         nothing_came, interrupts = self._inbox.empty, self._interrupts
         if (
-            not self._left and (self._rounds + 1) % ROUNDS_PER_LOOK
+            not self._left and (self._rounds + 1) % ROUNDS_PER_POLL
         ):  # skip the inbox and the timers in most rounds
             self._rounds += 1
             self._left = len(ready)

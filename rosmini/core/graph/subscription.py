@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .transport import Header
 
 RETRY_S = 0.5
-LONGEST_RETRY_S = 32.0
+MAX_RETRY_S = 32.0
 """Bounds of the delay before a connection is tried again [s]; it doubles each time, as in rospy."""
 
 
@@ -138,7 +138,7 @@ class Subscription:
         attempt = self._attempts.get(uri, 0)
         attempt = min(attempt, 1) if connection.had_success else attempt
         self._attempts[uri] = attempt + 1
-        delay = min(RETRY_S * 2 ** (attempt - 1), LONGEST_RETRY_S) if attempt else 0.0
+        delay = min(RETRY_S * 2 ** (attempt - 1), MAX_RETRY_S) if attempt else 0.0
         return self.node.graph.transport.retry(uri, delay, partial(self._connect, uri))
 
     def _connect(self, uri: str) -> None:

@@ -93,7 +93,7 @@ class InterruptGuard:
     def __init__(self, wake: Callable[[], None], running: Callable[[], str]) -> None:
         self._wake = wake
         self._running = running
-        self._told: threading.Timer | None = None
+        self._report_timer: threading.Timer | None = None
         self.noted = False
         """True if an interrupt has arrived that has not been taken yet."""
         self._depth = 0
@@ -117,9 +117,9 @@ class InterruptGuard:
     def take(self) -> bool:
         """Return True if an interrupt was noted, and clear it."""
         noted, self.noted = self.noted, False
-        if self._told is not None:
-            self._told.cancel()
-            self._told = None
+        if self._report_timer is not None:
+            self._report_timer.cancel()
+            self._report_timer = None
         return noted
 
     def _handle(self, _signum: int, frame: FrameType | None) -> None:
@@ -129,11 +129,11 @@ class InterruptGuard:
         self._wake()
         place = users_place(frame)
         if place:
-            self._told = threading.Timer(PATIENCE_S, self._tell, (place,))
-            self._told.daemon = True
-            self._told.start()
+            self._report_timer = threading.Timer(PATIENCE_S, self._report, (place,))
+            self._report_timer.daemon = True
+            self._report_timer.start()
 
-    def _tell(self, place: str) -> None:
+    def _report(self, place: str) -> None:
         if self.noted:
             sys.stderr.write(
                 f"Ctrl-C: waiting for {self._running()} to come back from {place}. Press Ctrl-C again to end it at "
@@ -162,7 +162,7 @@ def users_place(frame: FrameType | None) -> str:
 
 T = TypeVar("T")
 
-LOOK_S = 0.005
+POLL_PERIOD_S = 0.005
 """Interval at which a run beside another thread's checks whether it is over [s]."""
 
 
@@ -204,16 +204,16 @@ def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], b
     """Wait for the time or the condition while another thread drives, like ``run`` in wall time."""
     waiter = Waiter(scheduler, "the end of the run")
 
-    def look() -> None:
+    def poll() -> None:
         if until is not None and until():
             waiter.wake("condition")
         elif until_ns is not None and scheduler.now_ns() >= until_ns:
             waiter.wake("time")
         elif not waiter.done:
-            soon = scheduler.now_ns() + int(LOOK_S * 1e9 * scheduler.rate)
-            scheduler.call_at(soon if until_ns is None else min(soon, until_ns), look)
+            soon = scheduler.now_ns() + int(POLL_PERIOD_S * 1e9 * scheduler.rate)
+            scheduler.call_at(soon if until_ns is None else min(soon, until_ns), poll)
 
-    scheduler.call_soon_threadsafe(look)
+    scheduler.call_soon_threadsafe(poll)
     try:
         waiter.wait()
     finally:

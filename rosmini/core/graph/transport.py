@@ -172,7 +172,7 @@ class Transports:
 
     def __init__(self, scheduler: Scheduler, makers: Sequence[Callable[[Scheduler], Transport]]) -> None:
         self._scheduler = scheduler
-        self.ways = [make(scheduler) for make in makers]
+        self.transports = [make(scheduler) for make in makers]
         self.cut: frozenset[str] = frozenset()
         """Services to which no connection can be made: an injected fault."""
         self._here: dict[str, str] = {}
@@ -181,8 +181,8 @@ class Transports:
     def attach(self, endpoint: Node) -> str:
         """Make a node reachable by every transport; return the URI of its slave API."""
         uri: str | None = None
-        for way in reversed(self.ways):
-            uri = way.attach(endpoint, uri)
+        for transport in reversed(self.transports):
+            uri = transport.attach(endpoint, uri)
         if uri is None:
             raise TransportException("a graph needs a transport")
         self._here[self.service_uri(uri)] = uri
@@ -191,28 +191,28 @@ class Transports:
     def detach(self, uri: str) -> None:
         """Make a node unreachable."""
         self._here.pop(self.service_uri(uri), None)
-        for way in self.ways:
-            way.detach(uri)
+        for transport in self.transports:
+            transport.detach(uri)
 
-    def add(self, way: Transport, here: Mapping[str, Node]) -> dict[str, str]:
+    def add(self, transport: Transport, here: Mapping[str, Node]) -> dict[str, str]:
         """Add a transport, which determines the addresses of nodes from now on.
 
         ``here`` contains the nodes of this process by their URIs; return their new URIs, and those of their services,
         by the old ones. Connections stay open.
         """
-        return self._change([*self.ways, way], here)
+        return self._change([*self.transports, transport], here)
 
-    def remove(self, way: Transport, here: Mapping[str, Node]) -> dict[str, str]:
+    def remove(self, transport: Transport, here: Mapping[str, Node]) -> dict[str, str]:
         """Remove a transport and close its connections. Returns addresses like :meth:`add`."""
-        moved = self._change([each for each in self.ways if each is not way], here)
-        way.close()
+        moved = self._change([each for each in self.transports if each is not transport], here)
+        transport.close()
         return moved
 
-    def _change(self, ways: list[Transport], here: Mapping[str, Node]) -> dict[str, str]:
+    def _change(self, transports: list[Transport], here: Mapping[str, Node]) -> dict[str, str]:
         services = {uri: self.service_uri(uri) for uri in here}
         for uri in here:
             self.detach(uri)
-        self.ways = ways
+        self.transports = transports
         moved: dict[str, str] = {}
         for uri, endpoint in here.items():
             moved[uri] = self.attach(endpoint)
@@ -221,20 +221,22 @@ class Transports:
 
     def service_uri(self, uri: str) -> str:
         """Return the URI under which the node with slave API ``uri`` serves its services."""
-        return self.ways[-1].service_uri(uri)
+        return self.transports[-1].service_uri(uri)
 
     def offers(self, caller: str) -> list[list[Any]]:
         """Return the offers of the node at ``caller`` in ``requestTopic``."""
-        return [offer for way in self.ways if (offer := way.offer(caller)) is not None]
+        return [offer for transport in self.transports if (offer := transport.offer(caller)) is not None]
 
     def topic_parameters(self, uri: str, offers: list[list[Any]]) -> list[Any] | None:
         """Return the answer of ``requestTopic`` of the node at ``uri``, by the first of our transports in the offer."""
-        answers = (way.topic_parameters(uri, offer) for way in self.ways for offer in offers)
+        answers = (
+            transport.topic_parameters(uri, offer) for transport in self.transports for offer in offers
+        )
         return next((answer for answer in answers if answer is not None), None)
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
         """Call a method of a node's slave API; may block. Raises ``TransportException`` if there is no answer."""
-        answer = self._way_to(uri).call(uri, method, *arguments)
+        answer = self._transport_for(uri).call(uri, method, *arguments)
         history = self._scheduler.history
         if history is not None:
             caller, *rest = arguments
@@ -245,9 +247,9 @@ class Transports:
         self, caller: str, parameters: list[Any], header: Header, receiver: Connection
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection by the transport that was agreed on; see ``Transport``."""
-        for way in self.ways:
-            if isinstance(parameters, list) and parameters and parameters[0] == way.protocol:
-                answer, close = way.connect_topic(caller, parameters, header, receiver)
+        for transport in self.transports:
+            if isinstance(parameters, list) and parameters and parameters[0] == transport.protocol:
+                answer, close = transport.connect_topic(caller, parameters, header, receiver)
                 history = self._scheduler.history
                 if history is not None:
                     publisher = answer.get("callerid", "")
@@ -263,9 +265,9 @@ class Transports:
             raise TransportException("the connection was cut off on purpose; `%fault clear` ends the fault")
         here = self._here.get(service_uri)
         if here is not None:
-            way = self._way_to(here)
-            return way.connect_service(caller, way.service_uri(here), header, service_class)
-        return self._way_to(service_uri).connect_service(caller, service_uri, header, service_class)
+            transport = self._transport_for(here)
+            return transport.connect_service(caller, transport.service_uri(here), header, service_class)
+        return self._transport_for(service_uri).connect_service(caller, service_uri, header, service_class)
 
     def probe_service(self, uri: str, header: Header, caller: str = "") -> Header:
         """Return the header with which a service's server answers. Raises like :meth:`connect_service`."""
@@ -275,13 +277,15 @@ class Transports:
 
     def retry(self, uri: str, seconds: float, function: Callable[[], object]) -> bool:
         """Call a function later, to connect again to the node at ``uri``; return False if it cannot have come back."""
-        return self._way_to(uri).retry(seconds, function)
+        return self._transport_for(uri).retry(seconds, function)
 
     def close(self) -> None:
         """Close all connections, because the graph has been shut down."""
-        for way in self.ways:
-            way.close()
+        for transport in self.transports:
+            transport.close()
 
-    def _way_to(self, uri: str) -> Transport:
+    def _transport_for(self, uri: str) -> Transport:
         """Return the first transport that reaches a node, or the last one, whose error explains best why none does."""
-        return next((way for way in self.ways if way.reaches(uri)), self.ways[-1])
+        return next(
+            (transport for transport in self.transports if transport.reaches(uri)), self.transports[-1]
+        )

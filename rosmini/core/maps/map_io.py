@@ -35,10 +35,10 @@ MODES: tuple[Mode, ...] = ("trinary", "scale", "raw")
 REQUIRED = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate")
 OPTIONAL = ("mode",)
 
-LARGEST_TEXT = 1_000_000
+MAX_YAML_BYTES = 1_000_000
 """Maximum size of a YAML file [bytes]."""
 
-SMALLEST, LARGEST = 1e-6, 1e9
+MIN_CELL_M, MAX_MAP_M = 1e-6, 1e9
 """Minimum size of a cell and maximum size of a map [m]; other values are mistakes and cause overflows."""
 
 
@@ -116,8 +116,8 @@ class MapFile:
         document, fields = self.document, self.fields
         occupancy = self._rows(lambda pixels: occupancy_of(pixels, fields))
         most = max(occupancy.shape)
-        if not SMALLEST <= fields.resolution <= most * fields.resolution <= LARGEST:
-            bounds = f"{SMALLEST:g} or more, and with {most} of them no more than {LARGEST:g}"
+        if not MIN_CELL_M <= fields.resolution <= most * fields.resolution <= MAX_MAP_M:
+            bounds = f"{MIN_CELL_M:g} or more, and with {most} of them no more than {MAX_MAP_M:g}"
             wanted = f"the side of a cell in metres, {bounds}"
             raise _wrong(document, "resolution", fields.resolution, wanted)
         odd = _odd_thresholds(fields) if fields.mode != "raw" else ""
@@ -220,7 +220,7 @@ def _document(path: Path) -> _Document:
     from rosmini.core.yaml_text import documents
 
     try:
-        text = files.read(path, LARGEST_TEXT).decode("utf-8-sig", errors="replace")
+        text = files.read(path, MAX_YAML_BYTES).decode("utf-8-sig", errors="replace")
     except FileNotFoundError as error:
         raise MapMissing(f"there is no map {path}: {_nearest_file(path)}".rstrip(": ")) from error
     except OSError as error:

@@ -19,14 +19,14 @@ from .executables import (
     reconfigure_modules,
 )
 from .folders import MANIFEST, Crawled, address_of, assets_dir, crawl, own_dirs, package_around, search_paths
-from .index import BUILT_IN, LONGEST, SCHEME, PackageIndex
+from .index import BUILT_IN, MAX_ADDRESS_LENGTH, SCHEME, PackageIndex
 from .manifest import Export, Package, Stack, read_package, read_stack
 
 __all__ = [
     "BUILT_IN",
     "DEVEL_MARKER",
-    "LONGEST",
     "MANIFEST",
+    "MAX_ADDRESS_LENGTH",
     "NODES_GROUP",
     "SCHEME",
     "SCRIPT_FOLDERS",

@@ -15,7 +15,7 @@ from .folders import MANIFEST, ROSBUILD_MANIFEST, crawl, search_paths
 from .manifest import Package, Stack, read_heading, read_package, read_stack
 
 SCHEME = "package://"
-LONGEST = 300
+MAX_ADDRESS_LENGTH = 300
 """Maximum length of an address in an error message [characters]."""
 
 _CPP = "that is a library for nodes in C++, which rosmini does not compile; nodes in Python need rospy"
@@ -144,7 +144,9 @@ class PackageIndex:
             raise RosminiError(f"{url!r} names no package; write package://NAME/PATH")
         target = self.path(name) / rest
         if not files.exists(target):
-            raise RosminiError(f"{url[:LONGEST]} is not there: no {target}. {_nearest_file(target)}".rstrip())
+            raise RosminiError(
+                f"{url[:MAX_ADDRESS_LENGTH]} is not there: no {target}. {_nearest_file(target)}".rstrip()
+            )
         return target
 
     def executables(self, package: str) -> list[str]:

@@ -14,7 +14,7 @@ from rosmini.core.names import ROS_RELEASE
 
 from .folders import MANIFEST, ROSBUILD_MANIFEST, STACK_MANIFEST
 
-MOST_TAGS = 2000
+MAX_TAGS = 2000
 """Maximum number of tags in a ``package.xml``: catkin_pkg compares all pairs of dependencies."""
 
 
@@ -116,8 +116,8 @@ def read_package(folder: Path) -> Package:
 
     read_heading(manifest)  # check that it is harmless XML
     data = _read(manifest)
-    if data.count(b"<") > MOST_TAGS:
-        raise DefinitionError(f"it has more than {MOST_TAGS} tags, more than any real manifest", manifest)
+    if data.count(b"<") > MAX_TAGS:
+        raise DefinitionError(f"it has more than {MAX_TAGS} tags, more than any real manifest", manifest)
     try:
         parsed = parse_package_string(data, str(manifest), warnings=[])
         with warnings.catch_warnings():  # catkin_pkg uses deprecated names of pyparsing

@@ -65,7 +65,7 @@ def radians(text: str, budget: Budget | None = None) -> float:
 
 NS = "_ns"
 """The key with which a document names its namespace."""
-LARGEST = 4_000_000
+MAX_BYTES = 4_000_000
 """Maximum size of a parameter file [bytes]."""
 
 
@@ -186,7 +186,7 @@ def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
     """Read a parameter file, for a namespace. Raises ``RosParamException``, with file and line."""
     path = Path(path)
     try:
-        text = read(path, LARGEST).decode("utf-8")
+        text = read(path, MAX_BYTES).decode("utf-8")
     except FileNotFoundError as error:
         raise RosParamException(f"file [{path}] does not exist") from error
     except OSError as error:

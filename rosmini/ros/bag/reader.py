@@ -49,7 +49,7 @@ LARGE = 64 * 1024
 """Mean message length from which messages of an uncompressed chunk are read one by one [bytes]."""
 
 
-MOST_SKIPPED = 100
+MAX_SKIPPED = 100
 """Maximum number of connection records before the message that an index entry names."""
 
 
@@ -334,7 +334,7 @@ def _counted(message: bytes, chunk: Chunk, number: int, read: dict[int, int]) ->
 def message_at(data: bytes, offset: int, chunk: Chunk) -> bytes:
     """Return the message whose record is at ``offset`` of a chunk's data, skipping connection records before it."""
     try:
-        for _ in range(MOST_SKIPPED):
+        for _ in range(MAX_SKIPPED):
             begin = offset + 4
             end = begin + u32.unpack_from(data, offset)[0]
             length = u32.unpack_from(data, end)[0]

@@ -403,7 +403,7 @@ class Recorder:
             try:
                 self._files.close()
             except (BagFull, OSError) as error:
-                self._told(error)
+                self._record_error(error)
         for subscriber in self._subscribers.values():
             subscriber.unregister()
 
@@ -412,10 +412,10 @@ class Recorder:
             while self._queue:
                 self._write(*self._queue.popleft())
         except (BagFull, OSError) as error:
-            self._told(error)
+            self._record_error(error)
             self._queue.clear()
 
-    def _told(self, error: BagFull | OSError) -> None:
+    def _record_error(self, error: BagFull | OSError) -> None:
         """Store and log why the end of the recording is missing, unless an error was logged already."""
         if self.error is None:
             self.error = error

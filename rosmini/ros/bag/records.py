@@ -37,15 +37,15 @@ OP_MESSAGE, OP_BAG_HEADER, OP_INDEX, OP_CHUNK, OP_CHUNK_INFO, OP_CONNECTION = 2,
 MESSAGE_MARK = b"\x04\x00\x00\x00op=\x02"
 """The field that distinguishes a message's header from a connection's."""
 
-LONGEST_HEADER = 16 * 1024 * 1024
+MAX_HEADER_BYTES = 16 * 1024 * 1024
 """Maximum length of a record header [bytes]; a greater length means damage."""
-LONGEST_CHUNK = 2**27
+MAX_CHUNK_BYTES = 2**27
 """Maximum length of a decompressed chunk [bytes]; a file of a few kilobytes may claim any length."""
 TRUSTED_CHUNK = 2**24
 """Length from which a chunk may be at most `RATIO` times as long as its compressed form [bytes]."""
 RATIO = 2000
 """Ratio of a chunk's length to its compressed length that no chunk of useful data exceeds."""
-MOST_TRUSTED = 2**26
+MAX_TRUSTED_BYTES = 2**26
 """Maximum total that all chunks of a file may hold beyond `RATIO` times their compressed lengths [bytes]."""
 FAR = 2**32
 """Position from which the end of the file is checked first [bytes]; systems refuse to seek too far past it."""
@@ -167,7 +167,7 @@ def read_record(file: BinaryIO, position: int) -> Record | None:
     if len(start) < 4:
         raise Truncated(f"the file ends within {where}: it is truncated")
     length = u32.unpack(start)[0]
-    if length > LONGEST_HEADER:
+    if length > MAX_HEADER_BYTES:
         raise ROSBagFormatException(
             f"{where}: a header of {length} bytes: the file is damaged or not a bag (or encrypted)"
         )
@@ -233,7 +233,7 @@ def _decompressor(compression: str) -> Any:
 
 def most_unpacked(packed: int) -> int:
     """Return the maximum decompressed size of a chunk of ``packed`` bytes."""
-    return min(LONGEST_CHUNK, max(TRUSTED_CHUNK, RATIO * packed))
+    return min(MAX_CHUNK_BYTES, max(TRUSTED_CHUNK, RATIO * packed))
 
 
 def _unpack(data: bytes, compression: str, most: int, saved: io.BytesIO) -> None:
@@ -264,15 +264,15 @@ class Allowance:
     """Counts what the chunks of one file hold beyond `RATIO`: many small chunks may claim as much as a large one."""
 
     def __init__(self) -> None:
-        self._left = MOST_TRUSTED
+        self._left = MAX_TRUSTED_BYTES
 
     def charge(self, size: int, packed: int) -> None:
-        """Count a chunk before it is decompressed. Raises ``ROSBagFormatException`` beyond `MOST_TRUSTED`."""
+        """Count a chunk before it is decompressed. Raises ``ROSBagFormatException`` beyond `MAX_TRUSTED_BYTES`."""
         self._left -= max(0, min(size, most_unpacked(packed)) - RATIO * packed)
         if self._left < 0:
             raise ROSBagFormatException(
-                f"its chunks claim to hold {MOST_TRUSTED:,} bytes more than {RATIO} times their compressed lengths: "
-                "the file is damaged, or made to harm"
+                f"its chunks claim to hold {MAX_TRUSTED_BYTES:,} bytes more than {RATIO} times their compressed "
+                "lengths: the file is damaged, or made to harm"
             )
 
 

@@ -43,7 +43,7 @@ _CHUNK_MARK = b"\x04\x00\x00\x00op=" + bytes([OP_CHUNK])
 _BEFORE_MARK = (4, *{8 + len(f"compression={name}") for name in COMPRESSIONS})
 """Number of bytes of a chunk's header before the mark: its length, or the compression too."""
 
-MOST_RESCUED = 64 * 1024 * 1024
+MAX_RESCUED_BYTES = 64 * 1024 * 1024
 """Maximum data of truncated chunks kept in memory [bytes]; an aborted recording has one chunk of about a megabyte."""
 
 
@@ -60,7 +60,7 @@ class Scan:
     problems: list[str] = field(default_factory=list)
     end: int = 0
     """End of the last whole chunk and its index data."""
-    room: int = MOST_RESCUED
+    room: int = MAX_RESCUED_BYTES
     """Number of bytes of truncated chunks that may still be kept."""
     allowance: Allowance = field(default_factory=Allowance)
     bare: Chunk | None = None

@@ -29,10 +29,10 @@ from rosmini.core.expressions import (
 
 from .cfg_generator import Generator
 
-LARGEST = 1_000_000
+MAX_BYTES = 1_000_000
 """Maximum size of a ``.cfg`` file [bytes]."""
 
-MOST_STATEMENTS = 10_000
+MAX_STATEMENTS = 10_000
 
 UNDERSTOOD = (
     "a .cfg file is read and not run: what is understood is imports of dynamic_reconfigure and math, assignments, "
@@ -68,7 +68,7 @@ class CfgFile:
 def read_cfg(path: Path) -> CfgFile:
     """Read a ``.cfg`` file. Raises `DefinitionError`, with the line, for anything wrong or unsupported."""
     try:
-        data = files.read(path, LARGEST)
+        data = files.read(path, MAX_BYTES)
         with warnings.catch_warnings():  # invalid escapes such as "\d"
             warnings.simplefilter("ignore")
             statements = ast.parse(data, str(path)).body
@@ -78,8 +78,8 @@ def read_cfg(path: Path) -> CfgFile:
         line = error.lineno if isinstance(error, SyntaxError) else None
         why = error.msg if isinstance(error, SyntaxError) else str(error) or "it is nested too deep"
         raise DefinitionError(f"this is not Python 3: {why}", path, line) from error
-    if len(statements) > MOST_STATEMENTS:
-        raise DefinitionError(f"more than {MOST_STATEMENTS} statements", path)
+    if len(statements) > MAX_STATEMENTS:
+        raise DefinitionError(f"more than {MAX_STATEMENTS} statements", path)
     reader = _Reader(path)
     for statement in statements:
         try:

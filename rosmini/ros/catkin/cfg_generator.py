@@ -17,10 +17,10 @@ from rosmini.core.expressions import Budget, Function, Namespace
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-MOST = 2000
+MAX_ITEMS = 2000
 """Maximum number of parameters, groups and constants in a file."""
 
-DEEPEST = 20
+MAX_DEPTH = 20
 """Maximum nesting depth of groups."""
 
 _NAME = re.compile(r"[a-zA-Z][a-zA-Z0-9_]*\Z")
@@ -73,8 +73,8 @@ class Generator:
             )
 
         def add_group(name: str, type: str = "", state: bool = True) -> Namespace:
-            if depth == DEEPEST:
-                raise ValueError(f"groups are nested deeper than {DEEPEST}")
+            if depth == MAX_DEPTH:
+                raise ValueError(f"groups are nested deeper than {MAX_DEPTH}")
             _texts("a group", name=name, type=type)
             inner = self._group(name.replace(" ", "_"), type, state=bool(state), parent=tree["id"])
             tree["groups"].append(inner)
@@ -171,8 +171,8 @@ class Generator:
                 f"the {what} {name} is there already, in line {first}: give each a name of its own"
             )
         self._seen[what, name] = self.line
-        if len(self._seen) > MOST:
-            raise ValueError(f"more than {MOST} parameters, groups and constants")
+        if len(self._seen) > MAX_ITEMS:
+            raise ValueError(f"more than {MAX_ITEMS} parameters, groups and constants")
 
     def _place(self) -> dict[str, Any]:
         return {"srcline": self.line, "srcfile": self.file}

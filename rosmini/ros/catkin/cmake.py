@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 from rosmini.core.errors import DefinitionError, shown
 
-LARGEST = 1_000_000
+MAX_FILE_LENGTH = 1_000_000
 """Maximum number of characters in a file; the largest public ones have a hundredth of it."""
 
-LONGEST = 1_000_000
+MAX_VALUES_LENGTH = 1_000_000
 """Maximum number of characters in all values together: a variable can double its length with each command."""
 
 BLOCKS = {
@@ -131,8 +131,10 @@ class Variables:
 
     def _spend(self, length: int, line: int) -> None:
         self._length += length
-        if self._length > LONGEST:
-            raise CMakeError(f"the variables have more than {LONGEST} characters together", self.path, line)
+        if self._length > MAX_VALUES_LENGTH:
+            raise CMakeError(
+                f"the variables have more than {MAX_VALUES_LENGTH} characters together", self.path, line
+            )
 
 
 def parse(text: str, path: str | Path = "CMakeLists.txt") -> Iterator[Command]:
@@ -140,8 +142,8 @@ def parse(text: str, path: str | Path = "CMakeLists.txt") -> Iterator[Command]:
 
     Raises `CMakeError` with the invalid line.
     """
-    if len(text) > LARGEST:
-        raise CMakeError(f"this has more than {LARGEST} characters: no CMakeLists.txt has", path, 1)
+    if len(text) > MAX_FILE_LENGTH:
+        raise CMakeError(f"this has more than {MAX_FILE_LENGTH} characters: no CMakeLists.txt has", path, 1)
     blocks: list[Command] = []
     for command in _commands(text, path):
         opening = blocks[-1] if blocks else None

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rosmini.core import files
 
-from .cmake import LARGEST, CMakeError, Command, Variables, Word, parse
+from .cmake import MAX_FILE_LENGTH, CMakeError, Command, Variables, Word, parse
 from .findings import Finding, warning
 
 CMAKE = "CMakeLists.txt"
@@ -91,7 +91,7 @@ def read_project(folder: Path) -> Project:
     """Return the project in a folder. Raises `CMakeError` with the invalid line."""
     path = folder / CMAKE
     try:
-        data = files.read(path, LARGEST)
+        data = files.read(path, MAX_FILE_LENGTH)
         text = data.decode("utf-8")
     except OSError as error:
         raise CMakeError(f"cannot be read: {error.strerror}", path) from error

@@ -9,7 +9,7 @@ from rosmini.core import files
 
 from .findings import Finding, warning
 
-LARGEST = 1_000_000
+MAX_BYTES = 1_000_000
 """Maximum size of a ``setup.py`` [bytes]."""
 
 RELAY = """
@@ -34,7 +34,7 @@ def python_packages(folder: Path) -> tuple[dict[str, Path], list[Finding]]:
             Finding("catkin_python_setup() needs a setup.py, and there is none", folder / "CMakeLists.txt")
         ]
     try:
-        tree = ast.parse(files.read(path, LARGEST), str(path))
+        tree = ast.parse(files.read(path, MAX_BYTES), str(path))
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError) as error:
         line = error.lineno if isinstance(error, SyntaxError) else None
         return {}, [Finding(f"cannot be read: {error}", path, line)]

@@ -16,7 +16,7 @@ from .findings import Finding, warning
 from .project import Project
 
 FOLDERS = ("scripts", "nodes")
-LARGEST = 4_000_000
+MAX_BYTES = 4_000_000
 """Maximum size of a script [bytes]."""
 
 WRAPPER = """#!/usr/bin/env python3
@@ -53,7 +53,7 @@ def check_scripts(project: Project) -> Iterator[Finding]:
 def check_script(path: Path) -> Iterator[Finding]:
     """Yield the reasons why a script cannot run."""
     try:
-        data = files.read(path, LARGEST)
+        data = files.read(path, MAX_BYTES)
     except OSError as error:
         yield Finding(f"cannot be read: {error.strerror}", path)
         return

@@ -14,8 +14,8 @@ InteractiveMarkerUpdate = message_class("visualization_msgs/InteractiveMarkerUpd
 
 SILENT = 2.0
 """Time without updates after which a server may be dead [s]."""
-MOST_WAITING = 100
-MOST_SERVERS = 100
+MAX_WAITING = 100
+MAX_SERVERS = 100
 
 
 @dataclass
@@ -76,7 +76,7 @@ class InteractiveMarkerClient:
         state.heard_ns = now_ns
         is_change = message.type == InteractiveMarkerUpdate.UPDATE
         if state.seq_num is None:
-            if is_change and len(state.waiting) < MOST_WAITING:
+            if is_change and len(state.waiting) < MAX_WAITING:
                 state.waiting[message.seq_num] = message
             return set()
         expected = state.seq_num + is_change
@@ -108,6 +108,6 @@ class InteractiveMarkerClient:
         return changed
 
     def _state(self, server_id: str) -> ServerState | None:
-        if server_id not in self.servers and len(self.servers) >= MOST_SERVERS:
+        if server_id not in self.servers and len(self.servers) >= MAX_SERVERS:
             return None
         return self.servers.setdefault(server_id, ServerState())

@@ -30,7 +30,7 @@ MASTER_S = 10.0
 NODE_S = 3.0
 """Timeout for an answer of a node [s], the same as in ``rosnode ping``."""
 
-LONGEST = 64 * 1024 * 1024
+MAX_BYTES = 64 * 1024 * 1024
 """Maximum size of an answer [bytes]."""
 
 _PIECE = 65536
@@ -82,8 +82,8 @@ class _Transport(xmlrpc.client.Transport):
         size = 0
         while data := response.read(_PIECE):
             size += len(data)
-            if size > LONGEST:
-                raise RefusedXml(f"the answer has more than {LONGEST:,} bytes")
+            if size > MAX_BYTES:
+                raise RefusedXml(f"the answer has more than {MAX_BYTES:,} bytes")
             parser.feed(data)
         parser.close()
         return target.close()

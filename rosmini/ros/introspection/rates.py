@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-LARGEST_WINDOW = 50_000
+MAX_WINDOW = 50_000
 """Number of messages in a window without a limit."""
 
 
@@ -32,10 +32,10 @@ class Samples:
     """The last of some durations [ns]; ``window`` is the maximum number of messages (negative: very many)."""
 
     def __init__(self, window: int) -> None:
-        size = LARGEST_WINDOW if window < 0 else window
+        size = MAX_WINDOW if window < 0 else window
         self.values: deque[int] = deque(maxlen=max(size - 1, 0))
         self._last: int | None = None
-        self._told: int | None = None
+        self._last_reported: int | None = None
 
     def tick(self, now_ns: int) -> int | None:
         """Record a message's arrival; return the time since the last one, None for the first and if time jumps back.
@@ -50,9 +50,9 @@ class Samples:
 
     def statistics(self) -> Statistics | None:
         """Return the statistics; None if no message came since the last call."""
-        if not self.values or self._last == self._told:
+        if not self.values or self._last == self._last_reported:
             return None
-        self._told = self._last
+        self._last_reported = self._last
         values = self.values
         count = len(values)
         mean = sum(values) / count

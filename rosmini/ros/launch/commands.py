@@ -18,7 +18,7 @@ from rosmini.core.graph.show import find_extension
 if TYPE_CHECKING:
     from rosmini.core.packages import PackageIndex
 
-LARGEST = 16_000_000
+MAX_BYTES = 16_000_000
 """Maximum number of bytes that ``cat`` reads."""
 
 PYTHONS = ("python", "python3", "python2")
@@ -63,7 +63,7 @@ def _xacro(words: Sequence[str], packages: PackageIndex) -> str:
 
 
 def _cat(words: Sequence[str], packages: PackageIndex) -> str:  # noqa: ARG001 - alike
-    return "".join(read(Path(word), LARGEST).decode("utf-8") for word in words if word != "-")
+    return "".join(read(Path(word), MAX_BYTES).decode("utf-8") for word in words if word != "-")
 
 
 def _echo(words: Sequence[str], packages: PackageIndex) -> str:  # noqa: ARG001 - alike

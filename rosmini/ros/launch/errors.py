@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rosmini.core.markup import MarkupError
 
-MOST_SHOWN = 50
+MAX_SHOWN = 50
 """Maximum number of missing things that an error lists."""
 
 
@@ -61,9 +61,9 @@ def not_there(missing: Sequence[Missing]) -> LaunchError:
     lines = [f"{len(missing)} things are missing:"]
     for kind, found in kinds.items():
         lines.append(f"  {kind}s:" if len(found) > 1 else f"  {kind}:")
-        lines += [f"    {each.name}  ({each.place})" for each in found[:MOST_SHOWN]]
-        if len(found) > MOST_SHOWN:
-            lines.append(f"    and {len(found) - MOST_SHOWN} more")
+        lines += [f"    {each.name}  ({each.place})" for each in found[:MAX_SHOWN]]
+        if len(found) > MAX_SHOWN:
+            lines.append(f"    and {len(found) - MAX_SHOWN} more")
     hints = dict.fromkeys(
         line for each in missing for line in str(each).splitlines() if "did you mean" in line
     )

@@ -23,22 +23,22 @@ if TYPE_CHECKING:
 
 CONDITIONS = ("if", "unless")
 
-MOST_SETTINGS = 100_000
+MAX_SETTINGS = 100_000
 """Maximum number of parameters set."""
 
-MOST_OVERRODE = 20
+MAX_OVERRIDDEN = 20
 """Maximum number of overridden settings that a parameter remembers: the last ones."""
 
-MOST_WARNINGS = 100
+MAX_WARNINGS = 100
 """Maximum number of warnings listed; the others are counted."""
 
-MOST_MISSING = 200
+MAX_MISSING = 200
 """Number of missing things at which reading stops."""
 
-MOST_COPIES = 200_000
+MAX_COPIES = 200_000
 """Maximum number of remappings and environment variables of all nodes together."""
 
-LONGEST_NAME = 4096
+MAX_NAME_LENGTH = 4096
 """Maximum number of characters in a parameter name."""
 
 
@@ -56,7 +56,7 @@ class Loading:
         self._settings = 0
         self._more_warnings = 0
         self._copies = 0
-        self._told: set[tuple[str, str]] = set()
+        self._warned: set[tuple[str, str]] = set()
         self._substitution = Substitution(packages, environ, anonymous, self.lacks)
         self.is_incomplete = self._substitution.is_incomplete
 
@@ -143,7 +143,7 @@ class Loading:
 
     def _may_warn(self) -> bool:
         """Return True if another warning may be listed; otherwise count it."""
-        listed = len(self.plan.warnings) < MOST_WARNINGS
+        listed = len(self.plan.warnings) < MAX_WARNINGS
         self._more_warnings += not listed
         return listed
 
@@ -154,15 +154,15 @@ class Loading:
 
     def lacks(self, missing: Missing) -> None:
         """Record a missing thing, once."""
-        if (missing.kind, missing.name) not in self._told:
-            self._told.add((missing.kind, missing.name))
+        if (missing.kind, missing.name) not in self._warned:
+            self._warned.add((missing.kind, missing.name))
             self.plan.missing.append(missing)
-            if len(self.plan.missing) > MOST_MISSING:
+            if len(self.plan.missing) > MAX_MISSING:
                 raise not_there(self.plan.missing)
 
     def lacks_file(self, element: Element, kind: str, path: str, reason: str) -> None:
         """Record an unreadable file, unless something in its name is missing already."""
-        if not self.is_incomplete(path) and ("file", path) not in self._told:
+        if not self.is_incomplete(path) and ("file", path) not in self._warned:
             folder, name = os.path.split(path)
             hint = nearest(name, _names_in(folder))
             message = f"the {kind} [{path}] cannot be read: {reason}{f'; {hint}' if hint else ''}"
@@ -171,13 +171,17 @@ class Loading:
     def set(self, name: str, value: Any, place: Place, origin: str = "") -> None:
         """Set a parameter; the last setting wins. Raises ``ParameterError`` for a value that cannot be stored."""
         self._settings += 1
-        if self._settings > MOST_SETTINGS:
-            raise ParameterError(f"more than {MOST_SETTINGS} parameters are set")
+        if self._settings > MAX_SETTINGS:
+            raise ParameterError(f"more than {MAX_SETTINGS} parameters are set")
         settings = self.plan.settings
         before = settings.get(name)
-        overrode = () if before is None else (*before.overrode, replace(before, overrode=()))[-MOST_OVERRODE:]
-        if len(name) > LONGEST_NAME:
-            raise ParameterError(f"a parameter's name of {len(name)} characters; {LONGEST_NAME} are allowed")
+        overrode = (
+            () if before is None else (*before.overrode, replace(before, overrode=()))[-MAX_OVERRIDDEN:]
+        )
+        if len(name) > MAX_NAME_LENGTH:
+            raise ParameterError(
+                f"a parameter's name of {len(name)} characters; {MAX_NAME_LENGTH} are allowed"
+            )
         setting = Setting(name, checked(name, value), place, origin, overrode)
         above = namespace(name).rstrip("/")
         while above:
@@ -192,9 +196,9 @@ class Loading:
     def count_copies(self, element: Element, count: int) -> None:
         """Count the copies that a node gets from its scope. Raises ``LaunchError`` if all nodes have too many."""
         self._copies += count
-        if self._copies > MOST_COPIES:
+        if self._copies > MAX_COPIES:
             raise element.error(
-                f"more than {MOST_COPIES} remappings and environment variables, those of all nodes together"
+                f"more than {MAX_COPIES} remappings and environment variables, those of all nodes together"
             )
 
     def machine_needed(self, element: Element, name: str) -> None:

@@ -36,7 +36,7 @@ NODE = (
 )
 TEST = (*NODE, "test-name", "time-limit", "retry")
 MACHINE = ("name", "address", "env-loader", "ssh-port", "user", "password", "default", "timeout")
-MOST_RETRIES = 100
+MAX_RETRIES = 100
 OLD_MACHINE = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname")
 
 
@@ -111,7 +111,7 @@ def _test_options(loading: Loading, element: Element, scope: Scope) -> dict[str,
     return {
         "test_name": loading.required(element, scope, "test-name"),
         "time_limit": positive(element, "time-limit", limit, TIME_LIMIT_S),
-        "retry": min(int(retry.lstrip("0")[:9] or "0"), MOST_RETRIES),
+        "retry": min(int(retry.lstrip("0")[:9] or "0"), MAX_RETRIES),
     }
 
 

@@ -42,11 +42,11 @@ class Guard:
 
     def started(self, pid: int) -> None:
         """Record a process that was started and leads a process group."""
-        self._tell(f"+{pid}\n")
+        self._write(f"+{pid}\n")
 
     def ended(self, pid: int) -> None:
         """Record that a process has ended."""
-        self._tell(f"-{pid}\n")
+        self._write(f"-{pid}\n")
 
     def close(self) -> None:
         """End the remaining processes and the guard."""
@@ -55,7 +55,7 @@ class Guard:
                 self._process.stdin.close()
             self._process.wait()
 
-    def _tell(self, line: str) -> None:
+    def _write(self, line: str) -> None:
         if self._process is not None:
             with suppress(OSError):  # it was killed
                 self._process.stdin.write(line)

@@ -22,13 +22,13 @@ from .values import flag
 if TYPE_CHECKING:
     from rosmini.core.markup import Element
 
-DEEPEST = 60
+MAX_DEPTH = 60
 """Maximum depth of includes."""
 
-MOST_FILES = 2000
+MAX_FILES = 2000
 """Maximum number of files read for one launch."""
 
-MOST_NODES = 10_000
+MAX_NODES = 10_000
 """Maximum number of nodes in a launch."""
 
 TEXT = "<text>"
@@ -134,8 +134,8 @@ class Reader(Loading):
 
     def _root(self, path: str, text: str | None) -> Element:
         self._read += 1
-        if self._read > MOST_FILES:
-            raise LaunchError(f"more than {MOST_FILES} files are included", path)
+        if self._read > MAX_FILES:
+            raise LaunchError(f"more than {MAX_FILES} files are included", path)
         element = parse_file(path, LaunchError) if text is None else parse(text, path, LaunchError)
         if element.tag != "launch":
             hint = nearest(element.tag, ["launch"])
@@ -265,8 +265,8 @@ class Reader(Loading):
             if os.path.realpath(one.path) == real and one.args == file.args:
                 names = " -> ".join(os.path.basename(each.path) for each in [*self._open, file])  # noqa: PTH119
                 raise element.error(f"files include one another without end: {names}")
-        if len(self._open) >= DEEPEST:
-            raise element.error(f"files include one another more than {DEEPEST} deep: {file.path}")
+        if len(self._open) >= MAX_DEPTH:
+            raise element.error(f"files include one another more than {MAX_DEPTH} deep: {file.path}")
 
     def node(self, element: Element, scope: Scope) -> None:
         """Add a node or a test."""
@@ -277,8 +277,8 @@ class Reader(Loading):
         self._refuse_second(element, made)
         self.plan.nodes.append(made)
         self.at.nodes.append(made)
-        if len(self.plan.nodes) > MOST_NODES:
-            raise element.error(f"more than {MOST_NODES} nodes")
+        if len(self.plan.nodes) > MAX_NODES:
+            raise element.error(f"more than {MAX_NODES} nodes")
 
     def _refuse_second(self, element: Element, made: NodePlan) -> None:
         first = self._names.setdefault(made.full_name, made.place)

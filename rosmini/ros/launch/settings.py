@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .loading import Loading
     from .scope import Scope
 
-LARGEST = 16_000_000
+MAX_BYTES = 16_000_000
 """Maximum size of a file whose text becomes a parameter [bytes]."""
 
 VALUES = ("value", "textfile", "binfile", "command")
@@ -72,9 +72,9 @@ def _value(loading: Loading, element: Element, how: str, text: str, kind: str) -
         return convert(text.strip(), kind), ""
     try:
         if how == "textfile":
-            return convert(read(text, LARGEST).decode("utf-8"), kind), text
+            return convert(read(text, MAX_BYTES).decode("utf-8"), kind), text
         if how == "binfile":
-            return read(text, LARGEST), text
+            return read(text, MAX_BYTES), text
         if loading.is_incomplete(text):
             return _NOTHING, ""
         return convert(output_of(text, loading.packages), kind), text
@@ -124,7 +124,7 @@ def _load(
     text, origin = element.written, ""
     if file is not None:
         try:
-            text, origin = read(file, LARGEST).decode("utf-8"), file
+            text, origin = read(file, MAX_BYTES).decode("utf-8"), file
         except OSError as error:
             loading.lacks_file(element, "rosparam file", file, error.strerror or str(error))
             return

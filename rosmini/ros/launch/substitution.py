@@ -38,13 +38,13 @@ COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
 STAND_IN = "missing_"
 """Prefix of placeholders for missing things; reading continues with them, to find everything that is missing."""
 
-MOST_HINTS = 20
+MAX_HINTS = 20
 """Number of missing things for which similar names are searched."""
 
-LONGEST = 1_000_000
+MAX_LENGTH = 1_000_000
 """Maximum number of characters in a text after replacement."""
 
-MOST = 25_000_000
+MAX_TOTAL_LENGTH = 25_000_000
 """Maximum number of characters in all texts of a launch in which something is replaced."""
 
 SHOWN = 300
@@ -127,18 +127,22 @@ class Substitution:
             nonlocal size
             made = new(found)
             size += len(made)
-            if size > LONGEST:
-                raise element.error(f"a text of more than {LONGEST} characters: see what is replaced in it")
+            if size > MAX_LENGTH:
+                raise element.error(
+                    f"a text of more than {MAX_LENGTH} characters: see what is replaced in it"
+                )
             return made
 
         return what.sub(counted, text)
 
     def _counted(self, text: str, element: Element) -> str:
         self._made += len(text)
-        if len(text) > LONGEST:
-            raise element.error(f"a text of {len(text)} characters; {LONGEST} are allowed")
-        if self._made > MOST:
-            raise element.error(f"all texts with something replaced have more than {MOST} characters")
+        if len(text) > MAX_LENGTH:
+            raise element.error(f"a text of {len(text)} characters; {MAX_LENGTH} are allowed")
+        if self._made > MAX_TOTAL_LENGTH:
+            raise element.error(
+                f"all texts with something replaced have more than {MAX_TOTAL_LENGTH} characters"
+            )
         return text
 
     def _check(self, inside: str, text: str, element: Element) -> None:
@@ -240,7 +244,7 @@ class Substitution:
         """Return a hint with similar names, for the first missing things only."""
         return (
             ""
-            if len(self._stand_ins) >= MOST_HINTS or _word(name) in self._stand_ins
+            if len(self._stand_ins) >= MAX_HINTS or _word(name) in self._stand_ins
             else nearest(name, known)
         )
 

@@ -38,7 +38,7 @@ class Advertised:
             return
         self._seen.add((name, host))
         if is_loopback(host):
-            self._tell(caller, name, uri, f"on every machine {host} is that machine itself")
+            self._warn_unreachable(caller, name, uri, f"on every machine {host} is that machine itself")
         elif not is_literal(host):
             task = asyncio.get_running_loop().create_task(self._resolve(caller, name, uri, host))
             self._tasks.add(task)
@@ -48,9 +48,9 @@ class Advertised:
         try:
             await resolve(host, 0)
         except Unreached:
-            self._tell(caller, name, uri, f"the name {host} does not resolve here")
+            self._warn_unreachable(caller, name, uri, f"the name {host} does not resolve here")
 
-    def _tell(self, caller: str, name: str, uri: str, why: str) -> None:
+    def _warn_unreachable(self, caller: str, name: str, uri: str, why: str) -> None:
         self._warn(
             f"{name}, on the machine at {caller}, advertises {uri}, but {why}: other machines list its topics and get "
             f"no message. There, set ROS_IP={caller} and start {name} again."

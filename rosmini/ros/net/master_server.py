@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 MULTICALL = "system.multicall"
 """Method that makes several calls at once; roslaunch uses it to set its parameters."""
 
-MOST_CALLS = 10_000
+MAX_CALLS = 10_000
 """Maximum number of calls in one ``system.multicall``; with more, none is made."""
 
-MOST_BYTES = 16 * 1024 * 1024
+MAX_BYTES = 16 * 1024 * 1024
 """Maximum total size of the answers of one ``system.multicall`` [bytes]; it ends at the call that exceeds it."""
 
 
@@ -39,8 +39,8 @@ class AddressInUse(RosminiError):
 class MasterServer:
     """Serves the Master API at a port of this machine, in the I/O thread: a busy graph does not delay answers.
 
-    Other clients are served between the calls of a ``system.multicall``. It has at most :data:`MOST_CALLS` calls
-    and :data:`MOST_BYTES` of answers; beyond that the answer is a fault.
+    Other clients are served between the calls of a ``system.multicall``. It has at most :data:`MAX_CALLS` calls
+    and :data:`MAX_BYTES` of answers; beyond that the answer is a fault.
 
     Args:
         io: the thread that reads and writes.
@@ -100,19 +100,19 @@ class MasterServer:
 
     async def _answer_all(self, calls: Any, caller: str) -> EncodedAnswer:
         """Answer several calls, and let other tasks of the loop run after each."""
-        if len(calls) > MOST_CALLS:
+        if len(calls) > MAX_CALLS:
             raise XmlRpcFault(
-                1, f"{MULTICALL} has {len(calls)} calls, at most {MOST_CALLS} are made at once: none was made"
+                1, f"{MULTICALL} has {len(calls)} calls, at most {MAX_CALLS} are made at once: none was made"
             )
         answers: list[bytes] = []
-        room = MOST_BYTES
+        room = MAX_BYTES
         for number, call in enumerate(calls, 1):
             answer = self._answer_element(call, caller)
             room -= len(answer)
             if room < 0:
                 raise XmlRpcFault(
                     1,
-                    f"the answers of {MULTICALL} exceed {MOST_BYTES} bytes: of its {len(calls)} calls {number} were "
+                    f"the answers of {MULTICALL} exceed {MAX_BYTES} bytes: of its {len(calls)} calls {number} were "
                     "made. Ask for large parameters one at a time",
                 )
             answers.append(answer)

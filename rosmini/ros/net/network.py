@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 WARN_NS = 60_000_000_000
 """How long repeated warnings about the same fault of a peer are suppressed [ns]."""
 
-LONGEST_WARNING = 500
+MAX_WARNING_LENGTH = 500
 
 
 class Network:
@@ -54,8 +54,8 @@ class Network:
         """
         if cause and not self._gates.is_due(cause, time.monotonic_ns(), WARN_NS):
             return
-        line = "".join(letter if letter.isprintable() else "?" for letter in text[:LONGEST_WARNING])
-        sys.stderr.write(f"[WARN] {line}{'...' if len(text) > LONGEST_WARNING else ''}\n")
+        line = "".join(letter if letter.isprintable() else "?" for letter in text[:MAX_WARNING_LENGTH])
+        sys.stderr.write(f"[WARN] {line}{'...' if len(text) > MAX_WARNING_LENGTH else ''}\n")
 
     def close(self) -> None:
         """End the I/O thread and close what is open, within two seconds; it restarts on the next use."""
@@ -69,8 +69,8 @@ def tcp(where: Addresses = HERE) -> Callable[[Scheduler], TcpTransport]:
 
 def network_of(graph: Graph) -> Network:
     """Return the network of a graph. Raises ``RosminiError`` if it has none."""
-    for way in graph.transport.ways:
-        if isinstance(way, TcpTransport) and isinstance(way.network, Network):
-            return way.network
+    for transport in graph.transport.transports:
+        if isinstance(transport, TcpTransport) and isinstance(transport.network, Network):
+            return transport.network
     msg = "this graph has no network: make it with Graph(transports=[LocalTransport, rosmini.ros.net.network.tcp()])"
     raise RosminiError(msg)

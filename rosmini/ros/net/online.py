@@ -118,7 +118,7 @@ class Online:
             raise MasterUnreachable(f"{error}. This graph is offline again, as before") from error
         if live:
             self._go_on()
-        self._tell()
+        self._print_notes()
 
     def __repr__(self) -> str:
         how = "joined the Master at" if self.joined else "serves its Master at"
@@ -207,7 +207,7 @@ class Online:
             self.graph.live()
             self._is_live_of_ours = True
 
-    def _tell(self) -> None:
+    def _print_notes(self) -> None:
         for line in self.where.notes:
             sys.stderr.write(f"rosmini: {line}\n")
 

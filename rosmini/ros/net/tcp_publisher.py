@@ -107,9 +107,9 @@ class TcpSender:
 
     def _ended(self, _error: Exception | None) -> None:
         """Handle a connection that the subscriber closed or that broke; in the I/O thread."""
-        self._scheduler.call_soon_threadsafe(self._tell)
+        self._scheduler.call_soon_threadsafe(self._handle_close)
 
-    def _tell(self) -> None:
+    def _handle_close(self) -> None:
         if not self._is_closed:
             self._is_closed = True
             self._waiting.clear()

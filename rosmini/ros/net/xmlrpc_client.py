@@ -27,7 +27,7 @@ TIMEOUT_S = 10.0
 KEPT = 32
 """Maximum number of connections kept open between calls."""
 
-LONGEST_REASON = 500
+MAX_REASON_LENGTH = 500
 """Maximum number of characters of a server's reason for refusal in an error."""
 
 
@@ -140,7 +140,7 @@ class XmlRpcClient:
             if head is None:
                 return None
             if isinstance(head, h11.Response) and head.status_code != 200:
-                reason = shown(head.reason.decode("latin-1"), LONGEST_REASON)
+                reason = shown(head.reason.decode("latin-1"), MAX_REASON_LENGTH)
                 raise TransportException(
                     f"http://{host}:{port}/ answered with HTTP status {head.status_code}: {reason}"
                 )

@@ -23,7 +23,7 @@ PARAMS_HEAD, PARAMS_TAIL = "<params>\n<param>\n", "</param>\n</params>\n"
 """Text that Python's own encoder writes around a value."""
 LIST_HEAD, LIST_TAIL = b"<value><array><data>\n", b"</data></array></value>\n"
 
-DEEPEST = 100
+MAX_DEPTH = 100
 """Maximum nesting of a document's elements: three per level of a list, five per level of a struct."""
 
 
@@ -46,8 +46,8 @@ class _Values(xmlrpc.client.Unmarshaller):
     def start(self, tag: str, attrs: Any) -> None:
         """Handle the start of an element."""
         self._depth += 1
-        if self._depth > DEEPEST:
-            raise TransportException(f"the document has more than {DEEPEST} levels of elements")
+        if self._depth > MAX_DEPTH:
+            raise TransportException(f"the document has more than {MAX_DEPTH} levels of elements")
         super().start(tag, attrs)
 
     def end(self, tag: str) -> None:

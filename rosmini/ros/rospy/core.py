@@ -52,7 +52,7 @@ logout = loginfo
 logerror = logerr
 rospydebug, rospyinfo, rospywarn, rospyerr = (internally(level) for level in (DEBUG, INFO, WARN, ERROR))
 
-TICKS_PER_LOOK = 10
+TICKS_PER_POLL = 10
 """Ticks between checks, for a loop that only polls ``is_shutdown``: a turn takes a few microseconds."""
 
 
@@ -102,7 +102,7 @@ def is_shutdown() -> bool:
     node = current_node()
     if node is None:
         return current_session().is_shutdown()
-    node.scheduler.tick(TICKS_PER_LOOK)
+    node.scheduler.tick(TICKS_PER_POLL)
     return node.is_shutdown()
 
 

@@ -11,7 +11,7 @@ from rosmini.core.graph.clock import TopicClock
 
 from .session import any_node, current_node, current_session
 
-TICKS_PER_LOOK = 50
+TICKS_PER_POLL = 50
 """Ticks between checks, for a loop that polls the time: with rospy a turn takes about 50 microseconds."""
 
 
@@ -63,7 +63,7 @@ def _now_ns() -> int:
             "for the time."
         )
     node = any_node()
-    node.scheduler.tick(TICKS_PER_LOOK)
+    node.scheduler.tick(TICKS_PER_POLL)
     given = current_session().set_time_ns
     return node.clock.now_ns() if given is None else given
 

@@ -186,7 +186,7 @@ class Publisher(Topic):
         self._listener = subscriber_listener
         self._latch = latch
         self._queue_size = queue_size
-        self._told = False
+        self._warned = False
         self._begin()
 
     def _register(self, node: Node) -> None:
@@ -237,8 +237,8 @@ class Publisher(Topic):
         node: Node = self._handle.node
         if not node.is_shutdown():
             raise error
-        if not self._told:
-            self._told = True
+        if not self._warned:
+            self._warned = True
             node.logwarn(error)
 
     def _peer_came(self, peer: str) -> None:

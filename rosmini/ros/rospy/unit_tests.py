@@ -52,7 +52,7 @@ def run(package: str, test_name: str, test: Any, words: Sequence[str] | None) ->
 
 def write_results(file: str, classname: str, result: Any) -> None:
     """Write the results of tests as JUnit XML."""
-    found = list(_told(result))
+    found = list(_results(result))
     counts = {kind: sum(what == kind for _, what, _ in found) for kind in ("failure", "error", "skipped")}
     root = ET.Element(
         "testsuite",
@@ -70,7 +70,7 @@ def write_results(file: str, classname: str, result: Any) -> None:
     ET.ElementTree(root).write(file, encoding="utf-8", xml_declaration=True)
 
 
-def _told(result: Any) -> Iterator[tuple[str, str, str]]:
+def _results(result: Any) -> Iterator[tuple[str, str, str]]:
     """Yield each test with its result: empty, or a kind and a text; errors outside of tests come last."""
     given: dict[Any, tuple[str, str]] = {}
     for kind, found in (("error", result.errors), ("failure", result.failures), ("skipped", result.skipped)):

@@ -10,7 +10,7 @@ from rosmini.core.parameters import Parameters, parameter
 
 from .errors import GazeboError
 
-SHORTEST, LONGEST = 1e-6, 1.0
+MIN_STEP_S, MAX_STEP_S = 1e-6, 1.0
 """Bounds of the physics step [s]."""
 
 ODE = (
@@ -35,7 +35,7 @@ class PhysicsProperties(Parameters):
     """
 
     time_step: float = parameter(
-        0.001, "time step of the physics", unit="s", minimum=SHORTEST, maximum=LONGEST
+        0.001, "time step of the physics", unit="s", minimum=MIN_STEP_S, maximum=MAX_STEP_S
     )
     max_update_rate: float = parameter(
         1000.0, "steps a second; 0: as fast as it can", unit="Hz", minimum=0.0, maximum=1e6
@@ -60,8 +60,8 @@ class PhysicsProperties(Parameters):
         for name, value in numbers.items():
             if not math.isfinite(value):
                 raise GazeboError(f"{name} is {value}; it must be a finite number")
-        if not SHORTEST <= self.time_step <= LONGEST:
-            span = f"from {SHORTEST:g} to {LONGEST:g} s"
+        if not MIN_STEP_S <= self.time_step <= MAX_STEP_S:
+            span = f"from {MIN_STEP_S:g} to {MAX_STEP_S:g} s"
             raise GazeboError(f"time_step is {self.time_step} s; it must be {span}")
         if self.max_update_rate < 0:
             what = f"max_update_rate is {self.max_update_rate} Hz"

@@ -21,7 +21,7 @@ from .staircases import straightened
 Floats = NDArray[np.float64]
 Loop = NDArray[np.int64]
 
-MOST_CORNERS = 300_000
+MAX_CORNERS = 300_000
 """Maximum number of vertices of all outlines along the cells' edges."""
 
 TOLERANCE = 0.49
@@ -79,13 +79,13 @@ def edge_loops(occupied: ArrayLike) -> list[Loop]:
     """Return the closed outlines along the edges of the occupied cells, each the corners (k, 2) where it turns.
 
     Corners are integers [cells], x along the rows. The order is fixed: loops by their lowest, then leftmost
-    corner. Raises `GeometryError` for an `occupied` that is not 2D, or with more than `MOST_CORNERS` vertices.
+    corner. Raises `GeometryError` for an `occupied` that is not 2D, or with more than `MAX_CORNERS` vertices.
     """
     starts, directions, following = _edges(_mask(occupied))
     turning = directions[following] != directions
     count = np.count_nonzero(turning)
-    if count > MOST_CORNERS:
-        msg = f"the outlines of its dark or occupied parts have {count} vertices; {MOST_CORNERS} are allowed"
+    if count > MAX_CORNERS:
+        msg = f"the outlines of its dark or occupied parts have {count} vertices; {MAX_CORNERS} are allowed"
         raise GeometryError(msg)
     turns = turning.tolist()
     ends = (starts + _STEP[directions]).tolist()

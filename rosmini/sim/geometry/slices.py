@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 AT_ONCE = 1_000_000
 """Number of pairs of sides compared at once."""
 
-MOST = 2_000_000
+MAX_SPLITS = 2_000_000
 """Maximum product of the number of sides and the number of heights at which outlines are split."""
 
 
@@ -152,7 +152,7 @@ def pieces(outlines: list[Floats]) -> list[Floats]:
         return turned
     sides = np.vstack([polygons.sides_of(outline) for outline in outlines])
     heights = np.unique(np.concatenate([sides[:, 1], _crossing_heights(sides)]))
-    if len(heights) * len(sides) > MOST:
+    if len(heights) * len(sides) > MAX_SPLITS:
         msg = (
             f"outlines of {len(sides)} sides have {len(heights)} heights of vertices and crossings: too many"
         )

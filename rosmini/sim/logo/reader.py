@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
-from .values import DEEPEST, LARGEST, LogoError, LogoList, Value, number_in, suggestion
+from .values import MAX_DEPTH, MAX_SIZE, LogoError, LogoList, Value, number_in, suggestion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -54,8 +54,8 @@ def read(text: str, first_line: int = 1) -> tuple[dict[str, Procedure], tuple[Lo
     >>> procedures["square"].inputs, lines
     (('side',), ([square 50],))
     """
-    if len(text) > LARGEST:
-        raise LogoError(f"the program has more than {LARGEST} characters")
+    if len(text) > MAX_SIZE:
+        raise LogoError(f"the program has more than {MAX_SIZE} characters")
     procedures: dict[str, Procedure] = {}
     others: list[LogoList] = []
     lines = _lines(text, first_line)
@@ -101,8 +101,8 @@ def _lines(text: str, number: int) -> Iterator[LogoList]:
                 yield levels[0].close()
                 levels = [_Open(number, [], [])]
         elif found["open"] is not None:
-            if len(levels) > DEEPEST:
-                raise LogoError(f"lists are nested more than {DEEPEST} deep", number)
+            if len(levels) > MAX_DEPTH:
+                raise LogoError(f"lists are nested more than {MAX_DEPTH} deep", number)
             levels.append(_Open(number, [], []))
         elif found["close"] is not None:
             if len(levels) == 1:
@@ -262,9 +262,9 @@ class _Parser:
     def expression(self, strength: int, consumer: str) -> Expression:
         """Parse operands and operators that bind at least this strongly, for the word that takes the value."""
         self.depth += 1
-        if self.depth > DEEPEST:
+        if self.depth > MAX_DEPTH:
             line = self.tokens[self.index - 1].line
-            raise LogoError(f"an expression is nested more than {DEEPEST} deep", line)
+            raise LogoError(f"an expression is nested more than {MAX_DEPTH} deep", line)
         found: Expression = self.operand(consumer)
         while (token := self.next) is not None and token.kind in ("infix", "minus"):
             name, own = _INFIX[token.text]

@@ -17,7 +17,7 @@ from .values import LogoError, suggestion
 Colour: TypeAlias = tuple[int, int, int]
 """Red, green, blue, from 0 to 255."""
 
-FARTHEST = 1e9
+MAX_DISTANCE = 1e9
 """Maximum distance of a turtle from the middle [steps]."""
 
 SHORTEST = 1e-6
@@ -86,8 +86,8 @@ class Turtle:
 
     def move(self, pose: Pose) -> None:
         """Move to a pose, drawing a line if the pen is down."""
-        if max(abs(pose.x), abs(pose.y)) > FARTHEST:
-            raise LogoError(f"turtle out of bounds: {self.name} would be {FARTHEST:g} steps away")
+        if max(abs(pose.x), abs(pose.y)) > MAX_DISTANCE:
+            raise LogoError(f"turtle out of bounds: {self.name} would be {MAX_DISTANCE:g} steps away")
         before = self.goal
         self.place(pose)
         self.goal = pose

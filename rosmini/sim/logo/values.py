@@ -12,10 +12,10 @@ from rosmini.core.errors import RosminiError, nearest
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-LARGEST = 1_000_000
+MAX_SIZE = 1_000_000
 """Maximum number of members and characters in a value."""
 
-DEEPEST = 100
+MAX_DEPTH = 100
 """Maximum nesting depth of brackets and of expressions."""
 
 EXACT = 2**53
@@ -73,10 +73,10 @@ class LogoList:
         self.weight: int = 1 + sum(map(weight, self.items))
         self.parsed: Any = None
         """The list as a program; see `rosmini.sim.logo.interpreter`."""
-        if self.depth > DEEPEST:
-            raise LogoError(f"lists are nested more than {DEEPEST} deep")
-        if self.weight > LARGEST:
-            raise LogoError(f"a list has more than {LARGEST} members and letters")
+        if self.depth > MAX_DEPTH:
+            raise LogoError(f"lists are nested more than {MAX_DEPTH} deep")
+        if self.weight > MAX_SIZE:
+            raise LogoError(f"a list has more than {MAX_SIZE} members and letters")
 
     def __len__(self) -> int:
         return len(self.items)

@@ -15,7 +15,7 @@ import numpy as np
 
 from .turtles import Colour, Flock, Pose, Turtle, cosine, sine
 from .values import (
-    LARGEST,
+    MAX_SIZE,
     BadInput,
     LogoError,
     LogoList,
@@ -322,8 +322,8 @@ def _count(_: State, value: Value) -> int:
 
 
 def _word(state: State, first: Value, second: Value) -> Value:
-    if len(word(first)) + len(word(second)) > LARGEST:
-        raise LogoError(f"a word has more than {LARGEST} letters")
+    if len(word(first)) + len(word(second)) > MAX_SIZE:
+        raise LogoError(f"a word has more than {MAX_SIZE} letters")
     return state.handled(word(first) + word(second))
 
 

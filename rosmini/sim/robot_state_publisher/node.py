@@ -58,7 +58,7 @@ class RobotStatePublisher:
         self.chain = Chain(self.robot)
         self.prefix = tf_prefix(node)
         self.interval_ns = round(SECOND_NS / max(self.parameters.publish_frequency, 1.0))
-        self._told: dict[str, int] = {}
+        self._last_stamps: dict[str, int] = {}
         self._unknown: set[str] = set()
         self._last_ns = 0
         for doubt in self.robot.notes:
@@ -116,11 +116,11 @@ class RobotStatePublisher:
             self.node.logwarn(
                 "Time moved backwards, as a clock or a bag that starts again: telling all joints again"
             )
-            self._told.clear()
+            self._last_stamps.clear()
         self._last_ns = now
         if stamp + OLD_NS < now:
             self.node.logwarn(f"a JointState is {(now - stamp) / SECOND_NS:.1f} seconds old", throttle=10.0)
-        last = min((self._told.get(name, 0) for name in names), default=now)
+        last = min((self._last_stamps.get(name, 0) for name in names), default=now)
         if not self.parameters.ignore_timestamp and stamp < min(last, now) + self.interval_ns:
             return
         for name in names:
@@ -132,4 +132,4 @@ class RobotStatePublisher:
                     f"joint_states contains {name}, which {self.robot.name!r} does not have{more}"
                 )
         self._send(self._broadcaster, self.chain.transforms(dict(zip(names, positions, strict=True))), stamp)
-        self._told.update(dict.fromkeys(names, stamp))
+        self._last_stamps.update(dict.fromkeys(names, stamp))

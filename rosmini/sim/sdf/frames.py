@@ -9,12 +9,12 @@ import math
 from dataclasses import dataclass
 
 from rosmini.core.errors import nearest
-from rosmini.core.markup import FARTHEST, Element
+from rosmini.core.markup import MAX_LENGTH_M, Element
 
 from .document import ORIGIN, Pose6
 from .poses import compose, from_quaternion, inverse
 
-LONGEST_CHAIN = 200
+MAX_CHAIN_LENGTH = 200
 """Maximum length of a chain of frames in which the pose of each is relative to the next."""
 
 
@@ -39,12 +39,12 @@ def given(parent: Element) -> Given:
 def _pose(element: Element) -> Pose6:
     if element.get("rotation_format") == "quat_xyzw":
         x, y, z, *quaternion = element.floats(
-            element.text or "0 0 0 0 0 0 1", 7, "<pose> of a quaternion", most=FARTHEST
+            element.text or "0 0 0 0 0 0 1", 7, "<pose> of a quaternion", most=MAX_LENGTH_M
         )
         if not any(quaternion):
             raise element.error("a quaternion of four zeros is not a rotation; the identity is 0 0 0 1")
         return (x, y, z, *from_quaternion(*quaternion))
-    x, y, z, roll, pitch, yaw = element.floats(element.text or "0 0 0 0 0 0", 6, most=FARTHEST)
+    x, y, z, roll, pitch, yaw = element.floats(element.text or "0 0 0 0 0 0", 6, most=MAX_LENGTH_M)
     if element.get("degrees", "false").strip().lower() in ("true", "1"):
         roll, pitch, yaw = (math.radians(angle) for angle in (roll, pitch, yaw))
     return (x, y, z, roll, pitch, yaw)
@@ -86,9 +86,9 @@ class Scope:
             raise (asked or pose.element or Element("pose")).error(
                 f"poses hang on one another in a circle: {circle}"
             )
-        if len(self._open) == LONGEST_CHAIN:
+        if len(self._open) == MAX_CHAIN_LENGTH:
             raise (asked or pose.element or Element("pose")).error(
-                f"poses are relative to one another in a chain of more than {LONGEST_CHAIN}"
+                f"poses are relative to one another in a chain of more than {MAX_CHAIN_LENGTH}"
             )
         self._open.append(name)
         try:

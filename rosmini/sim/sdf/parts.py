@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import get_args
 
 from rosmini.core.errors import Hints, nearest
-from rosmini.core.markup import FARTHEST, HEAVIEST, Element
+from rosmini.core.markup import MAX_LENGTH_M, MAX_MASS_KG, Element
 from rosmini.sim.urdf import meshes
 
 from .document import (
@@ -29,13 +29,13 @@ from .frames import Scope, given
 from .material_colours import colour_of
 from .resources import Resources
 
-MOST_INCLUDED = 200_000
+MAX_INCLUDED_ELEMENTS = 200_000
 """Maximum number of XML elements in the includes of a file; a file counts each time it is included."""
 
 OF_AN_INCLUDE = 20
 """Cost of an include, in elements, in addition to those of its file."""
 
-MOST_POINTS = 2_000
+MAX_POINTS = 2_000
 """Maximum number of corners of a polyline."""
 
 
@@ -82,8 +82,8 @@ class Reading:
         """Return the root of an included file, and count it. Raises `SdfError` at `element` if there are too many."""
         root, size = self.resources.parsed(file)
         self.included += OF_AN_INCLUDE + size
-        if self.included > MOST_INCLUDED:
-            raise element.error(f"the includes of this world have more than {MOST_INCLUDED} elements")
+        if self.included > MAX_INCLUDED_ELEMENTS:
+            raise element.error(f"the includes of this world have more than {MAX_INCLUDED_ELEMENTS} elements")
         self.cut(root)
         return root
 
@@ -168,7 +168,7 @@ def joint(element: Element, scope: Scope) -> SdfJoint:
             element.need(tag)  # reports the error at the name's line
             scope.place(name, element.need(tag))
     axis = element.find("axis/xyz")
-    xyz = axis.floats(axis.text, 3, most=FARTHEST) if axis is not None else (0.0, 0.0, 1.0)
+    xyz = axis.floats(axis.text, 3, most=MAX_LENGTH_M) if axis is not None else (0.0, 0.0, 1.0)
     at = given(element)
     pose = scope.seen_from(scope.place(child), at) if child in scope else at.pose
     kind = element.attribute("type")
@@ -184,7 +184,7 @@ def _end(element: Element) -> str:
 def _inertial(element: Element | None, scope: Scope, here: Pose6, reading: Reading) -> SdfInertial:
     if element is None:
         return SdfInertial()
-    mass = number(element, "mass", 1.0, most=HEAVIEST)
+    mass = number(element, "mass", 1.0, most=MAX_MASS_KG)
     if mass <= 0:
         reading.note(
             element.need("mass"), f"a mass is more than 0 kg, not {mass:g}: taken for 1 kg", warning=True
@@ -193,7 +193,7 @@ def _inertial(element: Element | None, scope: Scope, here: Pose6, reading: Readi
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
     defaults = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
     ixx, iyy, izz, ixy, ixz, iyz = (
-        number(element, f"inertia/{name}", default, most=HEAVIEST)
+        number(element, f"inertia/{name}", default, most=MAX_MASS_KG)
         for name, default in zip(names, defaults, strict=True)
     )
     for name, value in (("ixx", ixx), ("iyy", iyy), ("izz", izz)):
@@ -297,7 +297,7 @@ THINNEST = 1e-4
 def _sizes(element: Element, tag: str, reading: Reading, count: int = 1) -> tuple[float, ...]:
     """Return sizes of a shape. Raises `SdfError` for a negative one; 0 becomes a very small size, as in Gazebo."""
     child = element.need(tag)
-    values = child.floats(child.text, count, most=FARTHEST)
+    values = child.floats(child.text, count, most=MAX_LENGTH_M)
     if min(values) < 0:
         raise child.error(f"the {tag} of a {element.tag} is more than 0 m, not {child.text}")
     if min(values) == 0:
@@ -322,7 +322,7 @@ def _sphere(element: Element, reading: Reading) -> SdfGeometry:
 
 def _plane(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
     normal, size = element.find("normal"), element.find("size")
-    x, y, z = normal.floats(normal.text, 3, most=FARTHEST) if normal is not None else (0.0, 0.0, 1.0)
+    x, y, z = normal.floats(normal.text, 3, most=MAX_LENGTH_M) if normal is not None else (0.0, 0.0, 1.0)
     if normal is not None and not (x or y or z):
         raise normal.error("the normal of a plane points somewhere; 0 0 0 does not")
     sides = size.floats(size.text, 2) if size is not None else (1.0, 1.0)
@@ -332,12 +332,12 @@ def _plane(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
 def _polyline(element: Element, reading: Reading) -> tuple[tuple[tuple[float, float], ...], float]:
     points = []
     for point in element.all("point"):
-        x, y = point.floats(point.text, 2, most=FARTHEST)
+        x, y = point.floats(point.text, 2, most=MAX_LENGTH_M)
         points.append((x, y))
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
-    if len(points) > MOST_POINTS:
-        raise element.error(f"a polyline has {MOST_POINTS} points or less, not {len(points)}")
+    if len(points) > MAX_POINTS:
+        raise element.error(f"a polyline has {MAX_POINTS} points or less, not {len(points)}")
     if len(points) < 3:
         raise element.error(f"a polyline has 3 points or more, not {len(points)}")
     height = _sizes(element, "height", reading)[0] if element.find("height") is not None else 1.0
@@ -346,7 +346,7 @@ def _polyline(element: Element, reading: Reading) -> tuple[tuple[tuple[float, fl
 
 def _mesh(element: Element, reading: Reading) -> SdfGeometry:
     uri, scale = element.need("uri"), element.find("scale")
-    x, y, z = scale.floats(scale.text, 3, most=FARTHEST) if scale is not None else (1.0, 1.0, 1.0)
+    x, y, z = scale.floats(scale.text, 3, most=MAX_LENGTH_M) if scale is not None else (1.0, 1.0, 1.0)
     if scale is not None and not (x and y and z):
         raise scale.error("a mesh is scaled by numbers other than 0")
     try:

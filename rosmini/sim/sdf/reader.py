@@ -16,7 +16,7 @@ from .parts import Reading, flag, joint, link, name_of, number, plugins, unique
 from .poses import compose, inverse
 from .resources import Resources, read_file
 
-DEEPEST = 20
+MAX_DEPTH = 20
 """Maximum nesting of models."""
 
 MODEL_TAGS = (
@@ -179,9 +179,9 @@ def _state(element: Element, things: list[SdfModel | SdfActor]) -> list[SdfModel
 
 def _model(element: Element, pose: Pose6, reading: Reading, depth: int) -> SdfModel:
     """Return a model at a pose that is already resolved."""
-    if depth > DEEPEST:
+    if depth > MAX_DEPTH:
         raise element.error(
-            f"models stand inside one another deeper than {DEEPEST}: does one include itself?"
+            f"models stand inside one another deeper than {MAX_DEPTH}: does one include itself?"
         )
     reading.unknown(element, MODEL_TAGS)
     name = name_of(element)
@@ -247,9 +247,9 @@ def _included(element: Element, reading: Reading, depth: int) -> list[tuple[Elem
 def _inner(element: Element, reading: Reading, depth: int) -> Element:
     """Return the model or actor in the file that an `<include>` names."""
     uri = element.need("uri")
-    if depth > DEEPEST:
+    if depth > MAX_DEPTH:
         raise uri.error(
-            f"files include one another deeper than {DEEPEST}: does {shown(uri.text)} include itself?"
+            f"files include one another deeper than {MAX_DEPTH}: does {shown(uri.text)} include itself?"
         )
     path = reading.resources.model_file(uri.text, uri)
     root = reading.include(uri, path)

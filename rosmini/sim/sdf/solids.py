@@ -39,7 +39,7 @@ GRAIN = 0.002
 CORNERS = 60
 ROUND = 64
 """Number of vertices that replace a slanted circle."""
-MOST_CUT = 10_000_000
+MAX_CUT_TRIANGLES = 10_000_000
 """Maximum number of triangles that are cut for one world, counted once for each height and with `OF_A_CUT` added."""
 OF_A_CUT = 5_000
 """The cost of one cut through a mesh, in triangles, in addition to its own."""
@@ -64,7 +64,7 @@ class Meshes:
     """The meshes of one world, each cut once for all its places on the ground."""
 
     work: int = 0
-    """Number of triangles cut so far, as `MOST_CUT` counts them."""
+    """Number of triangles cut so far, as `MAX_CUT_TRIANGLES` counts them."""
     _found: dict[tuple[object, ...], Found] = field(default_factory=dict)
 
     def solids(self, geometry: SdfGeometry, pose: Pose6, *, sliced: bool) -> Found:
@@ -81,7 +81,7 @@ class Meshes:
         if geometry.mesh is None:
             raise MeshError("a mesh has no file")
         surfaces = read(geometry.mesh, geometry.submesh)
-        if self.work > MOST_CUT:
+        if self.work > MAX_CUT_TRIANGLES:
             ends = np.array([end for each in surfaces for end in each.bounds])
             box = np.array(list(product(*zip(ends.min(axis=0), ends.max(axis=0), strict=True))))
             note = "is one of too many different meshes: it is taken as the box around it"

@@ -25,12 +25,12 @@ from .errors import Place, StageError
 Floats = NDArray[np.float64]
 Size = tuple[float, float, float]
 
-MOST_PIXELS = 32_000_000
+MAX_PIXELS = 32_000_000
 """Maximum number of pixels of all bitmaps of a world."""
 
-MOST_OUTLINES = 5_000
+MAX_OUTLINES = 5_000
 """Maximum number of outlines of all bitmaps of a world but the first, each as often as it is used."""
-TOO_MANY = f"the bitmaps after a world's first have more than {MOST_OUTLINES} outlines"
+TOO_MANY = f"the bitmaps after a world's first have more than {MAX_OUTLINES} outlines"
 
 THRESHOLD = 127
 EDGE = 0.01
@@ -105,7 +105,7 @@ def picture(path: Path, place: Place, room: int) -> Picture:
             pixels = found.width * found.height
             if pixels > room:
                 raise images.ImageError(
-                    f"with it the bitmaps of this world have more than {MOST_PIXELS} pixels"
+                    f"with it the bitmaps of this world have more than {MAX_PIXELS} pixels"
                 )
             dark = np.empty((found.height, found.width), dtype=bool)
             for top, strip in images.strips(found):

@@ -83,7 +83,7 @@ class StageBase(DifferentialDrive):
     def go(self, velocity: Velocity) -> None:
         """Continue at this velocity."""
         self.host.catch_up()
-        self.reckoning.told(velocity, self.host.engine.now)
+        self.reckoning.set_velocity(velocity, self.host.engine.now)
         v, aside, w = velocity
         super().command(v, w, aside)
 
@@ -94,7 +94,7 @@ class StageBase(DifferentialDrive):
 
     def reset(self) -> None:
         """Stop. The estimated pose stays the same, as in Stage."""
-        self.reckoning.told(STILL, self.host.engine.now)
+        self.reckoning.set_velocity(STILL, self.host.engine.now)
 
     def state(self) -> Any:
         """Return the odometry and the state of the motors."""

@@ -235,7 +235,7 @@ class Stageros(Simulation):
         super()._drag(name, pose)
         robot = self.robots.get(self._entity(name))
         if robot is not None:
-            robot.base.reckoning.told(STILL, self.host.engine_now)
+            robot.base.reckoning.set_velocity(STILL, self.host.engine_now)
 
 
 def _options(arguments: tuple[str, ...]) -> tuple[str, bool, bool]:

@@ -29,13 +29,13 @@ Velocity = tuple[float, float, float]
 STILL: Velocity = (0.0, 0.0, 0.0)
 
 
-LARGEST = (0.03, 0.03, 0.05)
+MAX_ERRORS = (0.03, 0.03, 0.05)
 """E ahead, to the left and in turns: errors are drawn up to half of it in either direction."""
 
 
 def draw_errors(robot: StageRobot, rng: np.random.Generator) -> Velocity:
     """Return the relative errors of a robot's estimate: e_x, e_y, e_a."""
-    drawn = (rng.uniform(-0.5, 0.5, 3) * LARGEST).tolist()
+    drawn = (rng.uniform(-0.5, 0.5, 3) * MAX_ERRORS).tolist()
     x, y, a = (own if told is None else told for told, own in zip(robot.odom_error, drawn, strict=True))
     return (x, y, a)
 
@@ -61,7 +61,7 @@ class StageOdometry:
                 self.belief = glide(self.belief, real, STILL, now - self._since)
             self._since = now
 
-    def told(self, velocity: Velocity, now: float) -> None:
+    def set_velocity(self, velocity: Velocity, now: float) -> None:
         """Continue with another velocity from `now` on."""
         self.advance(now)
         self.velocity = velocity

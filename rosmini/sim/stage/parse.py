@@ -27,15 +27,15 @@ from .tokens import Token, read
 
 Value = float | str
 
-DEEPEST = 100
+MAX_DEPTH = 100
 """Maximum nesting of entities; a deeper file is broken, or malicious."""
 
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
-MOST = 100_000
+MAX_ENTITIES = 100_000
 """Maximum number of entities of a world."""
 
-MOST_WORDS = 500_000
+MAX_WORDS = 500_000
 """Maximum number of words that definitions insert; those of a definition count at each use."""
 
 
@@ -162,8 +162,8 @@ class _Parser:
 
     def _make(self, name: str, place: Place, body: tuple[Token, ...], using: tuple[str, ...]) -> Entity:
         """Return the entity called `name`."""
-        if len(using) > DEEPEST:
-            raise StageError(place, f"entities are nested more than {DEEPEST} deep")
+        if len(using) > MAX_DEPTH:
+            raise StageError(place, f"entities are nested more than {MAX_DEPTH} deep")
         macro = self._macros.get(name)
         if macro is None:
             entity = Entity(name, place, name)
@@ -172,15 +172,15 @@ class _Parser:
                 msg = f"{name} is defined by itself: {' is a '.join((*using[using.index(name) :], name))}"
                 raise StageError(macro.place, msg)
             self._inserted += len(macro.body)
-            if self._inserted > MOST_WORDS:
+            if self._inserted > MAX_WORDS:
                 raise StageError(
-                    place, f"the definitions insert more than {MOST_WORDS} words, the last of {name}"
+                    place, f"the definitions insert more than {MAX_WORDS} words, the last of {name}"
                 )
             entity = self._make(macro.base, place, macro.body, (*using, name))
             entity.title = name
         self._count += 1
-        if self._count > MOST:
-            raise StageError(place, f"the definitions make more than {MOST} entities of this file")
+        if self._count > MAX_ENTITIES:
+            raise StageError(place, f"the definitions make more than {MAX_ENTITIES} entities of this file")
         self._fill(entity, _Words(body, place), (*using, ""))
         return entity
 

@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from rosmini.sim.models import MOST_BEAMS, MOST_PIXELS
+from rosmini.sim.models import MAX_BEAMS, MAX_PIXELS
 
 from .errors import Place, StageError
 from .parse import Entity
@@ -249,8 +249,8 @@ def _checked(laser: StageLaser, reader: Reader, units: Units) -> list[StageLaser
         what = f"a ranger of {laser.samples} samples up to {laser.range_max:g} m measures nothing and is left out"
         units.note(laser.place, what, left_out="a ranger that measures nothing")
         return []
-    if laser.samples > MOST_BEAMS:
-        most = f"a ranger has {MOST_BEAMS} samples at most"
+    if laser.samples > MAX_BEAMS:
+        most = f"a ranger has {MAX_BEAMS} samples at most"
         raise StageError(reader.place("samples"), f"samples is {laser.samples}; {most}", most)
     if not 0 <= laser.range_min < laser.range_max:
         span = f"from {laser.range_min:g} m to {laser.range_max:g} m"
@@ -267,8 +267,8 @@ def _camera(thing: Thing, base: Thing, units: Units) -> list[StageCamera]:
     """Return the camera; none if it has no picture. Raises `StageError` for too many pixels."""
     reader = thing.reader
     width, height = (int(part) for part in reader.several("resolution", "ff", CAMERA_RESOLUTION))
-    if width * height > MOST_PIXELS:
-        most = f"a picture has {MOST_PIXELS} pixels at most"
+    if width * height > MAX_PIXELS:
+        most = f"a picture has {MAX_PIXELS} pixels at most"
         raise StageError(reader.place("resolution"), f"resolution is [{width} {height}]; {most}", most)
     horizontal, vertical = reader.several("fov", "ff", CAMERA_FOV)  # in degrees, whatever unit_angle says
     near, far = reader.several("range", "ll", CAMERA_RANGE)

@@ -11,7 +11,7 @@ from rosmini.core.geometry.polygons import area, inside, sides_of
 from rosmini.core.geometry.poses import Pose, compose, inverse, transform_points
 from rosmini.sim.shapes import Box, Polygon, Shape
 
-from .blocks import MOST_OUTLINES, TOO_MANY, Block
+from .blocks import MAX_OUTLINES, TOO_MANY, Block
 from .errors import StageError
 from .things import Pose4, Thing
 
@@ -20,7 +20,7 @@ def filled(thing: Thing) -> tuple[tuple[Block, ...], int]:
     """Return the blocks of a model's body without hollow parts, and their number. Raises `StageError`."""
     if thing.body is None or not thing.body.traced:
         return (() if thing.body is None else thing.body.blocks), 0
-    if len(thing.body.blocks) > MOST_OUTLINES:
+    if len(thing.body.blocks) > MAX_OUTLINES:
         raise StageError(thing.place, TOO_MANY, TOO_MANY)
     outer = [each for each in thing.body.blocks if area(each.outline) > 0]
     firsts = np.array([each.outline[0] for each in outer])

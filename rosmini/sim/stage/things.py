@@ -17,8 +17,8 @@ from rosmini.sim.shapes import colour_problem
 
 from .blocks import (
     EDGE,
-    MOST_OUTLINES,
-    MOST_PIXELS,
+    MAX_OUTLINES,
+    MAX_PIXELS,
     TOO_MANY,
     Block,
     Body,
@@ -276,11 +276,11 @@ class Maker:
                 place, f'there is no bitmap "{name}" {where}', f"there is no such bitmap {where}"
             )
         if path not in self._pictures:
-            room = MOST_PIXELS - sum(each.pixels for each in self._pictures.values())
+            room = MAX_PIXELS - sum(each.pixels for each in self._pictures.values())
             self._pictures[path] = picture(path, place, room)
         found = self._pictures[path]
         self._traced = 0 if self._traced is None else self._traced + len(found.blocks)
-        if self._traced > MOST_OUTLINES:
+        if self._traced > MAX_OUTLINES:
             raise StageError(place, TOO_MANY, TOO_MANY)
         return found
 

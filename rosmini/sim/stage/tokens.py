@@ -24,10 +24,10 @@ Kind = Literal["word", "number", "string", "(", ")", "[", "]"]
 VARIABLE = "STAGEPATH"
 """The environment variable with folders of included files, in the format of `PATH`."""
 
-MOST_FILES = 1000
+MAX_FILES = 1000
 """Maximum number of includes of a world, counting repeated ones."""
 
-MOST_BYTES = 500_000
+MAX_BYTES = 500_000
 """Maximum total size of all included files, counting repeated ones [bytes]."""
 
 _TOKEN = re.compile(
@@ -97,14 +97,14 @@ class _Included:
 
 def _included(path: Path, root: Path, above: tuple[Path, ...], so_far: _Included) -> Iterator[Token]:
     so_far.files += 1
-    if so_far.files > MOST_FILES:
-        raise StageError(Place(path, 1), f"the world includes more than {MOST_FILES} files")
+    if so_far.files > MAX_FILES:
+        raise StageError(Place(path, 1), f"the world includes more than {MAX_FILES} files")
     try:
         if above:
             so_far.size += files.check(path).st_size
-        if so_far.size > MOST_BYTES:
+        if so_far.size > MAX_BYTES:
             raise StageError(
-                Place(path, 1), f"the files that the world includes have more than {MOST_BYTES} bytes"
+                Place(path, 1), f"the files that the world includes have more than {MAX_BYTES} bytes"
             )
         text = files.read(path).decode("utf-8", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:

@@ -37,7 +37,7 @@ DEFAULT_RESOLUTION = 0.02
 DEFAULT_INTERVAL = 0.1
 """Duration of a simulation step [s]."""
 
-MOST_ROBOTS = 1000
+MAX_ROBOTS = 1000
 
 WORLD = ("name", "resolution", "interval_sim", "speedup", "paused", "quit_time", "unit_length", "unit_angle")
 IGNORED = (
@@ -164,8 +164,8 @@ class _World:
     def _add_model(self, thing: Thing) -> None:
         """Add a top-level model to the world."""
         if thing.kind == "position":
-            if len(self.robots) == MOST_ROBOTS:
-                raise StageError(thing.place, f"there are more than {MOST_ROBOTS} robots in this world")
+            if len(self.robots) == MAX_ROBOTS:
+                raise StageError(thing.place, f"there are more than {MAX_ROBOTS} robots in this world")
             self.robots.append(robot(thing, len(self.robots), self.units))
             return
         for each in thing.family():

@@ -10,7 +10,7 @@ from rosmini.core.errors import nearest
 from .paper import SIZE, Colour, Paper
 from .turtle import METRE, Turtle, TurtleError
 
-MOST_TURTLES = 1000
+MAX_TURTLES = 1000
 """Maximum number of turtles in a window."""
 
 
@@ -48,8 +48,8 @@ class Frame:
             raise TurtleError(
                 f"there is a turtle {name} already: give another name, or none to get a new one"
             )
-        if len(self.turtles) >= MOST_TURTLES:
-            raise TurtleError(f"there are {MOST_TURTLES} turtles, and no window has more: kill one, or reset")
+        if len(self.turtles) >= MAX_TURTLES:
+            raise TurtleError(f"there are {MAX_TURTLES} turtles, and no window has more: kill one, or reset")
         turtle = Turtle(name, x, y, theta, kind=self._choose())
         turtle.name = name or self.free_name()
         turtle.holonomic = holonomic

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 SIZE = 500
 """The width and the height of the window [px]."""
 
-MOST_STROKES = 400_000
+MAX_STROKES = 400_000
 """Maximum number of strokes in memory. Beyond it the older half is in the image only."""
 
 CENTRE = 0.5 - 2**-10
@@ -87,7 +87,7 @@ class Paper:
         """Draw a stroke."""
         self._ends.extend((*start, *end))
         self._styles.append(self._pens.setdefault((pen, owner), len(self._pens)))
-        if len(self._styles) > MOST_STROKES:
+        if len(self._styles) > MAX_STROKES:
             self._paint()
             forgotten = len(self._styles) // 2
             del self._ends[: 4 * forgotten], self._styles[:forgotten]

@@ -13,7 +13,7 @@ from .frame import Frame
 from .paper import Colour, Pen
 from .turtle import STEP_S, Turtle, TurtleError
 
-MOST_SAMPLES = 500_000
+MAX_SAMPLES = 500_000
 """Maximum number of samples; a full tape stops recording."""
 
 Pose = tuple[float, float, float]
@@ -112,7 +112,7 @@ class Tape:
                 self._open[name] = track = Track(turtle, now_s)
                 self.tracks.append(track)
             self._samples += self._open[name].note(now_s)
-        if self._samples > MOST_SAMPLES:
+        if self._samples > MAX_SAMPLES:
             self.is_running, self.is_full = False, True
 
     def lines(self) -> Iterator[Line]:

@@ -15,7 +15,7 @@ from .model import Inertial, Joint, Link
 SLACK = 1e-6
 """Tolerance for moments of inertia, relative to the largest, because files round them."""
 
-LONGEST_MIMIC = 50
+MAX_MIMIC_LENGTH = 50
 """Maximum length of a chain of joints in which each mimics the next."""
 
 
@@ -88,8 +88,8 @@ def mimic_problem(joint: Joint, joints: Mapping[str, Joint]) -> str:
         if not at.moves:
             return f"the joint {joint.name!r} mimics {followed!r}, which is {at.type} and does not move"
         way.append(followed)
-        if len(way) > LONGEST_MIMIC:
-            return f"more than {LONGEST_MIMIC} joints mimic one another, beginning with {joint.name!r}"
+        if len(way) > MAX_MIMIC_LENGTH:
+            return f"more than {MAX_MIMIC_LENGTH} joints mimic one another, beginning with {joint.name!r}"
     return ""
 
 

@@ -36,7 +36,7 @@ STEPS = 1_000_000
 OF_A_TEXT = 5
 """Cost in steps of a text that may contain substitutions, such as the default of a parameter."""
 
-MOST_PARAMETERS, LONGEST_PARAMETERS = 1000, 100_000
+MAX_PARAMETERS, MAX_PARAMETERS_LENGTH = 1000, 100_000
 """Maximum number of a macro's parameters, and of their characters."""
 
 OF_AN_ELEMENT = 100
@@ -45,10 +45,10 @@ OF_AN_ELEMENT = 100
 OF_A_FILE = 5_000
 """Cost in steps of an included file, which may be empty: there may be 1,000."""
 
-DEEPEST = 40
+MAX_DEPTH = 40
 """Maximum nesting of includes."""
 
-LARGEST = 4_000_000
+MAX_BYTES = 4_000_000
 """Maximum size of a YAML file [bytes]."""
 
 GLOBALS = (
@@ -116,7 +116,7 @@ class Confined:
         self._budget.spend(OF_A_FILE)
         self._budget.earn(Path(filename).stat().st_size)
         above = [Path(name).name for name in self._xacro.filestack]
-        if len(above) > DEEPEST:
+        if len(above) > MAX_DEPTH:
             way = above[above.index(above[-1]) :]
             circle = way[: way.index(way[0], 1) + 1] if way[0] in way[1:] else way
             raise UrdfError(
@@ -197,7 +197,7 @@ class Confined:
             raise NotAllowed(f"{path} is neither in a package nor beside the description")
         self._budget.spend(OF_A_FILE)
         try:
-            text = read(path, LARGEST).decode("utf-8")
+            text = read(path, MAX_BYTES).decode("utf-8")
         except OSError as error:
             raise UrdfError(f"cannot be read: {error.strerror}", path) from error
         except UnicodeDecodeError as error:
@@ -214,8 +214,8 @@ class Confined:
 
     def _check_macro(self, element: Any, macros: Any) -> None:
         parameters = element.getAttribute("params")
-        if len(parameters) > LONGEST_PARAMETERS or len(parameters.split()) > MOST_PARAMETERS:
-            raise NotAllowed(f"a macro with more than {MOST_PARAMETERS} parameters")
+        if len(parameters) > MAX_PARAMETERS_LENGTH or len(parameters.split()) > MAX_PARAMETERS:
+            raise NotAllowed(f"a macro with more than {MAX_PARAMETERS} parameters")
         self._grab_macro(element, macros)
 
     def _count_text(self, text: str, symbols: Any) -> Any:

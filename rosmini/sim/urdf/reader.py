@@ -11,7 +11,7 @@ from typing import TypeVar, get_args
 
 from rosmini.core import files
 from rosmini.core.errors import Hints, RosminiError, nearest
-from rosmini.core.markup import FARTHEST, HEAVIEST, NO_PATH, Element, parse, parse_file
+from rosmini.core.markup import MAX_LENGTH_M, MAX_MASS_KG, NO_PATH, Element, parse, parse_file
 from rosmini.core.packages import SCHEME, PackageIndex
 
 from .checks import check_tree, inertia_notes, mimic_problem
@@ -200,12 +200,12 @@ class _Reader:
 
     def inertial(self, element: Element) -> Inertial:
         mass = element.need("mass")
-        value = mass.number("value", most=HEAVIEST)
+        value = mass.number("value", most=MAX_MASS_KG)
         if value < 0:
             raise mass.error(f"a mass is negative: {value:g} kg")
         tensor = element.need("inertia")
         ixx, ixy, ixz, iyy, iyz, izz = (
-            tensor.number(name, most=HEAVIEST) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+            tensor.number(name, most=MAX_MASS_KG) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
         )
         found = Inertial(value, ixx, ixy, ixz, iyy, iyz, izz, self.origin(element))
         for problem in inertia_notes(found):
@@ -247,7 +247,7 @@ class _Reader:
     def mesh(self, element: Element) -> Mesh:
         filename = element.attribute("filename")
         words = element.get("scale", "1 1 1")
-        scale = element.floats(words, None, "scale", most=FARTHEST)
+        scale = element.floats(words, None, "scale", most=MAX_LENGTH_M)
         if len(scale) == 1:
             scale *= 3
         if len(scale) != 3 or 0 in scale:
@@ -346,7 +346,7 @@ class _Reader:
         found = element.find("axis")
         if found is None:
             return (1.0, 0.0, 0.0)
-        x, y, z = found.numbers("xyz", 3, (1.0, 0.0, 0.0), most=FARTHEST)
+        x, y, z = found.numbers("xyz", 3, (1.0, 0.0, 0.0), most=MAX_LENGTH_M)
         length = math.sqrt(x * x + y * y + z * z)
         if not 1e-9 < length < math.inf:
             what = f"the axis of the joint {element.get('name')!r} has no direction: {found.get('xyz')!r}"
@@ -385,18 +385,18 @@ class _Reader:
         if found is None:
             return Origin()
         nothing = (0.0, 0.0, 0.0)
-        x, y, z = found.numbers("xyz", 3, nothing, most=FARTHEST)
-        roll, pitch, yaw = found.numbers("rpy", 3, nothing, most=FARTHEST)
+        x, y, z = found.numbers("xyz", 3, nothing, most=MAX_LENGTH_M)
+        roll, pitch, yaw = found.numbers("rpy", 3, nothing, most=MAX_LENGTH_M)
         return Origin((x, y, z), (roll, pitch, yaw))
 
     def vector(self, element: Element, name: str, *, positive: bool = False) -> Vector:
-        x, y, z = element.numbers(name, 3, most=FARTHEST)
+        x, y, z = element.numbers(name, 3, most=MAX_LENGTH_M)
         if positive and min(x, y, z) <= 0:
             raise element.error(f"{name} of <{element.tag}> takes numbers above 0, not {element.get(name)!r}")
         return (x, y, z)
 
     def positive(self, element: Element, name: str) -> float:
-        value = element.number(name, most=FARTHEST)
+        value = element.number(name, most=MAX_LENGTH_M)
         if value <= 0:
             raise element.error(f"{name} of <{element.tag}> is above 0, not {element.get(name)!r}")
         return value

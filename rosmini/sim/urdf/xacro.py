@@ -33,7 +33,7 @@ UNCONFINED = (
     "to run any Python code on this computer, add --unconfined to the command, or confined=False to the call"
 )
 
-MOST_MACROS = 5
+MAX_MACROS = 5
 """Maximum number of nested macros in an error message."""
 
 SHOWN = 1000
@@ -117,7 +117,7 @@ def _process(
             line = _line(error, [*stack, *known])
             macros = [each.body.getAttribute("name") for each in reversed(xacro.macrostack or [])]
             line = line or _call(message, macros, known)
-            told = [*macros[:MOST_MACROS], *(["..."] if len(macros) > MOST_MACROS else [])]
+            told = [*macros[:MAX_MACROS], *(["..."] if len(macros) > MAX_MACROS else [])]
             inside = f" (in the macro {', called by '.join(told)})" if macros else ""
             raise UrdfError(message + inside, *(line or (where, None))) from error
     return document

@@ -26,7 +26,7 @@ Velocity = tuple[float, float]
 RECORD = 5
 """Number of intervals whose median is the typical time between two commands."""
 
-PATIENCE, LONGEST = 3.0, 0.5
+PATIENCE, MAX_SILENCE_S = 3.0, 0.5
 """An input has ended after this many typical intervals, and after this many seconds at the latest."""
 
 TRUST = (0.2, 2.0)
@@ -135,7 +135,7 @@ class VelocitySmoother:
         Call it every `period`.
         """
         silence, typical = now - self._heard, self._typical
-        if self.active and typical > 0 and silence > min(PATIENCE * typical, LONGEST):
+        if self.active and typical > 0 and silence > min(PATIENCE * typical, MAX_SILENCE_S):
             self.active = False
             self.target = (0.0, 0.0)
         if self.feedback != "none" and self.active and typical > 0:

@@ -30,7 +30,7 @@ NARROWEST = 2.0
 HEIGHT = 0.6
 COLOURS = ("blue", "orange", "green", "vermilion", "sky")
 TRIES = 400
-MOST = 10_000
+MAX_COUNT = 10_000
 """Maximum number of objects of a kind, and maximum size of the floor [m]."""
 
 
@@ -73,16 +73,16 @@ def random_world(
 
 
 def _check(size: tuple[float, float], **counts: int) -> None:
-    if len(size) != 2 or not all(is_finite(side) and NARROWEST <= side <= MOST for side in size):
+    if len(size) != 2 or not all(is_finite(side) and NARROWEST <= side <= MAX_COUNT for side in size):
         raise WorldError(
-            f"size is {shown(size)}; it must be a length and a width of {NARROWEST:g} m to {MOST} m"
+            f"size is {shown(size)}; it must be a length and a width of {NARROWEST:g} m to {MAX_COUNT} m"
         )
     for name, value in counts.items():
         least = 1 if name in ("rooms", "starts") else 0
         if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
             raise WorldError(f"{name} is {shown(value)}; it must be a whole number, {least} or more")
-        if name != "seed" and value > MOST:
-            raise WorldError(f"{name} is {value}; it must be {MOST} or less")
+        if name != "seed" and value > MAX_COUNT:
+            raise WorldError(f"{name} is {value}; it must be {MAX_COUNT} or less")
 
 
 Floats = NDArray[np.float64]

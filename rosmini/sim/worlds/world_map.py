@@ -15,7 +15,7 @@ from rosmini.sim.world import Pose, World, WorldError
 
 MARGIN = 5
 """Number of cells that a map extends beyond the bounds of its world."""
-MOST = 100_000_000
+MAX_CELLS = 100_000_000
 """Maximum number of cells."""
 
 Floats = NDArray[np.float64]
@@ -35,7 +35,7 @@ def to_map(world: World, resolution: float = 0.05, *, height: float = 0.15) -> G
     x0, y0, x1, y1 = world.bounds
     left, low = (np.floor(edge / resolution) - MARGIN for edge in (x0, y0))
     columns, rows = (int(np.ceil(far / resolution) - near) + MARGIN for far, near in ((x1, left), (y1, low)))
-    if columns * rows > MOST:
+    if columns * rows > MAX_CELLS:
         raise WorldError(
             f"a map of {world.name!r} with cells of {resolution:g} m has {columns} x {rows} cells, which is too many"
         )

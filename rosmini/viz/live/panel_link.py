@@ -86,10 +86,10 @@ class PanelLink(PageLink):
             return
         if now - self._heard > LEFT_S:
             return
-        is_due = at_once or now - self._last_sent >= 0.9 * self.panel.look_s  # timers may be early
+        is_due = at_once or now - self._last_sent >= 0.9 * self.panel.update_interval_s  # timers may be early
         if is_due and (not self._unseen or now - self._last_sent > LEFT_S):
             self._show(now)
-        wait = max(self.panel.look_s, REST * (self._clock() - now))
+        wait = max(self.panel.update_interval_s, REST * (self._clock() - now))
         scheduler = self.panel.graph.scheduler
         self._cancel = scheduler.call_at(scheduler.now_ns() + round(wait * 1e9), self._due).cancel
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 TIMES = {"time": Time, "duration": Duration}
 
-DEEPEST = 12
+MAX_DEPTH = 12
 """Maximum depth of nested messages shown."""
 
 
@@ -127,7 +127,7 @@ def walk(message: Any, path: str = "", depth: int = 0) -> Iterator[tuple[str, st
         value = getattr(message, name)
         here = f"{path}/{name}" if path else name
         yield here, kind, value
-        if isinstance(value, Message) and depth < DEEPEST:
+        if isinstance(value, Message) and depth < MAX_DEPTH:
             yield from walk(value, here, depth + 1)
 
 

@@ -115,7 +115,7 @@ def _advice(names: Collection[str], topics: str) -> str:
     )
 
 
-LOOK_S = 1.0
+POLL_PERIOD_S = 1.0
 """Interval between requests to the Master and the nodes [s]."""
 MODES = ("nodes_only", "nodes_topics_active", "nodes_topics_all")
 """The modes in the order of rqt_graph's setting."""
@@ -241,7 +241,7 @@ class NodeGraph(Panel):
     def picture(self) -> Picture:
         """Return the drawing; a highlight of a node or topic that has gone is removed."""
         now = self.graph.now().to_sec()
-        if self._asked is None or abs(now - self._asked) >= LOOK_S:
+        if self._asked is None or abs(now - self._asked) >= POLL_PERIOD_S:
             self.refresh()
         key = (self._state, tuple(sorted(self.options.items())))
         if self._picture is None or self._picture[0] != key:

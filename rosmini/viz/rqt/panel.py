@@ -50,7 +50,7 @@ class Panel(Plugin, LiveView):
 
     """
 
-    look_s: ClassVar[float] = 0.2
+    update_interval_s: ClassVar[float] = 0.2
     """Interval between updates of its page [s]."""
 
     def __init__(self, graph: Graph, *, name: str | None = None, node: Node | None = None) -> None:

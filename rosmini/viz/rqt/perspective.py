@@ -15,11 +15,11 @@ from typing import Any
 from rosmini.core import files
 from rosmini.viz.view import ViewError
 
-LARGEST = 4_000_000
+MAX_FILE_LENGTH = 4_000_000
 """Maximum number of characters in a file."""
-LONGEST = 100_000
+MAX_LITERAL_LENGTH = 100_000
 """Maximum number of characters in a literal."""
-MOST = 100
+MAX_PLUGINS = 100
 """Maximum number of running plugins."""
 
 
@@ -53,7 +53,7 @@ class Perspective:
     def read(cls, path: str | Path) -> Perspective:
         """Read a file. Raises ``ViewError`` with its name."""
         try:
-            text = files.read(path, 4 * LARGEST).decode("utf-8")
+            text = files.read(path, 4 * MAX_FILE_LENGTH).decode("utf-8")
         except (OSError, UnicodeDecodeError) as error:
             raise ViewError(f"{path} cannot be read: {error}") from error
         try:
@@ -64,8 +64,8 @@ class Perspective:
     @classmethod
     def parse(cls, text: str) -> Perspective:
         """Read the text of a file. Raises ``ViewError`` if it is not a perspective."""
-        if len(text) > LARGEST:
-            raise ViewError(f"a perspective has at most {LARGEST} characters")
+        if len(text) > MAX_FILE_LENGTH:
+            raise ViewError(f"a perspective has at most {MAX_FILE_LENGTH} characters")
         try:
             found = json.loads(text)
         except (ValueError, RecursionError) as error:
@@ -82,8 +82,8 @@ class Perspective:
             for number in (numbers if isinstance(numbers, list | tuple) else ())
             if isinstance(number, int)
         ]
-        if len(running) > MOST:
-            raise ViewError(f"it runs {len(running)} plugins; {MOST} are allowed")
+        if len(running) > MAX_PLUGINS:
+            raise ViewError(f"it runs {len(running)} plugins; {MAX_PLUGINS} are allowed")
         return cls(tuple(running), _group(found, "mainwindow") or _no_group())
 
     def dumps(self) -> str:
@@ -136,7 +136,7 @@ def _literal(value: Any) -> Any:
 
 def literal(text: object) -> Any:
     """Return the value of a literal; None for any other text."""
-    if not isinstance(text, str) or len(text) > LONGEST:
+    if not isinstance(text, str) or len(text) > MAX_LITERAL_LENGTH:
         return None
     try:
         return ast.literal_eval(text)

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
     from .parts import Part
 
-LONGEST = 60
+MAX_LENGTH = 60
 """Maximum number of characters of a value."""
-MOST_ELEMENTS = 5
+MAX_ELEMENTS = 5
 """Maximum number of elements of an array of messages."""
 WINDOW, LONG_WINDOW = 100, 10_000
 """Number of messages from which a panel and a still compute rate and bandwidth."""
@@ -100,7 +100,7 @@ def fields_of(message: Any, depth: int = 1) -> Iterator[tuple[int, str, str, str
             yield from fields_of(value, depth + 1)
         elif isinstance(value, list | tuple) and value and isinstance(value[0], Message):
             yield depth, name, kind, plural(len(value), "element")
-            for number, one in enumerate(value[:MOST_ELEMENTS]):
+            for number, one in enumerate(value[:MAX_ELEMENTS]):
                 yield depth + 1, f"[{number}]", kind.partition("[")[0], ""
                 yield from fields_of(one, depth + 2)
         else:
@@ -113,11 +113,11 @@ def value_text(value: Any) -> str:
         return f"{value.to_sec():.3f}"
     if isinstance(value, float):
         return f"{value:.4g}"
-    if isinstance(value, list | tuple | bytes) and len(value) > MOST_ELEMENTS:
-        head = ", ".join(value_text(one) for one in value[:MOST_ELEMENTS])
+    if isinstance(value, list | tuple | bytes) and len(value) > MAX_ELEMENTS:
+        head = ", ".join(value_text(one) for one in value[:MAX_ELEMENTS])
         return f"({head}, ...), {len(value)} elements"
     text = repr(value) if isinstance(value, str | bytes) else str(value)
-    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
+    return text if len(text) <= MAX_LENGTH else f"{text[: MAX_LENGTH - 3]}..."
 
 
 FIGURES_S = 1.0

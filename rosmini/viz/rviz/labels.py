@@ -11,7 +11,7 @@ from rosmini.viz.rounding import snap
 from .primitives import Text
 from .projection import Projection
 
-SMALLEST, LARGEST = 10.0, 15.0
+MIN_FONT_SIZE, MAX_FONT_SIZE = 10.0, 15.0
 """Limits of the font size [px]."""
 MAX_LABELS = 300
 MAX_SHIFTS = 3
@@ -47,7 +47,7 @@ def place_labels(words: Sequence[Text], projection: Projection, shifts: int = MA
         x, y = projection.pixels(text.position[None])[0].tolist()
         if not (0 <= x <= projection.width and 0 <= y <= projection.height):
             continue
-        size = min(max(float(snap(1.4 * text.height * projection.scale, 0.1)), SMALLEST), LARGEST)
+        size = min(max(float(snap(1.4 * text.height * projection.scale, 0.1)), MIN_FONT_SIZE), MAX_FONT_SIZE)
         label = Label(text, x, y + size, size)
         for _ in range(shifts):
             if _overlapped(label, found) is None:

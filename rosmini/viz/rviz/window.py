@@ -79,7 +79,7 @@ class RVizWindow(Panel):
     tool: ClassVar[str] = "rviz"
     heading: ClassVar[str] = "RViz"
     plugin: ClassVar[str] = "rqt_rviz/RViz"
-    look_s: ClassVar[float] = 1 / 30
+    update_interval_s: ClassVar[float] = 1 / 30
 
     def __init__(
         self, graph: Graph, config: Config | str | Path | None = None, *, fixed_frame: str | None = None,

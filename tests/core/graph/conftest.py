@@ -58,7 +58,7 @@ def until(graph: Graph, condition: Callable[[], object]) -> None:
 
 def settle(graph: Graph) -> None:
     """Drive the graph until nothing is under way on any wire and a moment has passed."""
-    has_network = any(way.protocol == "TCPROS" for way in graph.transport.ways)
+    has_network = any(way.protocol == "TCPROS" for way in graph.transport.transports)
     for _ in range(3):
         until(graph, lambda: not graph.scheduler._holds and not (has_network and is_under_way(graph)))
         graph.run(0.5)

@@ -371,5 +371,5 @@ def test_a_loop_that_cannot_keep_its_rate_lets_the_others_run(graph: Graph) -> N
     until(graph, lambda: lane.idle)
     settle(graph)
     assert heard == ["0", "1", "2", "3", "4"]
-    if isinstance(graph.transport.ways[0], LocalTransport):  # on the other the bytes are still under way
+    if isinstance(graph.transport.transports[0], LocalTransport):  # on the other the bytes are under way
         assert counts == [1, 2, 3, 4, 5]

@@ -360,9 +360,9 @@ def test_an_interrupt_that_ends_nothing_says_what_it_waits_for(
 
     def heard() -> None:
         os.kill(os.getpid(), signal.SIGINT)
-        teller = scheduler._interrupts._told
-        assert teller is not None
-        teller.join(60)
+        timer = scheduler._interrupts._report_timer
+        assert timer is not None
+        timer.join(60)
 
     scheduler.spawn("/listener <- /chatter", heard)
     with pytest.raises(KeyboardInterrupt):

@@ -96,7 +96,7 @@ def test_bad_arguments_get_code_minus_1_as_from_rospy(talking: Graph) -> None:
 
 
 def test_the_bus_lists_each_connection(talking: Graph) -> None:
-    protocol = talking.transport.ways[0].protocol
+    protocol = talking.transport.transports[0].protocol
     code, status, rows = call(talking, "/talker", "getBusInfo")
     assert (code, status) == (1, "bus info")
     assert [row[1:6] for row in rows if row[4] == "/chatter"] == [
@@ -111,12 +111,12 @@ def test_the_bus_lists_each_connection(talking: Graph) -> None:
     assert (sent, connected, dropped) == (1, True, 0)
     assert isinstance(number, int)
     ((topic, links),) = call(talking, "/listener", "getBusStats")[2][1]
-    on_a_wire = isinstance(talking.transport.ways[0], TcpTransport)
+    on_a_wire = isinstance(talking.transport.transports[0], TcpTransport)
     assert (topic, [link[1:] for link in links]) == ("/chatter", [[9 if on_a_wire else 0, 0, True]])
 
 
 def test_an_unknown_method_and_wrong_arguments_are_answered_with_an_error(talking: Graph) -> None:
-    if isinstance(talking.transport.ways[0], TcpTransport):  # as rospy: a fault of XML-RPC
+    if isinstance(talking.transport.transports[0], TcpTransport):  # as rospy: a fault of XML-RPC
         with pytest.raises(XmlRpcFault, match='method "bogus" is not supported'):
             call(talking, "/talker", "bogus")
     else:

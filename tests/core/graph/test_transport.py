@@ -30,7 +30,7 @@ def graph() -> Iterator[Graph]:
 def elsewhere(graph: Graph, name: str) -> Any:
     """A node as if it were in another process: the first transport does not know it."""
     node = graph.node(name)
-    graph.transport.ways[0].detach(node.uri)
+    graph.transport.transports[0].detach(node.uri)
     return node
 
 
@@ -77,7 +77,7 @@ def test_a_transport_that_raises_costs_one_connection_and_one_warning(
     publisher = talker.publisher("chatter", String)
     graph.run(1.0)
     if when == "connect":
-        wire = graph.transport.ways[0]._endpoints[talker.uri][1]  # type: ignore[attr-defined]
+        wire = graph.transport.transports[0]._endpoints[talker.uri][1]  # type: ignore[attr-defined]
         carry = wire.carry
 
         def fail_once(_: Any, failed: Any) -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from rosmini.core.dynamic_reconfigure import Description
 from rosmini.core.errors import DefinitionError
-from rosmini.ros.catkin.cfg_file import LARGEST, CfgFile, read_cfg
+from rosmini.ros.catkin.cfg_file import MAX_BYTES, CfgFile, read_cfg
 
 HEAD = """#!/usr/bin/env python3
 PACKAGE = "robot"
@@ -199,7 +199,7 @@ def test_what_is_wrong_is_told_with_its_line(text: str, message: str) -> None:
          "more than 2000 parameters, groups and constants"),
         (HEAD + 't = "a" * 900000\n' + "".join(
             f'gen.add("x{number}", str_t, 0, t)\n' for number in range(9)), None, "too many steps"),
-        ("#" * (LARGEST + 1), None, "cannot be read"),
+        ("#" * (MAX_BYTES + 1), None, "cannot be read"),
     ],
 )  # fmt: skip
 def test_files_that_are_wrong_as_a_whole(text: str, line: int | None, message: str) -> None:

@@ -83,7 +83,7 @@ HOSTILE = [
 
 @pytest.mark.parametrize(("body", "says"), HOSTILE, ids=[says for _, says in HOSTILE])
 def test_what_no_ros_program_answers(body: bytes, says: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(direct, "LONGEST", 1000)
+    monkeypatch.setattr(direct, "MAX_BYTES", 1000)
     with answering(lambda _: body) as uri:
         with pytest.raises(TransportException, match=says):
             DirectWire(uri).call(uri, "getPid", "/me")

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from rosmini.core.packages import PackageIndex
 from rosmini.ros.launch import LaunchError, Plan, find_file, read
-from rosmini.ros.launch.nodes import MOST_RETRIES
+from rosmini.ros.launch.nodes import MAX_RETRIES
 
 SHAPES = Path(__file__).parent / "data" / "shapes"
 
@@ -231,7 +231,7 @@ def test_an_argument_that_is_put_in_many_times_does_not_fill_the_memory(inside: 
 
 def test_a_number_of_retries_of_any_length_is_read() -> None:
     plan = plan_of(f'<test pkg="p" type="t" test-name="n" retry="{"9" * 5000}"/>')
-    assert plan.tests[0].retry == MOST_RETRIES
+    assert plan.tests[0].retry == MAX_RETRIES
 
 
 def test_entities_are_refused() -> None:

@@ -12,7 +12,7 @@ import pytest
 
 from rosmini.core.graph import Graph
 from rosmini.core.graph.headers import encode_header
-from rosmini.core.graph.subscription import LONGEST_RETRY_S, RETRY_S
+from rosmini.core.graph.subscription import MAX_RETRY_S, RETRY_S
 from rosmini.msgs.std_msgs.msg import Empty, String
 from rosmini.ros.net import tcp_transport, xmlrpc_client
 from rosmini.ros.net.network import network_of
@@ -118,7 +118,7 @@ def test_garbage_is_told_once_and_tried_again_ever_more_seldom(
         graph.nodes["/victim"].shutdown()
         assert not subscriber.num_connections()
     assert delays[:2] == [0.0, RETRY_S]
-    assert delays[-1] == LONGEST_RETRY_S
+    assert delays[-1] == MAX_RETRY_S
     assert delays == sorted(delays)
     lines = [line for line in capsys.readouterr().err.splitlines() if "WARN" in line]
     assert len(lines) == 1, lines

@@ -134,7 +134,7 @@ def several(port: int, count: int, method: str, *arguments: Any) -> list[Any]:
 def test_too_many_calls_at_once_are_a_fault_and_none_is_made(
     io: IoThread, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(master_server, "MOST_CALLS", 5)
+    monkeypatch.setattr(master_server, "MAX_CALLS", 5)
     calls: list[str] = []
     with Graph(rosout=False) as graph:
         server = MasterServer(
@@ -151,7 +151,7 @@ def test_calls_end_where_their_answers_exceed_the_limit(
     io: IoThread, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """So a short request for a large parameter, a thousand times, costs no more than the limit."""
-    monkeypatch.setattr(master_server, "MOST_BYTES", 100_000)
+    monkeypatch.setattr(master_server, "MAX_BYTES", 100_000)
     calls: list[str] = []
     with Graph(rosout=False) as graph:
         master_of(graph).setParam("/test", "/large", "x" * 30_000)

@@ -42,7 +42,7 @@ def test_both_ends_of_a_connection_notice_that_the_other_host_is_gone(graph: Gra
     answers: list[object] = []
     caller.run(lambda: answers.append(client()))
     until(graph, lambda: answers, "an answer")
-    transport = graph.transport.ways[0]
+    transport = graph.transport.transports[0]
     assert isinstance(transport, TcpTransport)
     port = int(transport.service_uri(server.uri).rpartition(":")[2])
     ends = [

@@ -156,7 +156,7 @@ def test_meshes_beyond_a_limit_are_boxes(tmp_path, monkeypatch):
     )
     models = "".join(model.format(i, tmp_path / "m.stl", scale) for i, scale in enumerate((1, 1, 2)))
     document = load(f"<sdf version='1.7'><world name='w'>{models}</world></sdf>")
-    monkeypatch.setattr("rosmini.sim.sdf.solids.MOST_CUT", 1)
+    monkeypatch.setattr("rosmini.sim.sdf.solids.MAX_CUT_TRIANGLES", 1)
     world, notes = converted(document.worlds[0])
     assert [each.name.partition("::")[0] for each in world.obstacles] == ["m0", "m0", "m1", "m1", "m2"]
     assert np.ptp(world.obstacles[-1].outline(), axis=0) == pytest.approx((1, 0.6), abs=1e-6)

@@ -406,7 +406,7 @@ def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_pa
 
 
 def test_models_that_include_one_another_end(tmp_path, monkeypatch):
-    monkeypatch.setattr("rosmini.sim.sdf.parts.MOST_INCLUDED", 10_000)
+    monkeypatch.setattr("rosmini.sim.sdf.parts.MAX_INCLUDED_ELEMENTS", 10_000)
     for i in range(18):
         folder = tmp_path / f"m{i}"
         folder.mkdir()

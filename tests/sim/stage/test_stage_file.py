@@ -619,7 +619,7 @@ def test_our_own_worlds_say_nothing_odd(path: Path):
 
 
 def test_includes_that_fan_out_end(tmp_path, monkeypatch):
-    monkeypatch.setattr("rosmini.sim.stage.tokens.MOST_FILES", 100)
+    monkeypatch.setattr("rosmini.sim.stage.tokens.MAX_FILES", 100)
     for i in range(20):
         (tmp_path / f"{i}.inc").write_text(2 * f'include "{i + 1}.inc"\n', encoding="utf-8")
     (tmp_path / "20.inc").write_text("", encoding="utf-8")
@@ -664,7 +664,7 @@ def test_a_bitmap_of_too_many_pixels_is_refused_by_its_header(tmp_path):
 
 
 def test_robots_have_a_number_and_a_world_to_stand_in(tmp_path, monkeypatch):
-    monkeypatch.setattr("rosmini.sim.stage.world_file.MOST_ROBOTS", 2)
+    monkeypatch.setattr("rosmini.sim.stage.world_file.MAX_ROBOTS", 2)
     path = tmp_path / "a.world"
     path.write_text("position()\nposition()\nposition()", encoding="utf-8")
     with pytest.raises(StageError, match=r"a.world:3: there are more than 2 robots"):

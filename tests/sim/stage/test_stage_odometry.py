@@ -63,9 +63,9 @@ def test_errors_that_are_drawn_are_even_between_minus_and_plus_half(robot):
 def test_a_wrong_turn_makes_another_circle(robot):
     base = robot('localization "odom" odom_error [0.05 0 0 5.729577951308232]')
     odometry = StageOdometry(base, Fixed())
-    odometry.told((0.5, 0.0, 0.3), 1.0)
+    odometry.set_velocity((0.5, 0.0, 0.3), 1.0)
     odometry.advance(3.0)
-    odometry.told((0.0, 0.0, 0.0), 6.0)
+    odometry.set_velocity((0.0, 0.0, 0.0), 6.0)
     v, w = 0.5 * 1.05, 0.3 * 1.1
     turned = w * 5
     assert odometry.belief == pytest.approx(
@@ -77,7 +77,7 @@ def test_a_wrong_turn_makes_another_circle(robot):
 
 def test_a_way_to_the_left_is_one_to_the_left(robot):
     odometry = StageOdometry(robot('drive "omni" localization "odom" odom_error [0 0.1 0 0]'), Fixed())
-    odometry.told((0.0, 0.5, 0.0), 0.0)
+    odometry.set_velocity((0.0, 0.5, 0.0), 0.0)
     odometry.advance(2.0)
     assert odometry.belief == pytest.approx((0.0, 1.1, 0.0))
 
@@ -86,7 +86,7 @@ def test_how_often_one_asks_does_not_matter(robot):
     base = robot('drive "omni" localization "odom"')
     seldom, often = StageOdometry(base, Fixed()), StageOdometry(base, Fixed())
     for each in (seldom, often):
-        each.told((0.5, -0.2, 0.7), 0.0)
+        each.set_velocity((0.5, -0.2, 0.7), 0.0)
     seldom.advance(4.0)
     for now in np.linspace(0.0, 4.0, 1000):
         often.advance(float(now))

@@ -304,7 +304,7 @@ def test_whatever_name_is_asked_for_the_simulation_goes_on(sim: TurtleSim, name:
 
 
 def test_so_many_turtles_and_no_more(sim: TurtleSim, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(frame, "MOST_TURTLES", 100)  # 1,000 take twenty seconds
+    monkeypatch.setattr(frame, "MAX_TURTLES", 100)  # 1,000 take twenty seconds
     for _ in range(99):
         call(sim, "/spawn", "turtlesim/Spawn", 1.0, 1.0, 0.0, "")
     with pytest.raises(ServiceException, match="no window has more"):

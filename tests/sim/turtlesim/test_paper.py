@@ -132,7 +132,7 @@ def test_strokes_since_a_number() -> None:
 
 
 def test_old_strokes_stay_in_the_image_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "MOST_STROKES", 10)
+    monkeypatch.setattr(module, "MAX_STROKES", 10)
     paper = Paper()
     for index in range(25):
         paper.line((10.0 * index, 10.0), (10.0 * index, 10.0), RED)

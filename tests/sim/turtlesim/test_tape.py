@@ -90,7 +90,7 @@ def test_turtles_come_and_go_and_come_again() -> None:
 
 
 def test_a_full_tape_stops_and_an_empty_one_is_not_played(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "MOST_SAMPLES", 20)
+    monkeypatch.setattr(module, "MAX_SAMPLES", 20)
     played = Played()
     played.run(100, 1.0)
     assert (played.tape.is_full, played.tape.is_running) == (True, False)

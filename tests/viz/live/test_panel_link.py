@@ -77,7 +77,7 @@ def test_a_sheet_is_sent_when_something_changed_and_else_a_sign_of_life(page):
     page.run(3.0)
     assert set(page.kinds()[1:]) == {"alive"}
     page.panel.add("/x", "std_msgs/Float64")
-    page.run(2 * page.panel.look_s)
+    page.run(2 * page.panel.update_interval_s)
     assert page.kinds()[-1] == "sheet"
 
 
@@ -99,7 +99,7 @@ def test_a_panel_that_is_dear_to_draw_leaves_the_graph_most_of_its_time(page):
 
 def test_a_panel_says_how_often_it_is_looked_at(page):
     page.live()
-    page.panel.look_s = 0.05
+    page.panel.update_interval_s = 0.05
     page.panel.markup = lambda *, live: f"<p>{page.graph.now()}</p>"
     page.say("hello")
     page.run(2)
@@ -116,7 +116,7 @@ def test_a_slow_page_is_sent_no_sheet_before_it_has_answered_the_last(page):
     page.run(0.5)
     assert page.kinds() == ["sheet"]
     page.say("seen")
-    page.run(2 * page.panel.look_s)
+    page.run(2 * page.panel.update_interval_s)
     assert page.kinds() == ["sheet", "sheet"]
     page.run(4)
     assert 2 < len(page.kinds()) <= 4, "an answer that was lost does not stop the panel"

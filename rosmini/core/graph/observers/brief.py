@@ -11,10 +11,10 @@ from rosmini.core.errors import shown
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-MOST_FIELDS = 6
+MAX_FIELDS = 6
 """Maximum number of numbers and texts in a small message."""
 
-LONGEST_TEXT = 32
+MAX_TEXT_LENGTH = 32
 """Maximum number of characters of a text that are shown."""
 
 SCALARS = frozenset(["bool", "byte", "char", "float32", "float64", "string"])
@@ -45,7 +45,7 @@ def brief(kept: Values | None) -> str:
 
 
 def _short(value: Any) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else shown(value, LONGEST_TEXT)
+    return f"{value:.4g}" if isinstance(value, float) else shown(value, MAX_TEXT_LENGTH)
 
 
 @lru_cache(maxsize=1_000)
@@ -54,7 +54,7 @@ def _reader(cls: Any) -> tuple[tuple[str, ...], Callable[[Any], tuple[Any, ...]]
         names = tuple(_fields(cls))
     except _NotSmall:
         return (), None
-    if len(names) > MOST_FIELDS:
+    if len(names) > MAX_FIELDS:
         return (), None
     if not names:
         return (), lambda _: ()

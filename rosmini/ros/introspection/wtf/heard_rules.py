@@ -10,7 +10,7 @@ from .findings import Finding
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-MOST_SHOWN = 10
+MAX_SHOWN = 10
 """Maximum number of log lines shown."""
 
 OLD_NS = 10_000_000_000
@@ -153,7 +153,7 @@ def _counted(logged: Iterable[tuple[str, str]]) -> tuple[str, ...]:
         line = f"{node}: {' '.join(text.split())[:160]}"
         counts[line] = counts.get(line, 0) + 1
     shown = [line if count == 1 else f"{line} ({count} times)" for line, count in sorted(counts.items())]
-    return tuple(shown[:MOST_SHOWN])
+    return tuple(shown[:MAX_SHOWN])
 
 
 def _root(frame: str, parent: dict[str, str]) -> str:

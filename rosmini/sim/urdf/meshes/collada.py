@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.core.geometry.products import determinant, matrix_product
-from rosmini.core.markup import FARTHEST, Element
+from rosmini.core.markup import MAX_LENGTH_M, Element
 from rosmini.sim.urdf.kinematics import turn
 
 from .surface import Surface
@@ -24,16 +24,16 @@ from .surface import Surface
 Floats = NDArray[np.float64]
 Colour = tuple[float, float, float, float]
 
-DEEPEST = 50
+MAX_DEPTH = 50
 """Maximum nesting of nodes."""
 
-MOST_NODES = 10_000
+MAX_NODES = 10_000
 """Maximum number of nodes of a scene, counting each at every use."""
 
-MOST_CORNERS = 6_000_000
+MAX_CORNERS = 6_000_000
 """Maximum number of corners of all triangles together."""
 
-MOST_OFFSETS = 100
+MAX_OFFSETS = 100
 """Maximum number of indices per corner."""
 
 
@@ -52,7 +52,7 @@ class _Reader:
         self.by_id = {(each.tag, each.get("id")): each for each in root.walk() if each.get("id")}
         """By tag, too: in many files a scene and a node have the same id."""
         meter = root.find("asset/unit")
-        scale = 1.0 if meter is None else meter.number("meter", 1.0, most=FARTHEST)
+        scale = 1.0 if meter is None else meter.number("meter", 1.0, most=MAX_LENGTH_M)
         if scale <= 0:
             raise root.error(f"the unit of a mesh is more than 0 m, not {scale:g}")
         self.base = np.diag([scale, scale, scale, 1.0])
@@ -87,14 +87,14 @@ class _Reader:
 
     def node(self, node: Element, above: Floats, part: str, depth: int) -> Iterator[Surface]:
         self.nodes += 1
-        if depth > DEEPEST or self.nodes > MOST_NODES:
+        if depth > MAX_DEPTH or self.nodes > MAX_NODES:
             raise node.error("nodes of the scene hold one another without end")
         with np.errstate(over="ignore", invalid="ignore"):
             if node not in self.places:
                 self.places[node] = _transform(node)
             place = matrix_product(above, self.places[node])
             size = abs(determinant(place[:3, :3]))
-        if not np.abs(place).max() <= FARTHEST:
+        if not np.abs(place).max() <= MAX_LENGTH_M:
             raise node.error("the transforms of this node make it infinitely large")
         if not size > 0:
             return  # nothing can be seen of it, such as a viewpoint that SketchUp saves
@@ -143,8 +143,8 @@ class _Reader:
                 self.pieces[piece] = self.piece(piece)
             found, corners = self.pieces[piece]
             self.corners += corners
-            if self.corners > MOST_CORNERS:
-                raise piece.error(f"this mesh has more than {MOST_CORNERS} vertices of triangles")
+            if self.corners > MAX_CORNERS:
+                raise piece.error(f"this mesh has more than {MAX_CORNERS} vertices of triangles")
             if found is not None:
                 yield replace(found.moved(place), colour=bound.get(piece.get("material")))
 
@@ -188,7 +188,7 @@ class _Reader:
 
     def rows(self, source: Element) -> Floats:
         array = source.need("float_array")
-        values = np.array(array.floats(array.text, most=FARTHEST))
+        values = np.array(array.floats(array.text, most=MAX_LENGTH_M))
         accessor = source.find("technique_common/accessor")
         stride = 3 if accessor is None else int(accessor.number("stride", 3))
         if stride < 3 or len(values) % stride:
@@ -199,8 +199,8 @@ class _Reader:
 
 def _offset(stream: Element) -> int:
     found = stream.number("offset", 0)
-    if found not in range(MOST_OFFSETS):
-        raise stream.error(f"an offset is a whole number from 0 to {MOST_OFFSETS - 1}, not {found:g}")
+    if found not in range(MAX_OFFSETS):
+        raise stream.error(f"an offset is a whole number from 0 to {MAX_OFFSETS - 1}, not {found:g}")
     return int(found)
 
 
@@ -270,13 +270,13 @@ def _transform(node: Element) -> Floats:
     for child in node:
         own = np.eye(4)
         if child.tag == "matrix":
-            own = np.array(child.floats(child.text, 16, most=FARTHEST)).reshape(4, 4)
+            own = np.array(child.floats(child.text, 16, most=MAX_LENGTH_M)).reshape(4, 4)
         elif child.tag == "translate":
-            own[:3, 3] = child.floats(child.text, 3, most=FARTHEST)
+            own[:3, 3] = child.floats(child.text, 3, most=MAX_LENGTH_M)
         elif child.tag == "scale":
-            own[:3, :3] = np.diag(child.floats(child.text, 3, most=FARTHEST))
+            own[:3, :3] = np.diag(child.floats(child.text, 3, most=MAX_LENGTH_M))
         elif child.tag == "rotate":
-            x, y, z, degrees = child.floats(child.text, 4, most=FARTHEST)
+            x, y, z, degrees = child.floats(child.text, 4, most=MAX_LENGTH_M)
             length = math.sqrt(x * x + y * y + z * z)
             if length > 0:
                 own[:3, :3] = turn((x / length, y / length, z / length), math.radians(degrees))

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from rosmini.core import files
 from rosmini.core.errors import shown
-from rosmini.core.markup import FARTHEST, MarkupError, parse_file
+from rosmini.core.markup import MAX_LENGTH_M, MarkupError, parse_file
 
 from . import collada
 from .surface import Surface
 
 Floats = NDArray[np.float64]
 
-LONGEST_INDEX = 9
+MAX_INDEX_DIGITS = 9
 """Maximum number of digits of a vertex index."""
 
 
@@ -114,7 +114,7 @@ def _obj(file: Path, part: str) -> Floats:
         elif words[:1] in (["o"], ["g"]) and part:
             wanted = " ".join(words[1:]) == part
         elif words[:1] == ["f"] and wanted:
-            found = [re.match(rf"-?\d{{1,{LONGEST_INDEX}}}(?!\d)", word) for word in words[1:]]
+            found = [re.match(rf"-?\d{{1,{MAX_INDEX_DIGITS}}}(?!\d)", word) for word in words[1:]]
             places = [int(each[0]) if each else 0 for each in found]
             places = [place - 1 if place > 0 else len(points) + place for place in places]
             if len(places) < 3 or not all(0 <= place < len(points) for place in places):
@@ -140,8 +140,8 @@ def _three(words: list[str], file: Path, line: int) -> tuple[float, float, float
 def _finite(triangles: Floats, file: Path) -> Floats:
     if not np.isfinite(triangles).all():
         raise MeshError("a corner is not finite", file)
-    if (np.abs(triangles) > FARTHEST).any():
-        raise MeshError(f"a corner is further away than {FARTHEST:g} m", file)
+    if (np.abs(triangles) > MAX_LENGTH_M).any():
+        raise MeshError(f"a corner is further away than {MAX_LENGTH_M:g} m", file)
     return triangles
 
 

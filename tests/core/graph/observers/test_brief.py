@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.core.graph.observers.brief import LONGEST_TEXT, brief, values
+from rosmini.core.graph.observers.brief import MAX_TEXT_LENGTH, brief, values
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import Empty, Float64, Header, String
@@ -42,5 +42,5 @@ def test_what_was_kept_stays_when_the_message_changes():
 @given(st.text())
 def test_texts_are_short_and_of_one_line(text):
     shown = brief(values(String(text)))
-    assert len(shown) <= LONGEST_TEXT + 10
+    assert len(shown) <= MAX_TEXT_LENGTH + 10
     assert "\n" not in shown

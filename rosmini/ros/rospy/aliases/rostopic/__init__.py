@@ -43,7 +43,7 @@ __all__ = [
 ]
 
 NAME = "rostopic"
-LOOK_NS = 100_000_000
+POLL_PERIOD_NS = 100_000_000
 """Period at which the Master is polled for a missing topic [ns]."""
 
 Found = tuple[str, str, Callable[[Any], Any] | None] | tuple[None, None, None]
@@ -115,7 +115,7 @@ def get_topic_type(topic: str, blocking: bool = False) -> Found:
         if found is None and blocking:
             sys.stderr.write(f"WARNING: topic [{topic}] does not appear to be published yet\n")
             while found is None:
-                graph.scheduler.sleep_until(graph.scheduler.now_ns() + LOOK_NS, f"the topic {topic}")
+                graph.scheduler.sleep_until(graph.scheduler.now_ns() + POLL_PERIOD_NS, f"the topic {topic}")
                 found = topics.look_up(graph, topic)
     return (None, None, None) if found is None else (found.type, found.topic, msgevalgen(found.path))
 
