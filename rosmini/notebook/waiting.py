@@ -14,4 +14,4 @@ def wait(seconds: float) -> None:
     """
     scheduler = running_graph().scheduler
     scheduler.sleep_until(scheduler.now_ns() + span_ns(seconds, "the time to wait"))
-    scheduler.give_way()  # messages published at this moment arrive
+    scheduler.yield_to_others()  # messages published at this moment arrive

@@ -318,7 +318,7 @@ def _chosen(there: list[str], call: Call) -> str:
 
 def _settle(call: Call) -> None:
     """Let nodes of this process carry out the request."""
-    settle: Any = getattr(call.peers.scheduler, "give_way", None)
+    settle: Any = getattr(call.peers.scheduler, "yield_to_others", None)
     if settle is not None:
         settle()
 

@@ -46,11 +46,11 @@ def inside(points: Floats, sides: Floats) -> Bools:
 
 def distances(points: Floats, sides: Floats) -> Floats:
     """Return the distance [m] from each of the points (n, 2) to the nearest of `sides` (m, 4); inf without sides."""
-    nearest: Floats = each_distance(points, sides).min(axis=1, initial=np.inf)
+    nearest: Floats = distances_to_sides(points, sides).min(axis=1, initial=np.inf)
     return nearest
 
 
-def each_distance(points: Floats, sides: Floats) -> Floats:
+def distances_to_sides(points: Floats, sides: Floats) -> Floats:
     """Return the distance [m] from each of the points (n, 2) to each of `sides` (m, 4), as (n, m)."""
     begin, direction = sides[:, :2], sides[:, 2:] - sides[:, :2]
     squares = (direction * direction).sum(axis=1)

@@ -245,7 +245,7 @@ class EventQueue:
         with self._hold_lock:
             self._remote_waits += change
 
-    def quiet(self) -> bool:
+    def is_idle(self) -> bool:
         """Return True if no event is due now."""
         due = self._timed.next_ns()
         return (
@@ -277,7 +277,7 @@ class EventQueue:
         self.ready.extend(self._last)
         self._last.clear()
 
-    def _creep(self) -> None:
+    def _force_time_forward(self) -> None:
         """Advance simulated time although the events of this instant never end."""
         due, soon = self._timed.next_ns(), self._now + TICK_QUANTUM_NS
         self._now = soon if due is None else min(soon, max(due, self._now))

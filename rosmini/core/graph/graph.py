@@ -15,7 +15,7 @@ from rosmini.core.time import Time
 from rosmini.msgs import message_class
 
 from .event_queue import span_ns
-from .live import Errand, LiveDrive
+from .live import DriveForBlockedCall, LiveDrive
 from .local_transport import LocalTransport
 from .log_file import log_folder
 from .master import Master
@@ -125,7 +125,7 @@ class Graph:
         """The folder of the log files, or None."""
         self.scheduler.graph = self
         if self.notebook:
-            self.scheduler.ask_driver = self._run_errand
+            self.scheduler.ask_driver = self._drive_for_blocked_call
         self._nodes_started = 0
         self._online: Any = None
         self._recordings = 0
@@ -334,8 +334,8 @@ class Graph:
         if online is not None:
             self.scheduler.run_in_scheduler(online.end)
 
-    def _run_errand(self, waiter: Waiter) -> Callable[[], None]:
-        return Errand(self, waiter).complain
+    def _drive_for_blocked_call(self, waiter: Waiter) -> Callable[[], None]:
+        return DriveForBlockedCall(self, waiter).complain
 
     def shutdown(self, reason: str = "") -> None:
         """Shut every node down, newest first, and end all calls that still block.

@@ -64,12 +64,12 @@ class LoopDrive(ABC):
             self.running = False
             self._loop.call_soon_threadsafe(self._let_go)
 
-    def over(self) -> bool:
+    def is_finished(self) -> bool:
         """Return True if there is no reason to drive any longer."""
         return not self.running
 
     def _step(self) -> None:
-        if self.over():
+        if self.is_finished():
             self.stop()
             return
         self._catch_interrupts()
@@ -98,7 +98,7 @@ class LoopDrive(ABC):
         deadline = time.perf_counter() + BUDGET_S
         scheduler = self.graph.scheduler
         if not scheduler.simulated:
-            until_ns, until = scheduler.now_ns() + int(BUDGET_S * scheduler.rate * 1e9), scheduler.quiet
+            until_ns, until = scheduler.now_ns() + int(BUDGET_S * scheduler.rate * 1e9), scheduler.is_idle
         return scheduler.run(
             until_ns, lambda: time.perf_counter() > deadline or (until is not None and until())
         ).reason
@@ -187,7 +187,7 @@ class LiveDrive(LoopDrive):
             self._kernel.showtraceback((type(error), error, error.__traceback__))
 
 
-class Errand(LoopDrive):
+class DriveForBlockedCall(LoopDrive):
     """Drives ``graph`` in the kernel's main thread for a call blocked in another thread, unless already driven."""
 
     def __init__(self, graph: Graph, waiter: Waiter) -> None:
@@ -201,7 +201,7 @@ class Errand(LoopDrive):
             raise RosminiError(msg)
         super().__init__(graph, kernel_loop())
 
-    def over(self) -> bool:
+    def is_finished(self) -> bool:
         """Return True if the other thread's call has ended."""
         return self._waiter.settled
 
@@ -218,7 +218,7 @@ class Errand(LoopDrive):
         self._begun = True
         if self.graph.is_live:
             return SLICE_S
-        if self._drive(until=self.over) == "drained" and not self.over():
+        if self._drive(until=self.is_finished) == "drained" and not self.is_finished():
             self._waiter.fail(ended(self._waiter.reason, self.graph.scheduler.waiting()))
         return 0 if self.graph.simulated else SLICE_S
 

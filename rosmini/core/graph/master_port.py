@@ -90,16 +90,16 @@ class MasterProxy:
     """The Master as seen by one caller.
 
     Its calls reach the Master one after another, in the order in which they were made. ``caller_id`` is the name of the
-    node or the tool. ``why_over`` returns the reason not to retry a registration, or None.
+    node or the tool. ``stop_reason`` returns the reason not to retry a registration, or None.
     """
 
     def __init__(
-        self, graph: Graph, caller_id: str, why_over: Callable[[], str | None] = lambda: None
+        self, graph: Graph, caller_id: str, stop_reason: Callable[[], str | None] = lambda: None
     ) -> None:
         self._graph = graph
         self._caller_id = caller_id
-        self._why_over = why_over
-        self.is_mute = False
+        self._stop_reason = stop_reason
+        self.skips_unregister = False
         """True if the caller was killed, so that :meth:`unregister` has no effect."""
         self._has_registered = False
         self._lock = threading.Lock()
@@ -107,7 +107,7 @@ class MasterProxy:
         self._queue: deque[Waiter] = deque()
         self._moved: dict[str, str] = {}
 
-    def moved(self, addresses: Mapping[str, str]) -> None:
+    def update_addresses(self, addresses: Mapping[str, str]) -> None:
         """Replace old addresses of the caller by new ones in calls that still wait for the Master.
 
         Otherwise the Master would see another node of the same name and would shut this one down.
@@ -171,9 +171,9 @@ class MasterProxy:
                 except MasterUnreachable as error:
                     if not port.keeps_trying:
                         raise
-                    over = self._why_over()
-                    if over is not None:
-                        raise ROSInterruptException(over) from error
+                    reason = self._stop_reason()
+                    if reason is not None:
+                        raise ROSInterruptException(reason) from error
                     silence = str(error)
                 warn(
                     f"Unable to register with master node [{self._graph.master.uri}]: "
@@ -194,7 +194,7 @@ class MasterProxy:
 
         It is not an error if the Master has forgotten the registration.
         """
-        if self.is_mute:
+        if self.skips_unregister:
             return
         port = self._graph.master
         if port.is_local:

@@ -102,7 +102,7 @@ class Node:
         if anonymous and remappings.node_name is None:
             base = graph.anonymous_name(base)
         self.name = resolve(base, self.namespace)
-        self.master = MasterProxy(graph, self.name, self._why_over)
+        self.master = MasterProxy(graph, self.name, self._stop_reason)
         self.shutdown_reason: str | None = None
         self.is_registered = False
         """True once the node has registered at the Master."""
@@ -463,7 +463,7 @@ class Node:
     def sleep_ns(self, span: int) -> None:
         """Block for nanoseconds of the node's time; see :meth:`sleep`."""
         if span <= 0 and not self._stopped:
-            self.scheduler.give_way()  # a loop that cannot keep its rate must not block the other lanes
+            self.scheduler.yield_to_others()  # a loop that cannot keep its rate must not block the other lanes
         if self._stopped:
             self._refuse_to_block()
         if span <= 0:
@@ -676,9 +676,9 @@ class Node:
         """
         self.scheduler.run_in_scheduler(lambda: self._shutdown(reason, hooks=hooks))
 
-    def vanish(self) -> None:
+    def kill(self) -> None:
         """End like a killed process: no hook runs, and the Master is not notified."""
-        self.master.is_mute = True
+        self.master.skips_unregister = True
         if self.process is not None:
             self.scheduler.run_in_scheduler(self.process.kill)
         self.shutdown("it was killed", hooks=False)
@@ -752,7 +752,7 @@ class Node:
         """Return True if the node has been shut down."""
         return self._stopped
 
-    def _why_over(self) -> str | None:
+    def _stop_reason(self) -> str | None:
         return self._shutdown_message() if self._stopped else None
 
     def _shutdown_message(self) -> str:

@@ -73,11 +73,11 @@ class CellOutput:
         self._context = contextvars.copy_context()
         self._context.run(_cell.set, self._parent)
 
-    def lend(self, worker: greenlet) -> None:
+    def use_driver_context(self, worker: greenlet) -> None:
         """Give a copy of the driver's context to an idle worker greenlet before it continues."""
         worker.gr_context = self._context.copy()
 
-    def arrive(self) -> None:
+    def redirect_to_driving_cell(self) -> None:
         """Continue in a lane that was parked: its output now belongs to the driving cell."""
         if _cell.get() is not self._parent:
             _cell.set(self._parent)

@@ -190,12 +190,12 @@ class Scheduler(EventQueue):
         if self.simulated:
             self.sleep_until(self._now + TICK_QUANTUM_NS, "its turn in a polling loop")
         else:
-            self.give_way()
+            self.yield_to_others()
         self._turns, self._charged = turns, charged
         if self.simulated and charged >= POLLING_TICKS and context is not None:
             context.keeps_polling()
 
-    def give_way(self) -> None:
+    def yield_to_others(self) -> None:
         """Let all other due events and lanes run before the caller continues. No effect in another thread."""
         if self.is_scheduler_thread():
             waiter = Waiter(self, "its turn")
@@ -263,7 +263,7 @@ class Scheduler(EventQueue):
         try:
             worker = self._idle.pop() if self._idle else self._new_worker()
             if self._output is not None:
-                self._output.lend(worker)
+                self._output.use_driver_context(worker)
             worker.switch(self._run_events)
         finally:
             del self._parked[waiter]
@@ -274,7 +274,7 @@ class Scheduler(EventQueue):
             if lane is self.root:
                 self._end_drive()
             elif self._output is not None:
-                self._output.arrive()
+                self._output.redirect_to_driving_cell()
         if lane is self.root and self._interrupts.take():
             raise self._interruption()
         return True
@@ -484,7 +484,7 @@ class Scheduler(EventQueue):
                     if heap and (not simulated or heap[0][0] <= self._now):
                         self._take_due()
                     if self._rounds > ROUNDS_PER_INSTANT and simulated:
-                        self._creep()
+                        self._force_time_forward()
                     if not ready:
                         self._advance()
                     self._left = len(ready)

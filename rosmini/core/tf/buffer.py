@@ -9,7 +9,7 @@ from rosmini.core.errors import ROSInterruptException
 from rosmini.core.time import Duration, Time
 
 from .errors import TransformException
-from .messages import from_transform, moved, to_stamped
+from .messages import from_transform, to_stamped, transformed
 from .rigid import Floats, transform_points
 from .tree import CACHE_NS, FrameTree
 from .wording import draw
@@ -284,7 +284,7 @@ class Buffer(BufferCore):
         """Return a stamped point, vector, pose, quaternion or cloud in another frame, at the time of its header."""
         header = object_stamped.header
         found = self.lookup_transform(target_frame, header.frame_id.lstrip("/"), header.stamp, timeout)
-        return moved(object_stamped, found, self._warn_once)
+        return transformed(object_stamped, found, self._warn_once)
 
     def transform_full(
         self,
@@ -299,7 +299,7 @@ class Buffer(BufferCore):
         found = self.lookup_transform_full(
             target_frame, target_time, header.frame_id.lstrip("/"), header.stamp, fixed_frame, timeout
         )
-        return moved(object_stamped, found, self._warn_once)
+        return transformed(object_stamped, found, self._warn_once)
 
     def transform_points(
         self, points: Any, target_frame: str, source_frame: str, time: Time = LATEST

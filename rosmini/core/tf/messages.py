@@ -173,7 +173,7 @@ ROTATIONS: dict[str, Callable[[Any], Any]] = {
 """Functions that return the quaternion of a message, by type."""
 
 
-def moved(message: Any, stamped: Any, warn: Callable[[str], object] = lambda _text: None) -> Any:
+def transformed(message: Any, stamped: Any, warn: Callable[[str], object] = lambda _text: None) -> Any:
     """Return a copy of a message in another frame; `stamped` is the `TransformStamped` of its frame in that frame.
 
     The copy has the header of `stamped`. A quaternion of length 0, as in a new `PoseStamped`, counts as no

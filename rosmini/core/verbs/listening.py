@@ -38,7 +38,7 @@ class Span(NamedTuple):
                 due += period_ns
                 clock.sleep_until(due if self.end_ns is None else min(due, self.end_ns))
                 if self.end_ns is None or due <= self.end_ns:
-                    clock.give_way()  # deliver messages published at this time
+                    clock.yield_to_others()  # deliver messages published at this time
                     yield
         except KeyboardInterrupt:
             return
@@ -51,7 +51,7 @@ class Span(NamedTuple):
         try:
             node.wait(waiter, timeout_ns=left)
             if not waiter.done:
-                self.graph.scheduler.give_way()
+                self.graph.scheduler.yield_to_others()
         except KeyboardInterrupt:
             return
 

@@ -9,6 +9,6 @@ from __future__ import annotations
 
 from .field import LikelihoodField
 from .filter import ParticleFilter, show_steps
-from .motion import MODELS, moved
+from .motion import MODELS, sample_motion_model
 
-__all__ = ["MODELS", "LikelihoodField", "ParticleFilter", "moved", "show_steps"]
+__all__ = ["MODELS", "LikelihoodField", "ParticleFilter", "sample_motion_model", "show_steps"]

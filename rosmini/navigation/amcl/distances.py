@@ -58,7 +58,7 @@ def clearances(blocked: Bools, farthest: int) -> Table:
     return np.where(walled, -1.0, free).astype(np.float32)
 
 
-def march(clear: Table, poses: Floats, bearings: Floats, limit: float) -> Floats:
+def cast_beams(clear: Table, poses: Floats, bearings: Floats, limit: float) -> Floats:
     """Return the ranges (n, b) [cells] of beams from poses (n, 3) [cells, cells, rad] at bearings [rad], up to `limit`.
 
     All beams step at once: by the distance that is certainly free, or else to the border of the cell (sphere tracing,
@@ -94,7 +94,7 @@ def march(clear: Table, poses: Floats, bearings: Floats, limit: float) -> Floats
 def rays_from(
     shape: tuple[int, ...], poses: Floats, bearings: Floats, nudge: float
 ) -> tuple[Table, NDArray[np.int32]]:
-    """Return the values that `march` needs for each beam (8, n b), and the index (n b,) of its first cell.
+    """Return the values that `cast_beams` needs for each beam (8, n b), and the index (n b,) of its first cell.
 
     The rows are pairs of x and y: direction; start within the cell; coordinate at which a beam leaves a cell, which is
     `nudge` past the border; reciprocal of the direction.

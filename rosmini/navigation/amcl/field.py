@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rosmini.navigation.kernels import kernel
 
-from .distances import clearances, distances, march
+from .distances import cast_beams, clearances, distances
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -70,7 +70,7 @@ class LikelihoodField:
         self._table: tuple[tuple[BeamMixture, float, Form], Table, float] | None = None
         """The table used last, kept for further beams of the same laser."""
         self._clear: Table | None = None
-        """The clearances for `march`; computed when the beam model first needs them."""
+        """The clearances for `cast_beams`; computed when the beam model first needs them."""
 
     def densities(self, mixture: BeamMixture, range_max: float, form: Form) -> tuple[Table, float]:
         """Return the formed density of a beam for the cell (h, w) where it ends, and that of a beam ending outside."""
@@ -125,7 +125,7 @@ class LikelihoodField:
             self._clear = clearances(self.blocked, cells)
         origin, cells_per_metre = np.array((*self.origin, 0.0)), 1.0 / self.resolution
         starts = (poses - origin) * (cells_per_metre, cells_per_metre, 1.0)
-        return march(self._clear, starts, bearings, range_max * cells_per_metre) * self.resolution
+        return cast_beams(self._clear, starts, bearings, range_max * cells_per_metre) * self.resolution
 
 
 def scores(

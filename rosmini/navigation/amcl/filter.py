@@ -111,7 +111,7 @@ class ParticleFilter:
 
     # -- the sensor ----------------------------------------------------------------------------------------------
 
-    def weigh(self, log_likelihoods: Floats) -> None:
+    def update_weights(self, log_likelihoods: Floats) -> None:
         """Multiply the weights by likelihoods, given as logarithms (n,), and normalise them.
 
         If all likelihoods are 0, the weights become equal.

@@ -16,7 +16,7 @@ from rosmini.core.maps.grid_map import GridMap
 from .field import BeamMixture, LikelihoodField
 from .filter import Cluster, ParticleFilter
 from .laser import BeamSkip, LaserModel, Scan
-from .motion import moved
+from .motion import sample_motion_model
 from .parameters import AmclParameters
 
 Floats = NDArray[np.float64]
@@ -154,14 +154,14 @@ class Localizer:
         if before is not None and before != odometry:
             noise = self.random.standard_normal((len(self.filter.particles), 3))
             alphas = (p.odom_alpha1, p.odom_alpha2, p.odom_alpha3, p.odom_alpha4, p.odom_alpha5)
-            self.filter.particles = moved(
+            self.filter.particles = sample_motion_model(
                 self.filter.particles, before, odometry, alphas, noise, p.odom_model_type
             )
         self.odometry = odometry
         self._due.discard(laser)
         self.force = False
         converged = self.filter.converged
-        self.filter.weigh(
+        self.filter.update_weights(
             self.model.log_likelihoods(self.field, self.filter.particles, scan, converged=converged)
         )
         self.updates += 1

@@ -25,7 +25,7 @@ MIN_DISTANCE = 0.01
 """Over shorter distances [m] the robot counts as turning on the spot, since the direction is unreliable."""
 
 
-def moved(
+def sample_motion_model(
     particles: Floats,
     before: Pose,
     after: Pose,

@@ -29,7 +29,7 @@ from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
 from rosmini.navigation.costmap_2d.footprint import points_of
 from rosmini.navigation.nav_core import TransformMissing, planar_pose, pose_stamped
 
-from .plugin import BoundedExploreLayer, moved
+from .plugin import BoundedExploreLayer, points_in_frame
 from .polygon import contains
 from .search import Blacklist
 
@@ -169,7 +169,7 @@ class ExploreServer:
         x, y, _ = planar_pose(robot)
         boundary = task.explore_boundary
         if len(boundary.polygon.points):
-            vertices = moved(
+            vertices = points_in_frame(
                 self.buffer, self.costmap.global_frame, boundary.header.frame_id, points_of(boundary.polygon)
             )
             if not contains(vertices, (x, y)):
@@ -187,7 +187,7 @@ class ExploreServer:
             self.node.logdebug("Robot not initially in exploration boundary, traveling to center")
         point = np.array([[center.point.x, center.point.y]])
         frame = self.costmap.global_frame
-        cx, cy = moved(self.buffer, frame, center.header.frame_id, point)[0].tolist()
+        cx, cy = points_in_frame(self.buffer, frame, center.header.frame_id, point)[0].tolist()
         return pose_stamped(frame, self.node.now(), (cx, cy, math.atan2(cy - y, cx - x)))
 
     # -- driving -------------------------------------------------------------------------------------------------

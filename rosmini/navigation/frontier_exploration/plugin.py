@@ -59,7 +59,7 @@ class BoundedExploreParameters(LayerConfig):
     )
 
 
-def moved(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:
+def points_in_frame(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:
     """Transform points (n, 2) from the frame `source` to `frame`. Raises `TransformException` after `TIMEOUT`."""
     if source.lstrip("/") == frame:
         return points
@@ -113,7 +113,9 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         if problem is not None:
             raise self._refusal(problem)
         try:
-            vertices = moved(self.buffer, self.layered.global_frame, stamped.header.frame_id, vertices)
+            vertices = points_in_frame(
+                self.buffer, self.layered.global_frame, stamped.header.frame_id, vertices
+            )
         except TransformException as error:
             raise self._refusal(
                 f"Couldn't transform from {self.layered.global_frame} to {stamped.header.frame_id}: {error}"
@@ -185,7 +187,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         self._wait_until_drawn()
         p = start.pose.position
         try:
-            here = moved(
+            here = points_in_frame(
                 self.buffer, self.layered.global_frame, start.header.frame_id, np.array([[p.x, p.y]])
             )
         except TransformException as error:

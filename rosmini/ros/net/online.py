@@ -151,7 +151,7 @@ class Online:
         moved: dict[str, str] = change(self.network.transport, nodes)
         for old, node in nodes.items():
             node.uri = moved[old]
-            node.master.moved(moved)
+            node.master.update_addresses(moved)
         for node in nodes.values():
             for subscription in node.subscriptions.values():
                 subscription.publishers_moved(moved)

@@ -68,7 +68,7 @@ class Contacts:
         """Obstacles that can be pushed or put elsewhere; they have no drive and do not move by themselves."""
         self._loops = Loops()
         self._cells = Cells()
-        self._roaming: dict[str, Body] = {}
+        self._self_propelled: dict[str, Body] = {}
         """Bodies that are not in `_cells`, because they move by themselves."""
         self.forces: tuple[float, list[tuple[str, str, float]]] = (-1.0, [])
         """Time until which they apply [ns], and for each pair of bodies the force between them [N]."""
@@ -77,12 +77,14 @@ class Contacts:
 
     def add_robot(self, robot: Robot) -> None:
         """Add the body of a robot with a drive."""
-        self._roaming[robot.name] = self.bodies[robot.name] = robot_body(robot.name, robot.model, robot)
+        self._self_propelled[robot.name] = self.bodies[robot.name] = robot_body(
+            robot.name, robot.model, robot
+        )
 
     def add_mover(self, mover: Mover) -> None:
         """Add the body of an obstacle that moves by itself."""
         name = mover.obstacle.name
-        self._roaming[name] = self.bodies[name] = kinematic_body(mover.obstacle, mover)
+        self._self_propelled[name] = self.bodies[name] = kinematic_body(mover.obstacle, mover)
 
     def add_crate(self, crate: Crate) -> None:
         """Add the body of an obstacle that can be pushed or put elsewhere."""
@@ -98,7 +100,7 @@ class Contacts:
     def remove(self, name: str) -> None:
         """Remove a body or a fixed obstacle."""
         self.bodies.pop(name, None)
-        self._roaming.pop(name, None)
+        self._self_propelled.pop(name, None)
         self.loose.pop(name, None)
         self._cells.remove(name)
         self.ground.remove(name)
@@ -106,7 +108,7 @@ class Contacts:
     def clear(self) -> None:
         """Remove all bodies and keep the ground."""
         self.bodies.clear()
-        self._roaming.clear()
+        self._self_propelled.clear()
         self.loose.clear()
         self._cells = Cells()
 
@@ -121,7 +123,7 @@ class Contacts:
         """Yield the bodies whose bounding circles are within `reach` [m] of a position."""
         for name in self._cells.near(x, y, reach):
             yield from self._if_near(self.bodies[name], x, y, reach)
-        for body in self._roaming.values():
+        for body in self._self_propelled.values():
             yield from self._if_near(body, x, y, reach)
 
     @staticmethod
@@ -137,13 +139,15 @@ class Contacts:
             for x, y, own in places:
                 for name in self._cells.near(x, y, own + reach):
                     found.update(dict.fromkeys(self._if_near(self.bodies[name], x, y, own + reach)))
-        if self._roaming:
-            roaming = list(self._roaming.values())
-            table = np.array([(*body.owner.pose[:2], body.reach) for body in roaming])
+        if self._self_propelled:
+            self_propelled = list(self._self_propelled.values())
+            table = np.array([(*body.owner.pose[:2], body.reach) for body in self_propelled])
             centres = np.array(places).reshape(-1, 3)
             apart = np.hypot(table[:, :1] - centres[:, 0], table[:, 1:2] - centres[:, 1]) - centres[:, 2]
             near = (apart.min(axis=1, initial=np.inf) <= reach + table[:, 2]).tolist()
-            found.update(dict.fromkeys(body for body, close in zip(roaming, near, strict=True) if close))
+            found.update(
+                dict.fromkeys(body for body, close in zip(self_propelled, near, strict=True) if close)
+            )
         return list(found)
 
     def scene(self, bodies: Iterable[Body], margin: float) -> Near:

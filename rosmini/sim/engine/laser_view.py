@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 Ints = NDArray[np.intp]
 
-MANY = 200
+CULL_ABOVE_SEGMENTS = 200
 """Above this number of segments, only those around a laser are cast against."""
 
 MARGIN = 1.0
@@ -140,7 +140,7 @@ class LaserView:
     def fixed_around(self, viewer: str, x: float, y: float, height: float, radius: float) -> CrossSection:
         """Return the fixed obstacles at this height within `radius` [m] of a laser, and some that are farther away."""
         segments, discs = self.solid(height)
-        if len(segments) <= MANY or math.isinf(radius):
+        if len(segments) <= CULL_ABOVE_SEGMENTS or math.isinf(radius):
             return segments, discs
         key = (viewer, height, radius)
         kept = self._around.get(key)

@@ -24,7 +24,7 @@ MARGIN = 0.5
 """Distance a body can move [m] before the fixed outlines near it are looked up again."""
 
 
-WORTH = 5000
+COMPILE_AFTER_BODIES = 5000
 """Number of bodies processed in plain Python first; beyond it compilation of the loops pays off."""
 
 
@@ -50,7 +50,8 @@ class Loops:
     def run(self, name: str, size: int, *args: Any) -> Any:
         """Run a loop over this number of bodies."""
         kernel = KERNELS[name]
-        if self._done < WORTH and not kernel.cache_info().currsize:  # otherwise it is compiled already
+        is_compiled = kernel.cache_info().currsize > 0
+        if self._done < COMPILE_AFTER_BODIES and not is_compiled:
             self._done += size
             return PLAIN[name](*args)
         return kernel()(*args)
@@ -89,7 +90,7 @@ class Near:
                 near.append(row)
         sides, starts, _ = _stacked([(piece.piece.corners, 0.0) for piece in self.fixed])
         boxes = np.array([(*piece.box, piece.piece.radius) for piece in self.fixed]).reshape(-1, 5)
-        mate_at, mates = self._mates(margin)
+        mate_at, mates = self._candidate_pairs(margin)
         self.scene: Scene = (
             self.poses,
             np.array([body.row(surface) for body in self.bodies]).reshape(-1, 13),
@@ -111,7 +112,7 @@ class Near:
         most += sum(lengths[i] * lengths[j] for i in range(total) for j in mates[mate_at[i] : mate_at[i + 1]])
         self.hits = np.zeros((2 * most, 13))
 
-    def _mates(self, margin: float) -> tuple[Ints, Ints]:
+    def _candidate_pairs(self, margin: float) -> tuple[Ints, Ints]:
         """Return the pairs of bodies that may come near each other.
 
         The bodies near body i are `mates[starts[i]:starts[i + 1]]` (indices; `starts` and `mates` are returned). This

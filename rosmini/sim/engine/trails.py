@@ -25,10 +25,10 @@ Leg = tuple[float, Pose, Any, Any]
 Without a course the body moves straight to the start of the next leg.
 """
 
-WIDE = 1.0
+MAX_ARC_TURN = 1.0
 """Larger turns [rad] are divided into several arcs."""
 
-SAME = 1e-11
+POSE_TOLERANCE = 1e-11
 """Poses that differ by less [m, rad] count as equal."""
 
 PoseOnLeg = Callable[[Leg, float], Pose]
@@ -90,9 +90,9 @@ class Trails:
             start, middle = (pose_on_leg(leg, time - leg[0]) for time in (begin, (begin + now) / 2))
             if start == middle == pose:
                 return None
-            if abs(pose[2] - start[2]) < WIDE:
+            if abs(pose[2] - start[2]) < MAX_ARC_TURN:
                 half = arc(*start, pose[0] - start[0], pose[1] - start[1], pose[2] - start[2], 0.5)
-                if max(abs(a - b) for a, b in zip(half, middle, strict=True)) < SAME:
+                if max(abs(a - b) for a, b in zip(half, middle, strict=True)) < POSE_TOLERANCE:
                     return (begin, now), [start, pose]
         ends = [*(leg[:2] for leg in legs[1:]), (now, pose)]
         found: list[Pose] = []

@@ -21,7 +21,7 @@ from rosmini.navigation.amcl.field import LikelihoodField
 from rosmini.navigation.amcl.filter import ParticleFilter
 from rosmini.navigation.amcl.laser import LaserModel, Scan
 from rosmini.navigation.amcl.localizer import Localizer
-from rosmini.navigation.amcl.motion import moved
+from rosmini.navigation.amcl.motion import sample_motion_model
 from rosmini.navigation.amcl.parameters import AmclParameters
 from rosmini.ros.launch import plan_of
 
@@ -181,10 +181,10 @@ def update_cost(count: int, beams: int, kind: str = "likelihood_field", times: i
     for _ in range(times + 1):
         start = time.process_time()
         noise = particles.random.standard_normal((count, 3))
-        particles.particles = moved(
+        particles.particles = sample_motion_model(
             particles.particles, pose, compose(pose, (0.01, 0.0, 0.01)), alphas, noise
         )
-        particles.weigh(model.log_likelihoods(field, particles.particles, scan))
+        particles.update_weights(model.log_likelihoods(field, particles.particles, scan))
         particles.resample(lambda wanted: np.zeros((wanted, 3)))
         found.append(time.process_time() - start)
     return 1e3 * float(np.median(found[1:]))

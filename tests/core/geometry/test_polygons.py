@@ -45,7 +45,7 @@ def test_distances_are_those_from_the_nearest_side():
     sides = np.array([(0.0, 0.0, 2.0, 0.0), (5.0, 5.0, 5.0, 5.0)])
     points = np.array([(1.0, 3.0), (-3.0, 4.0), (5.0, 6.0)])
     assert polygons.distances(points, sides) == pytest.approx([3, 5, 1])
-    assert polygons.each_distance(points[:1], sides)[0] == pytest.approx([3, math.sqrt(20)])
+    assert polygons.distances_to_sides(points[:1], sides)[0] == pytest.approx([3, math.sqrt(20)])
     assert np.isinf(polygons.distances(points, np.empty((0, 4)))).all()
 
 

@@ -183,7 +183,7 @@ def test_a_call_costs_time_from_the_hundredth_turn_without_a_blocking_call_on(
             scheduler.turn()
             scheduler.charge(49)
             if pause_after is not None and number % pause_after == 0:
-                scheduler.give_way()
+                scheduler.yield_to_others()
 
     begin = scheduler.now_ns()
     lane = scheduler.spawn("poll", poll)

@@ -45,4 +45,4 @@ def is_under_way(graph: Graph) -> bool:
         io.start(turn()).result()
         if unread():
             return True
-    return not graph.scheduler.quiet()
+    return not graph.scheduler.is_idle()

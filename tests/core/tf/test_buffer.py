@@ -135,7 +135,7 @@ def test_what_is_in_a_frame_moves_to_another(graph):
     assert moved.pose.covariance[0] == pytest.approx(0)
     assert moved.pose.pose.position.x == pytest.approx(1)
     with pytest.raises(TransformException, match="std_msgs/String cannot be transformed"):
-        from rosmini.core.tf.messages import moved as move
+        from rosmini.core.tf.messages import transformed as move
 
         move(message_class("std_msgs/String")(), buffer.lookup_transform("map", "base"))
 

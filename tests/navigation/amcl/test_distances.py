@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.navigation.amcl.distances import clearances, distances, march
+from rosmini.navigation.amcl.distances import cast_beams, clearances, distances
 from rosmini.navigation.amcl.field import LikelihoodField
 
 
@@ -70,7 +70,7 @@ def test_beams_end_at_the_first_blocked_cell(blocked, seed, limit):
     rng = np.random.default_rng(seed)
     poses = np.column_stack([rng.uniform(0, (width, height), (9, 2)), rng.uniform(-4, 4, 9)])
     bearings = rng.uniform(-4, 4, 5)
-    found = march(clearances(blocked, 4), poses, bearings, limit)
+    found = cast_beams(clearances(blocked, 4), poses, bearings, limit)
     angles = poses[:, 2, None] + bearings
     ways = np.arange(0, limit, 0.01)
     columns = np.floor(poses[:, 0, None, None] + ways * np.cos(angles)[..., None]).astype(int)
@@ -84,5 +84,5 @@ def test_beams_end_at_the_first_blocked_cell(blocked, seed, limit):
 def test_a_long_beam_on_a_large_map():
     blocked = np.zeros((2, 4000), dtype=bool)
     blocked[:, 3990] = True
-    found = march(clearances(blocked, 40), np.array([[0.5, 1.0, 0.0]]), np.array([0.0, 1e-4]), 20_000.0)
+    found = cast_beams(clearances(blocked, 40), np.array([[0.5, 1.0, 0.0]]), np.array([0.0, 1e-4]), 20_000.0)
     assert found == pytest.approx(3989.5, abs=0.1)

@@ -52,10 +52,10 @@ def test_an_initial_cloud_has_its_mean_and_covariance():
 
 def test_weights_are_likelihoods_and_sum_to_one():
     particles = a_filter(1, 4)
-    particles.weigh(np.log([0.1, 0.2, 0.3, 0.4]) - 2000.0)
+    particles.update_weights(np.log([0.1, 0.2, 0.3, 0.4]) - 2000.0)
     assert particles.weights == pytest.approx([0.1, 0.2, 0.3, 0.4])
     assert particles.effective == pytest.approx(1 / 0.30)
-    particles.weigh(np.full(4, -math.inf))
+    particles.update_weights(np.full(4, -math.inf))
     assert particles.weights == pytest.approx([0.25] * 4), "when no particle explains anything, all are equal"
 
 
@@ -95,7 +95,7 @@ def test_selective_resampling_waits_until_few_count():
     before = particles.particles
     particles.resample(nowhere)
     assert particles.particles is before
-    particles.weigh(np.where(np.arange(100) < 10, 0.0, -20.0))
+    particles.update_weights(np.where(np.arange(100) < 10, 0.0, -20.0))
     particles.resample(nowhere)
     assert particles.particles is not before
 
@@ -104,8 +104,8 @@ def test_particles_at_random_come_when_the_likelihood_falls():
     """Probabilistic Robotics, table 8.3: the share is 1 - fast / slow."""
     particles = a_filter(50, 2000, slow=0.001, fast=0.1)
     particles.initialize((0.0, 0.0, 0.0), np.diag([0.01] * 3))
-    particles.weigh(np.zeros(2000))
-    particles.weigh(np.full(2000, math.log(0.1)))
+    particles.update_weights(np.zeros(2000))
+    particles.update_weights(np.full(2000, math.log(0.1)))
     fast, slow = 1 - 0.1 * 0.9, 1 - 0.001 * 0.9
     assert particles.random_share == pytest.approx(1 - fast / slow)
     asked = []
@@ -124,7 +124,7 @@ def test_the_average_likelihood_does_not_depend_on_the_number_of_particles():
     for count in (10, 1000):
         particles = a_filter(1, count, slow=0.5, fast=0.5)
         particles.initialize((0.0, 0.0, 0.0), np.eye(3))
-        particles.weigh(np.full(count, math.log(0.3)))
+        particles.update_weights(np.full(count, math.log(0.3)))
         assert particles.average_slow == pytest.approx(0.3)
 
 
@@ -176,7 +176,7 @@ def test_the_same_seed_gives_the_same_particles():
     def run():
         particles = a_filter(10, 500)
         particles.initialize((0.0, 0.0, 0.0), np.eye(3))
-        particles.weigh(-(particles.particles[:, 0] ** 2))
+        particles.update_weights(-(particles.particles[:, 0] ** 2))
         particles.resample(nowhere)
         return particles.particles
 

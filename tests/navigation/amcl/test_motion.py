@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.core.errors import RosminiError
-from rosmini.navigation.amcl.motion import MODELS, moved
+from rosmini.navigation.amcl.motion import MODELS, sample_motion_model
 
 COUNT = 100_000
 ALPHAS = (0.04, 0.02, 0.03, 0.05, 0.01)
@@ -18,7 +18,7 @@ ALPHAS = (0.04, 0.02, 0.03, 0.05, 0.01)
 
 def samples(after, model, alphas=ALPHAS, before=(0.0, 0.0, 0.0)):
     noise = np.random.default_rng(5).standard_normal((COUNT, 3))
-    return moved(np.zeros((COUNT, 3)), before, after, alphas, noise, model)
+    return sample_motion_model(np.zeros((COUNT, 3)), before, after, alphas, noise, model)
 
 
 @pytest.mark.parametrize("model", ["diff", "diff-corrected"])
@@ -66,7 +66,7 @@ poses = st.tuples(st.floats(-5, 5), st.floats(-5, 5), st.floats(-3.1, 3.1))
 
 @given(poses, poses, poses, st.sampled_from(MODELS))
 def test_without_errors_particles_do_as_the_odometry(start, before, after, model):
-    found = moved(np.array([start]), before, after, (0.0,) * 5, np.ones((1, 3)), model)[0]
+    found = sample_motion_model(np.array([start]), before, after, (0.0,) * 5, np.ones((1, 3)), model)[0]
     turn = after[2] - before[2]
     dx, dy = after[0] - before[0], after[1] - before[1]
     if math.hypot(dx, dy) < 0.011 and model.startswith("diff"):
@@ -82,4 +82,6 @@ def test_without_errors_particles_do_as_the_odometry(start, before, after, model
 
 def test_a_model_that_is_none():
     with pytest.raises(RosminiError, match=r"unknown odometry model 'dif'.*diff, omni, diff-corrected"):
-        moved(np.zeros((1, 3)), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), ALPHAS, np.zeros((1, 3)), "dif")
+        sample_motion_model(
+            np.zeros((1, 3)), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), ALPHAS, np.zeros((1, 3)), "dif"
+        )

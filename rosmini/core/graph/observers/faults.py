@@ -194,7 +194,7 @@ class Faults:
 
     def kill(self, name: str) -> None:
         """Kill a node of this process like ``kill -9``: no hook runs, and the Master still lists it."""
-        self._node(name).vanish()
+        self._node(name).kill()
 
     def jump(self, seconds: float, name: str = "") -> None:
         """Make the clock of a node, or of all nodes of this process, jump. Simulators of this process are not affected.

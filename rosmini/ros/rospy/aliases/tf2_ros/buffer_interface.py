@@ -111,7 +111,7 @@ def moved(message: Any, transform: Any) -> Any:
 
     A zero quaternion counts as no rotation; the script is warned once for each type and frame.
     """
-    return messages.moved(message, transform, warn_once)
+    return messages.transformed(message, transform, warn_once)
 
 
 def _converted(thing: Any, new_type: Any) -> Any:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 
-from rosmini.core.tf.messages import moved
+from rosmini.core.tf.messages import transformed
 from rosmini.ros.rospy.aliases.point_cloud2 import create_cloud, read_points
 
-do_transform_cloud = moved
+do_transform_cloud = transformed
 
 __all__ = ["create_cloud", "do_transform_cloud", "read_points"]
 
