@@ -94,7 +94,7 @@ def rewrite_asserts(config: pytest.Config) -> None:
     for path in (file for at in paths for file in ([at] if at.is_file() else at.rglob("test_*.py"))):
         stored = rewrite.get_cache_dir(path) / f"{path.stem}{rewrite.PYC_TAIL}"
         if path.suffix == ".py" and not stored.is_file():
-            stored.parent.mkdir(exist_ok=True)
+            stored.parent.mkdir(parents=True, exist_ok=True)
             digest, code = rewrite._rewrite_test(path, config)
             rewrite._write_pyc(config.stash[rewrite.assertstate_key], code, digest, stored)
 
