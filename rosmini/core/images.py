@@ -19,7 +19,7 @@ __all__ = ["MAX_PIXELS", "ImageError", "opened", "strips"]
 MAX_PIXELS = 100_000_000
 """Maximum number of pixels: a map of 10,000 x 10,000 cells."""
 
-LONGEST = 65_535
+MAX_SIDE = 65_535
 """Maximum number of pixels along a side, as in SDL."""
 
 MEMORY = 250_000_000
@@ -76,8 +76,8 @@ def _check(image: Image) -> None:
     """Raise `ImageError` for an image that would take too much memory."""
     pixels = image.width * image.height
     text = f"it has {image.width} x {image.height} pixels in mode {image.mode}"
-    if pixels > MAX_PIXELS or max(image.size) > LONGEST:
-        raise ImageError(f"{text}; {MAX_PIXELS} are allowed, and {LONGEST} along a side")
+    if pixels > MAX_PIXELS or max(image.size) > MAX_SIDE:
+        raise ImageError(f"{text}; {MAX_PIXELS} are allowed, and {MAX_SIDE} along a side")
     needed = pixels * _bytes(image) + max(pixels, _decoder_memory(image))
     if needed > MEMORY:
         raise ImageError(
