@@ -14,7 +14,7 @@ import pytest
 from .processes import run as run_process
 
 ROOT = Path(__file__).resolve().parents[1]
-CHAPTER = ROOT / "notebooks" / "92_catkin.ipynb"
+CHAPTER = ROOT / "notebooks" / "4_files/50_catkin.ipynb"
 """A chapter without pictures for which matplotlib is needed: the wheel alone has to do."""
 
 

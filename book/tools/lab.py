@@ -20,7 +20,7 @@ from .build import has_display
 INSTALLING = "ROSMINI_INSTALLS_LAB"
 """Set for the second run of the command, which installs nothing more."""
 
-FIRST = "01_first_steps.ipynb"
+FIRST = "1_start/10_first_steps.ipynb"
 """What opens first."""
 
 OWN_SETTINGS = Path(__file__).with_name("jupyter")
@@ -85,7 +85,7 @@ def unchanged(folder: Path) -> list[Path]:
         return {name for name in done.stdout.split("\0") if name.endswith(".ipynb")}
 
     try:
-        committed = ask("ls-tree", "-z", "--name-only", "HEAD", "--", ".")
+        committed = ask("ls-tree", "-r", "-z", "--name-only", "HEAD", "--", ".")
         changed = ask("diff", "-z", "--name-only", "--relative", "HEAD", "--", ".")
     except (OSError, subprocess.CalledProcessError):
         return []
@@ -129,10 +129,11 @@ def copy_notebooks(source: Path, target: Path) -> Path:
     Raises `RosminiError` if the folder cannot be written to.
     """
     try:
-        target.mkdir(parents=True, exist_ok=True)
-        for path in sorted(source.glob("*.ipynb")):
-            if not (target / path.name).exists():
-                shutil.copyfile(path, target / path.name)
+        for path in sorted(source.rglob("*.ipynb")):
+            copied = target / path.relative_to(source)
+            copied.parent.mkdir(parents=True, exist_ok=True)
+            if not copied.exists():
+                shutil.copyfile(path, copied)
     except OSError as error:
         raise RosminiError(f"the notebooks cannot be copied to {target}: {error.strerror}") from error
     return target

@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from book.tools.captions import CaptionError, numbered
 from rosmini.viz.embed import BOOK, LIVE, VARIABLE
 
 if TYPE_CHECKING:
@@ -34,7 +35,8 @@ LANGUAGE = {
     "nbconvert_exporter": "python",
     "pygments_lexer": "ipython3",
 }
-CELL_METADATA = {"tags", "mystnb", "jupyter", "reason", "editable", "deletable"}
+CELL_METADATA = {"tags", "mystnb", "jupyter", "reason", "editable", "deletable", "alt"}
+"""`alt` describes the cell's picture for those who cannot see it, where the picture's own text is too general."""
 
 # Tags by which a cell asks not to be run or not to be compared. Each needs a reason.
 EXEMPTIONS = {
@@ -93,6 +95,16 @@ def problems(notebook: nbformat.NotebookNode) -> Iterator[str]:
         yield f"the notebook's metadata has {', '.join(extra)}"
     if notebook.metadata.get("language_info") != LANGUAGE:
         yield "the notebook's language_info is not the one that `clean` stores"
+    try:
+        wrong = [
+            text
+            for text, right in zip(prose(notebook), numbered(prose(notebook)), strict=True)
+            if text != right
+        ]
+    except CaptionError as error:
+        yield str(error)
+    else:
+        yield from (f"a number is wrong in {text[:60]!r}: `clean` writes the right one" for text in wrong)
     expected = 0
     for place, cell in enumerate(notebook.cells, start=1):
         found = list(cell_problems(cell))
@@ -105,6 +117,11 @@ def problems(notebook: nbformat.NotebookNode) -> Iterator[str]:
                     f"was executed as number {cell.execution_count}, not {expected}: run all, from the top"
                 )
         yield from (f"cell {place} {problem}: {first_line(cell)!r}" for problem in found)
+
+
+def prose(notebook: nbformat.NotebookNode) -> list[str]:
+    """The sources of the Markdown cells, in reading order."""
+    return [cell.source for cell in notebook.cells if cell.cell_type == "markdown"]
 
 
 def cell_problems(cell: nbformat.NotebookNode) -> Iterator[str]:
@@ -181,7 +198,11 @@ def first_line(cell: nbformat.NotebookNode) -> str:
 
 
 def clean(notebook: nbformat.NotebookNode) -> None:
-    """Give `notebook` the metadata of all notebooks, in place, and remove that of tools and runs."""
+    """Give `notebook` the metadata of all notebooks, in place, without those of a run, and number its captions."""
+    texts = iter(numbered(prose(notebook)))
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown":
+            cell.source = next(texts)
     notebook.metadata = type(notebook.metadata)(kernelspec=KERNELSPEC, language_info=LANGUAGE)
     for cell in notebook.cells:
         for key in set(cell.metadata) - CELL_METADATA:

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from . import solutions
+from .captions import CAPTION
 
 if TYPE_CHECKING:
     import nbformat
@@ -17,12 +18,12 @@ DIRECTIONS_ID = "how-to-run-this"
 
 
 def length(notebook: nbformat.NotebookNode) -> tuple[int, int]:
-    """The numbers of words and of code cells of a chapter before its exercises; fenced code and tags do not count."""
+    """The numbers of words and code cells of a chapter before its exercises, without fenced code, tags and captions."""
     words = cells = 0
     for cell in notebook.cells:
         text, exercises, _ = cell.source.partition("\n## Exercises\n")
         if cell.cell_type == "markdown":
-            prose = re.sub(r"^```.*?^```|</?\w+>", "", text, flags=re.DOTALL | re.MULTILINE)
+            prose = re.sub(r"^```.*?^```|</?\w+>", "", CAPTION.sub("", text), flags=re.DOTALL | re.MULTILINE)
             words += len(re.findall(r"\S*\w\S*", prose))
         else:
             cells += 1

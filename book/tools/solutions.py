@@ -1,8 +1,8 @@
 """The hidden solutions of a notebook's exercises, and the notebook with them in place of the stubs.
 
-A stub is a code cell whose first line is `# Exercise 11.2`, or a script: a cell whose first line is `%%node NAME.py`,
-and whose second one is that. Its solution is the first Python block of the Markdown cell with `<summary>Solution to
-exercise 11.2</summary>` in it; the line of the magic stays.
+A stub is a code cell whose first line is `# Exercise: NAME`, or a script: a cell whose first line is `%%node NAME.py`,
+and whose second one is that. Its solution is the first Python block after the next `<summary>Solution</summary>` of a
+Markdown cell; the line of the magic stays.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from rosmini.core.errors import RosminiError
 if TYPE_CHECKING:
     import nbformat
 
-STUB = re.compile(r"\A(%%node [^\n]*\n|)#\s*Exercise\s+(\d+\.\d+)\b")
-SOLUTION = re.compile(r"<summary>Solution to exercise (\d+\.\d+)</summary>(.*?)</details>", re.DOTALL)
+STUB = re.compile(r"\A(%%node [^\n]*\n|)#\s*Exercise:\s+(\w+)\b")
+SOLUTION = re.compile(r"<summary>Solution</summary>(.*?)</details>", re.DOTALL)
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
-CHECK = re.compile(r"^check\(\s*[\"'](\d+\.\d+)[\"']", re.MULTILINE)
+CHECK = re.compile(r"^check\(\s*[\"'](\w+)[\"']", re.MULTILINE)
 
 
 class SolutionError(RosminiError):
@@ -27,7 +27,7 @@ class SolutionError(RosminiError):
 
 
 def stubs(notebook: nbformat.NotebookNode) -> dict[str, int]:
-    """The places of the stub cells (from 0), by the number of the exercise."""
+    """The places of the stub cells (from 0), by the name of the exercise."""
     found = (
         (STUB.match(cell.source), place)
         for place, cell in enumerate(notebook.cells)
@@ -37,22 +37,25 @@ def stubs(notebook: nbformat.NotebookNode) -> dict[str, int]:
 
 
 def checks(notebook: nbformat.NotebookNode) -> dict[str, int]:
-    """The places of the cells that call `check` (from 0), by the number of the exercise."""
+    """The places of the cells that call `check` (from 0), by the name of the exercise."""
     cells = ((place, cell.source) for place, cell in enumerate(notebook.cells) if cell.cell_type == "code")
-    return {number: place for place, source in cells for number in CHECK.findall(source)}
+    return {name: place for place, source in cells for name in CHECK.findall(source)}
 
 
 def solutions(notebook: nbformat.NotebookNode) -> dict[str, str]:
-    """The code of the solutions, by the number of the exercise. Raises `SolutionError` if one has no Python block."""
+    """The code of the solutions, by the name of the exercise. Raises `SolutionError` if one has no Python block."""
     found: dict[str, str] = {}
+    name = ""
     for cell in notebook.cells:
-        if cell.cell_type != "markdown":
+        if cell.cell_type == "code":
+            stub, check = STUB.match(cell.source), CHECK.search(cell.source)
+            name = stub[2] if stub else check[1] if check else name
             continue
-        for number, text in SOLUTION.findall(cell.source):
+        for text in SOLUTION.findall(cell.source):
             block = PYTHON.search(text)
             if not block:
-                raise SolutionError(f"the solution to exercise {number} has no ```python block")
-            found[number] = block[1].rstrip()
+                raise SolutionError(f"the solution to the exercise {name} has no ```python block")
+            found[name] = block[1].rstrip()
     return found
 
 
@@ -62,19 +65,19 @@ def solved(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
     Raises `SolutionError` unless each exercise has a stub, a check and a solution.
     """
     at, checked, code = stubs(notebook), checks(notebook), solutions(notebook)
-    for what, numbers in (("stub", at), ("check", checked), ("solution", code)):
-        missing = sorted((at.keys() | checked.keys() | code.keys()) - numbers.keys())
+    for what, names in (("stub", at), ("check", checked), ("solution", code)):
+        missing = sorted((at.keys() | checked.keys() | code.keys()) - names.keys())
         if missing:
-            raise SolutionError(f"no {what} for exercise {', '.join(missing)}")
+            raise SolutionError(f"no {what} for the exercise {', '.join(missing)}")
     copied = copy.deepcopy(notebook)
-    for number, place in at.items():
+    for name, place in at.items():
         cell = copied.cells[place]
         ((magic, _),) = STUB.findall(cell.source)
-        cell.source = f"{magic}# Exercise {number}\n{code[number]}"
+        cell.source = f"{magic}# Exercise: {name}\n{code[name]}"
     return copied
 
 
-def check_output(notebook: nbformat.NotebookNode, number: str) -> str:
-    """What the check of exercise `number` printed."""
-    outputs = notebook.cells[checks(notebook)[number]].outputs
+def check_output(notebook: nbformat.NotebookNode, name: str) -> str:
+    """What the check of the exercise `name` printed."""
+    outputs = notebook.cells[checks(notebook)[name]].outputs
     return "".join(output.get("text", "") for output in outputs)

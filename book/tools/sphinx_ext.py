@@ -7,6 +7,9 @@
 - The chatter of the theme's scripts in the browser's console is taken out too.
 - The style sheet and the scripts of `rosmini.viz` come along, and meshcat's viewer if a page needs it.
 - Cells with `%%node`, `%%launch` or `%%terminal` are coloured as what they hold.
+- A caption (`book.tools.captions`) becomes that of the figure before it, or of the table after it.
+- A picture's alternative text in the metadata of its cell replaces the one that the picture made itself.
+- Chapters have the number of their part and of their place in it, from `_toc.yml` alone.
 - The directive `drawing` puts a drawing of `book/static/drawings` into a prose page, with a caption.
 - The directive `stored` shows a figure that a notebook has stored, such as the pad on the cover.
 - The substitutions `repository_copy` and `reading_hours` are computed: the first from the one setting with the
@@ -16,18 +19,22 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 from html import escape
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from docutils import nodes
 from latex2mathml.converter import convert
+from sphinx import addnodes
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
 from book.tools import notebooks, reading
+from book.tools.captions import CAPTION
 from book.tools.lexer import CellLexer
 from book.tools.pages import VIEWER_CALL
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
@@ -35,6 +42,7 @@ from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
     from sphinx.config import Config
+    from sphinx.environment import BuildEnvironment
     from sphinx.writers.html5 import HTML5Translator
 
 # How a quote begins -> the classes of the box that it becomes (the theme gives "note", "tip" and so on their look).
@@ -131,6 +139,104 @@ def make_box(quote: nodes.block_quote, title: str) -> nodes.admonition:
     return nodes.admonition("", nodes.title("", title), *body, classes=[*BOXES[title], "box"])
 
 
+ANCHOR = re.compile(r'<a id="([a-z0-9-]+)">')
+
+
+class Captions(SphinxTransform):
+    """Gives each caption to its picture or table, and makes its label known to links."""
+
+    default_priority = 410  # before MyST resolves the links
+
+    def apply(self, **kwargs: Any) -> None:  # noqa: ARG002  (docutils' signature)
+        """Do so in the page at hand."""
+        for figure in self.document.findall(nodes.figure):
+            for label in figure["ids"]:
+                self.know(label, figure.astext())
+        for paragraph in list(self.document.findall(nodes.paragraph)):
+            label = caption_label(paragraph)
+            if label is not None:
+                self.know(label, paragraph.astext())
+                place_caption(paragraph, label)
+
+    def know(self, label: str, text: str) -> None:
+        """Let links of this page and of others find the label, as MyST does with the anchors of headings."""
+        slug = (0, label, text)
+        vars(self.document).setdefault("myst_slugs", {})[label] = slug
+        self.env.metadata[self.env.docname].setdefault("myst_slugs", {})[label] = slug
+
+
+def caption_label(paragraph: nodes.paragraph) -> str | None:
+    """The label of a paragraph that is a caption."""
+    first = paragraph.children[0] if paragraph.children else None
+    anchor = ANCHOR.fullmatch(first.astext()) if isinstance(first, nodes.raw) else None
+    return anchor[1] if anchor else None
+
+
+def place_caption(paragraph: nodes.paragraph, label: str) -> None:
+    """Put the caption below the last output of the cell before it, or above the table after it.
+
+    Elsewhere it stays a paragraph, which has the label.
+    """
+    words = paragraph.children[2:]  # what follows <a id="..."></a>
+    siblings, place = paragraph.parent.children, paragraph.parent.index(paragraph)
+    before = siblings[place - 1] if place else None
+    after = siblings[place + 1] if place + 1 < len(siblings) else None
+    outputs = [
+        part
+        for part in (before.children if isinstance(before, nodes.container) else ())
+        if isinstance(part, nodes.container) and "cell_output" in part.get("classes", ()) and part.children
+    ]
+    if outputs:
+        picture = outputs[-1].children[-1]
+        outputs[-1].remove(picture)
+        outputs[-1].append(nodes.figure("", picture, nodes.caption("", "", *words), ids=[label]))
+        paragraph.parent.remove(paragraph)
+    elif isinstance(after, nodes.table):
+        after.insert(0, nodes.title("", "", *words))
+        after["ids"].append(label)
+        paragraph.parent.remove(paragraph)
+    else:
+        paragraph.children = list(words)
+        paragraph["ids"].append(label)
+
+
+def describe_pictures(app: Sphinx, docname: str, content: list[str]) -> None:
+    """Give the pictures of a notebook the alternative texts of its cells' metadata."""
+    if Path(app.env.doc2path(docname)).suffix != ".ipynb":
+        return
+    notebook = json.loads(content[0])
+    for cell in notebook["cells"]:
+        if "alt" in cell["metadata"]:
+            label = f'aria-label="{escape(cell["metadata"]["alt"])}"'.replace("\\", r"\\")
+            for output in cell["outputs"]:
+                if html := output.get("data", {}).get("text/html"):
+                    output["data"]["text/html"] = re.sub(r'aria-label="[^"]*"', label, "".join(html), count=1)
+    content[0] = json.dumps(notebook)
+
+
+def number_chapters(app: Sphinx, env: BuildEnvironment) -> list[str]:
+    """Put the number of its part before the number of each chapter: Sphinx counts in each part from 1.
+
+    Take out Sphinx's numbers of figures and tables: `sphinx_jupyterbook_latex` switches them on, captions have others.
+    """
+    env.toc_fignumbers.clear()
+    part = 0
+    for toctree in env.get_doctree(app.config.root_doc).findall(addnodes.toctree):
+        if not toctree.get("numbered"):
+            continue
+        part += 1
+        for _, docname in toctree["entries"]:
+            env.toc_secnumbers[docname] = {
+                anchor: (part, *number) if number else number
+                for anchor, number in env.toc_secnumbers[docname].items()
+            }
+            numbered = [*env.tocs[docname].findall(nodes.reference), env.titles[docname]]
+            for node in numbered:
+                if node.get("secnumber"):
+                    node["secnumber"] = [part, *node["secnumber"]]
+    return []
+
+
 class Drawing(SphinxDirective):
     """A drawing by the name of its file, inline so that it follows the page's theme; its caption is the content."""
 
@@ -146,16 +252,18 @@ class Drawing(SphinxDirective):
         if path is None:
             raise self.error(f"there is no drawing {self.arguments[0]}; there are {', '.join(drawings)}")
         self.env.note_dependency(str(path))
-        caption = f"<figcaption>{escape(' '.join(self.content))}</figcaption>"
+        words = " ".join(self.content)
+        caption = CAPTION.match(words)
+        words = words.partition("</a>")[2] if caption else words
         svg = path.read_text(encoding="utf-8").strip()
-        figure = f'<figure class="rosmini-figure">{svg}{caption}</figure>'
-        return [nodes.raw("", figure, format="html")]
+        raw = nodes.raw("", f'<div class="rosmini-figure">{svg}</div>', format="html")
+        return [nodes.figure("", raw, nodes.caption("", words), ids=[caption["label"]] if caption else [])]
 
 
 class Stored(SphinxDirective):
-    """A figure that a notebook has stored, by the notebook's path and the figure's number.
+    """A figure that a notebook has stored, by the notebook's path and the label of the figure's caption.
 
-    The content is its caption.
+    The content is its caption here.
     """
 
     required_arguments = 2
@@ -164,17 +272,17 @@ class Stored(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return the figure. Raises docutils' error if the notebook has stored no such figure."""
         self.assert_has_content()
-        name, number = self.arguments
+        name, label = self.arguments
         path = Path(self.env.srcdir, f"{name}.ipynb")
         self.env.note_dependency(str(path))
-        caption = re.compile(rf"<figcaption>Figure {re.escape(number)}:.*?</figcaption>", re.DOTALL)
-        words = f"<figcaption>{escape(' '.join(self.content))}</figcaption>"
-        for cell in notebooks.read(path).cells if path.is_file() else ():
-            for output in cell.get("outputs", ()):
-                html = output.get("data", {}).get("text/html", "")
-                if caption.search(html):
-                    return [nodes.raw("", caption.sub(lambda _: words, html), format="html")]
-        raise self.error(f"{name}.ipynb has stored no figure {number}: execute it first")
+        cells = notebooks.read(path).cells if path.is_file() else []
+        for cell, caption in pairwise(cells):
+            if caption.source.startswith(f'<a id="{label}"></a>'):
+                htmls = [output.get("data", {}).get("text/html") for output in cell.get("outputs", ())]
+                for html in filter(None, htmls):
+                    words = nodes.caption("", " ".join(self.content))
+                    return [nodes.figure("", nodes.raw("", html, format="html"), words)]
+        raise self.error(f"{name}.ipynb has stored no figure {label}: execute it first")
 
 
 def silence_thebe(app: Sphinx) -> None:
@@ -205,10 +313,14 @@ def copy_viewer(app: Sphinx, error: Exception | None) -> None:
 
 
 def substitute(app: Sphinx, config: Config) -> None:
-    """Define the substitutions that are computed, and show the button to the repository if its address is known."""
+    """Define the substitutions that are computed, and show the buttons to the repository if its address is known.
+
+    These lead to the repository, to the source of the page, and to a form for reporting a mistake in it.
+    """
     url = config.html_theme_options.get("repository_url", "")
-    config.html_theme_options["use_repository_button"] = bool(url)
-    chapters = sorted(Path(app.srcdir, "notebooks").glob("*.ipynb"))
+    for button in ("use_repository_button", "use_source_button", "use_issues_button"):
+        config.html_theme_options[button] = bool(url)
+    chapters = sorted(Path(app.srcdir, "notebooks").rglob("*.ipynb"))
     minutes = sum(reading.minutes(notebooks.read(path)) for path in chapters)
     config.myst_substitutions |= {
         "repository_copy": f"[a copy of the repository]({url})" if url else "a copy of this repository",
@@ -221,7 +333,7 @@ def direct_downloads(app: Sphinx, error: Exception | None) -> None:
     if error is not None or app.builder.format != "html":
         return
     url = app.config.html_theme_options.get("repository_url", "")
-    for path in sorted(Path(app.outdir, "_sources", "notebooks").glob("*.ipynb")):
+    for path in sorted(Path(app.outdir, "_sources", "notebooks").rglob("*.ipynb")):
         notebook = notebooks.read(path)
         reading.add_directions(notebook, path.name, url)
         notebooks.write(notebook, path)
@@ -251,11 +363,14 @@ def setup(app: Sphinx) -> dict[str, Any]:
     """Register all of it with Sphinx."""
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
     app.add_transform(QuoteBoxes)
+    app.add_transform(Captions)
     app.add_directive("drawing", Drawing)
     app.add_directive("stored", Stored)
     for language in ("python", "ipython3"):  # of fences, and of cells
         app.add_lexer(language, CellLexer)
     app.connect("config-inited", substitute)
+    app.connect("source-read", describe_pictures)
+    app.connect("env-get-updated", number_chapters, priority=900)  # after Sphinx has counted
     app.connect("builder-inited", prepare, priority=1)
     app.connect("build-finished", direct_downloads)
     app.connect("build-finished", copy_viewer, priority=998)

@@ -1,8 +1,8 @@
 """Exercises that check themselves.
 
 A notebook passes an answer to `check`, which prints one of three things: that the exercise has not been attempted yet,
-what is wrong with the answer and a hint, or that it is right. `rosmini/book/exercises/chapter_NN.py` has one `Exercise`
-for each exercise, which decides this. `book/about/writing_chapters.md` explains how to write one.
+what is wrong with the answer and a hint, or that it is right. Each chapter has a module in `rosmini/book/exercises`,
+with one `Exercise` for each exercise, which decides this. `book/about/writing_chapters.md` explains how to write one.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 import ast
 import functools
 import importlib
-import importlib.util
 import math
 import re
 import reprlib
@@ -29,19 +28,21 @@ from rosmini.core.graph.notebook import mark_as_shown
 from rosmini.core.packages import PackageIndex
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
     from types import UnionType
 
     from rosmini.core.graph import Graph, Publisher
     from rosmini.msgs.message import Message
 
 
+EXERCISES = Path(__file__).with_name("exercises")
+"""The folder of the chapters' modules."""
 NOTEBOOK = "notebook"
 """Name of the package that contains a notebook's scripts."""
 
 
 class UnknownExercise(RosminiError):
-    """There is no exercise with that number."""
+    """There is no exercise with that name."""
 
 
 class NoAnswer(RosminiError):
@@ -103,14 +104,14 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Exercise:
-    """One exercise: its number ("11.2"), the praise for a right answer, and the function that examines an answer.
+    """One exercise: its name ("board"), the praise for a right answer, and the function that examines an answer.
 
     `examine(answer)` raises `Wrong`, usually through `expect`, or returns a picture of the run, or None. `gaps` is the
     number of bare `...` in the stub of a script. `truths` are the keys of an answer whose values may be True or False;
     everywhere else these are refused, although Python counts them as numbers.
     """
 
-    number: str
+    name: str
     praise: str
     examine: Callable[[Any], Any]
     gaps: int = 1
@@ -125,7 +126,7 @@ class Exercise:
             return self._verdict(Status.WRONG, f"There is still a `...` {left}.")
         if self._is_script() and not isinstance(answer, Script):
             said = f"The answer is of type {type(answer).__name__}, not a script."
-            return self._verdict(Status.WRONG, f"{said}\nHint: check({self.number!r}) finds your %%node cell")
+            return self._verdict(Status.WRONG, f"{said}\nHint: check({self.name!r}) finds your %%node cell")
         try:
             view = self.examine(self._watched(answer))
         except Wrong as wrong:
@@ -150,7 +151,7 @@ class Exercise:
         return getattr(self.examine, "__annotations__", {}).get("answer") == Script.__name__
 
     def _verdict(self, status: Status, more: str = "", view: Any = None) -> Verdict:
-        text = f"Exercise {self.number}: {status.value}."
+        text = f"Exercise {self.name}: {status.value}."
         return Verdict(status, f"{text} {more}" if more else text, view)
 
 
@@ -195,10 +196,10 @@ def _is_readers(frame: types.FrameType) -> bool:
 
 
 def exercise(
-    number: str, *, praise: str, gaps: int = 1, truths: tuple[str, ...] = ()
+    name: str, *, praise: str, gaps: int = 1, truths: tuple[str, ...] = ()
 ) -> Callable[[Callable[[Any], Any]], Exercise]:
     """Make an `Exercise` of the decorated function, which examines an answer."""
-    return lambda examine: Exercise(number, praise, examine, gaps, truths)
+    return lambda examine: Exercise(name, praise, examine, gaps, truths)
 
 
 def expect(condition: object, message: str, hint: str = "") -> None:
@@ -275,15 +276,15 @@ def expect_heard(publisher: Publisher) -> None:
     )
 
 
-def check(number: str, *answer: Any) -> Verdict:
-    """Check `answer` to exercise `number` ("11.2"), print the verdict, show the robot's run, and return the verdict.
+def check(name: str, *answer: Any) -> Verdict:
+    """Check `answer` to the exercise `name`, print the verdict, show the robot's run, and return the verdict.
 
-    The verdict is true if the answer is right, so that `assert check("11.2")` works. The default answer is the script
-    written by the `%%node` cell with `# Exercise 11.2` in its second line. Raises `UnknownExercise` if there is no such
-    exercise, and `NoAnswer` if no such cell was run.
+    The verdict is true if the answer is right, so that `assert check("gentle")` works. The default answer is the script
+    written by the `%%node` cell with `# Exercise: gentle` in its second line. Raises `UnknownExercise` if there is no
+    such exercise, and `NoAnswer` if no such cell was run.
     """
-    exercise = find(number)
-    given = answer or (written(number),)
+    exercise = find(name)
+    given = answer or (written(name),)
     verdict = exercise.grade(*given)
     print(verdict)
     if verdict.view is not None:
@@ -295,41 +296,44 @@ def check(number: str, *answer: Any) -> Verdict:
     return verdict
 
 
-def written(number: str) -> Script:
+def written(name: str) -> Script:
     """Return the latest script in the notebook's package whose second line names the exercise.
 
     Raises `NoAnswer` if there is none.
     """
     index = PackageIndex()
     found = index.path(NOTEBOOK).glob("scripts/*.py") if NOTEBOOK in index else ()
-    line = re.compile(rf"[^\n]*\n#\s*Exercise\s+{re.escape(number)}(?!\.?\d)")
+    line = re.compile(rf"[^\n]*\n#\s*Exercise:\s+{re.escape(name)}\b")
     for path in sorted(found, key=lambda path: path.stat().st_mtime_ns, reverse=True):
         if line.match(source := path.read_text(encoding="utf-8")):
             return Script(path.name, source)
     raise NoAnswer(
-        f"exercise {number} has no script yet: run the %%node cell that has `# Exercise {number}` in its second line. "
+        f"the exercise {name} has no script yet: run the %%node cell that has `# Exercise: {name}` in its second line. "
         "If it shows an error, fix that first"
     )
 
 
-def find(number: str) -> Exercise:
-    """Return the exercise with this number. Raises `UnknownExercise` if there is none."""
-    known = {found.number: found for found in exercises_of(number.partition(".")[0])}
-    if number not in known:
-        guess = nearest(number, known) or (
-            f"this chapter has {', '.join(known)}" if known else "no exercise has this number"
-        )
-        raise UnknownExercise(f"there is no exercise {number!r}; {guess}")
-    return known[number]
+def find(name: str) -> Exercise:
+    """Return the exercise with this name. Raises `UnknownExercise` if there is none."""
+    modules = _modules()
+    if name not in modules:
+        raise UnknownExercise(f"there is no exercise {name!r}. {nearest(name, modules) or ''}".rstrip())
+    members = vars(importlib.import_module(f"rosmini.book.exercises.{modules[name]}")).values()
+    return next(found for found in members if isinstance(found, Exercise) and found.name == name)
 
 
-def exercises_of(chapter: str) -> Iterator[Exercise]:
-    """Yield the exercises of a chapter ("11") in the order of its module, if it has one."""
-    name = f"rosmini.book.exercises.chapter_{chapter.zfill(2)}"
-    if chapter.isdecimal() and importlib.util.find_spec(name):
-        yield from (
-            value for value in vars(importlib.import_module(name)).values() if isinstance(value, Exercise)
-        )
+@functools.cache
+def _modules() -> dict[str, str]:
+    """Return the module of each exercise, by the exercise's name.
+
+    The modules are read rather than imported: each of them imports much that the others do not need.
+    """
+    declared = re.compile(r'^@exercise\(\s*"(\w+)"', re.MULTILINE)
+    return {
+        name: path.stem
+        for path in sorted(EXERCISES.glob("*.py"))
+        for name in declared.findall(path.read_text(encoding="utf-8"))
+    }
 
 
 def is_stub(answer: Any, gaps: int = 1) -> bool:

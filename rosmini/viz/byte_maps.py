@@ -33,7 +33,7 @@ class _Row(NamedTuple):
     is_text: bool
 
 
-def byte_map(data: bytes, parts: Iterable[tuple[int, str]], *, title: str) -> Picture:
+def byte_map(data: bytes, parts: Iterable[tuple[int, str]], *, title: str | None = None) -> Picture:
     """Draw the parts of some bytes, one below the other: the offset, the bytes and the meaning of each.
 
     Args:
@@ -58,9 +58,9 @@ def byte_map(data: bytes, parts: Iterable[tuple[int, str]], *, title: str) -> Pi
         rows += _rows(offset, data[offset : offset + size], meaning)
         offset += size
     summary = f"{len(data)} bytes in {len(found)} parts"
-    words = "\n".join([f"{title}: {summary}", *(_line(row) for row in rows)])
+    words = "\n".join([f"{title or 'bytes'}: {summary}", *(_line(row) for row in rows)])
     alt = f"Map of {summary}: {'; '.join(f'{size} bytes, {meaning}' for size, meaning in found)}."
-    return Picture(_draw(rows, title, alt), text=words, alt=alt, caption=title)
+    return Picture(_draw(rows, title or "bytes", alt), text=words, alt=alt, caption=title)
 
 
 def _rows(offset: int, data: bytes, meaning: str) -> list[_Row]:

@@ -23,12 +23,13 @@ GAP = 150.0
 """Minimum distance between two participants [px]."""
 
 
-def sequence_diagram(calls: Iterable[Call], *, title: str) -> Picture:
+def sequence_diagram(calls: Iterable[Call], *, title: str | None = None, name: str = "sequence") -> Picture:
     """Draw calls: a line for each participant, downwards in time, and an arrow for each call.
 
     Args:
         calls: (caller, callee, what, answer), in order. An answer is a dashed arrow back; None for no answer.
-        title: the caption, and the first line of the text form.
+        title: the caption, and the first words of the text form.
+        name: the first words of the text form without a title.
 
     Participants are in order of appearance. Raises ``ViewError`` without calls, and if a participant calls itself.
 
@@ -43,12 +44,12 @@ def sequence_diagram(calls: Iterable[Call], *, title: str) -> Picture:
             )
     actors = list(dict.fromkeys(one for call in made for one in call[:2]))
     arrows = [one for call in made for one in _arrows(call)]
-    caption = f"{title}: {len(made)} calls between {len(actors)}"
-    words = "\n".join([caption, *(_line(*one) for one in arrows)])
+    head = f"{title or name}: {len(made)} calls between {len(actors)}"
+    words = "\n".join([head, *(_line(*one) for one in arrows)])
     alt = f"Sequence diagram of {', '.join(actors)}. " + " ".join(
         f"{who} to {whom}: {what}." for who, whom, what, _ in made
     )
-    return Picture(_draw(actors, arrows, title, alt), text=words, alt=alt, caption=title)
+    return Picture(_draw(actors, arrows, title or name, alt), text=words, alt=alt, caption=title)
 
 
 def recorded_calls(
@@ -73,7 +74,9 @@ def recorded_calls(
         raise ViewError(f"nothing was recorded{about}: {hint}")
     rest = len(calls) - limit
     more = f" (and {plural(rest, 'more call')} after these)" if rest > 0 else ""
-    return sequence_diagram(calls[:limit], title=f"{title or f'What happened{about}'}{more}")
+    return sequence_diagram(
+        calls[:limit], title=title and f"{title}{more}", name=f"What happened{about}{more}"
+    )
 
 
 Arrow = tuple[str, str, str, bool]

@@ -51,7 +51,8 @@ def action_states(
     return state_machine(
         transitions,
         visited=names,
-        title=title or f"The states of a goal at the {side}",
+        title=title,
+        name=f"The states of a goal at the {side}",
         direction=direction,
     )
 
@@ -83,15 +84,17 @@ def state_machine(
     transitions: Iterable[Transition],
     *,
     visited: Sequence[str] = (),
-    title: str,
+    title: str | None = None,
+    name: str = "state machine",
     direction: Direction = "down",
     first: str | None = None,
     alt: str | None = None,
 ) -> Picture:
     """Draw a state machine; a state without outgoing transitions is final.
 
-    ``first`` is the initial state, where the picture begins. ``alt`` is the alt text; None lists the states. Raises
-    ``ViewError`` if a visited state is unknown.
+    ``title`` is the caption, and the first words of the text form; without it these are ``name``. ``first`` is the
+    initial state, where the picture begins. ``alt`` is the alt text; None lists the states. Raises ``ViewError`` if a
+    visited state is unknown.
     """
     labels: dict[tuple[str, str], list[str]] = {}
     for source, label, target in transitions:
@@ -102,12 +105,12 @@ def state_machine(
             hint = nearest(state, states)
             raise ViewError(f"{state} is not a state of this machine: {hint or ', '.join(states)}")
     ends = {state for state in states if all(source != state for source, _ in labels)}
-    text = _text(title, labels, ends, visited)
+    text = _text(title or name, labels, ends, visited)
     alt = alt or _alt(states, ends, visited)
     edges = [_edge_of(pair, names) for pair, names in labels.items()]
     vertices = [Vertex(state, text_width(state, style.TEXT_SIZE) + 24, HEIGHT) for state in states]
     layout = layered(vertices, edges, direction=direction, first=first)
-    svg = _draw(layout, edges, labels, ends, visited, title, alt)
+    svg = _draw(layout, edges, labels, ends, visited, title or name, alt)
     return Picture(svg, text=text, alt=alt, caption=title)
 
 

@@ -79,7 +79,7 @@ def test_every_box_of_a_flow_is_joined_to_another(boxes, ways):
 
 
 def test_the_page_on_the_community_has_the_dates_of_the_drawing():
-    page = (ROOT / "book" / "16_community.md").read_text(encoding="utf-8")
+    page = (ROOT / "book" / "community.md").read_text(encoding="utf-8")
     rows = [
         [cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("|")
     ]

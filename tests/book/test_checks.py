@@ -25,12 +25,12 @@ from rosmini.book.checks import (
 )
 
 
-@exercise("98.1", praise="Six wheels it is.")
+@exercise("wheels", praise="Six wheels it is.")
 def wheels(answer):
     expect(answer == 6, f"A rover has 6 wheels, not {answer}.", hint="count the middle ones too")
 
 
-@exercise("98.2", praise="Doubled.")
+@exercise("doubling", praise="Doubled.")
 def doubling(answer):
     expect(answer(2) == 4, "It does not double 2.")
 
@@ -65,7 +65,7 @@ def passing_stub():
 def test_a_stub_is_not_attempted(stub):
     assert is_stub(stub)
     verdict = wheels.grade(stub)
-    assert (verdict.status, verdict.text) == (Status.NOT_ATTEMPTED, "Exercise 98.1: not attempted yet.")
+    assert (verdict.status, verdict.text) == (Status.NOT_ATTEMPTED, "Exercise wheels: not attempted yet.")
 
 
 @pytest.mark.parametrize(
@@ -78,8 +78,8 @@ def test_a_stub_is_not_attempted(stub):
     ],
 )
 def test_of_an_answer_that_is_not_complete_it_says_where(answer, where):
-    verdict = Exercise("98.1", "Good.", lambda _: None, gaps=2).grade(answer)
-    assert verdict.text == f"Exercise 98.1: not right yet. There is still a `...` {where}."
+    verdict = Exercise("wheels", "Good.", lambda _: None, gaps=2).grade(answer)
+    assert verdict.text == f"Exercise wheels: not right yet. There is still a `...` {where}."
 
 
 @pytest.mark.parametrize(
@@ -94,7 +94,7 @@ def test_a_wrong_answer_is_told_why_with_a_hint():
     assert verdict.status is Status.WRONG
     assert (
         verdict.text
-        == "Exercise 98.1: not right yet. A rover has 6 wheels, not 5.\nHint: count the middle ones too"
+        == "Exercise wheels: not right yet. A rover has 6 wheels, not 5.\nHint: count the middle ones too"
     )
 
 
@@ -102,20 +102,22 @@ def test_an_answer_that_raises_is_wrong_and_says_what_it_raised():
     verdict = doubling.grade(lambda x: x / 0)
     assert verdict.status is Status.WRONG
     assert (
-        verdict.text == "Exercise 98.2: not right yet. Your code raised ZeroDivisionError: division by zero"
+        verdict.text
+        == "Exercise doubling: not right yet. Your code raised ZeroDivisionError: division by zero"
     )
 
 
 def test_an_answer_of_another_form_is_not_code_that_raised():
     """Of `{1: 2}` the reader was told that their code raised an AttributeError."""
-    lower = Exercise("98.3", "Good.", operator.methodcaller("lower"))  # no frame of a reader
+    lower = Exercise("lower", "Good.", operator.methodcaller("lower"))  # no frame of a reader
     assert lower.grade("A").status is Status.RIGHT
     assert lower.grade({1: 2}).text == (
-        "Exercise 98.3: not right yet. {1: 2} does not have the expected form: "
+        "Exercise lower: not right yet. {1: 2} does not have the expected form: "
         "AttributeError: 'dict' object has no attribute 'lower'\nHint: compare it with the stub"
     )
     assert (
-        "Your code raised AttributeError" in Exercise("98.3", "", lambda answer: answer.lower()).grade(1).text
+        "Your code raised AttributeError"
+        in Exercise("lower", "", lambda answer: answer.lower()).grade(1).text
     )
 
 
@@ -123,62 +125,67 @@ def test_a_check_that_wants_a_script_says_so():
     def examine(answer: Script):
         return expect("six" in answer.source, "No six.")
 
-    assert Exercise("98.4", "Good.", examine).grade(42).text == (
-        "Exercise 98.4: not right yet. The answer is of type int, not a script.\n"
-        "Hint: check('98.4') finds your %%node cell"
+    assert Exercise("six", "Good.", examine).grade(42).text == (
+        "Exercise six: not right yet. The answer is of type int, not a script.\n"
+        "Hint: check('six') finds your %%node cell"
     )
 
 
 def test_a_right_answer_is_praised():
-    assert wheels.grade(6).text == "Exercise 98.1: right. Six wheels it is."
+    assert wheels.grade(6).text == "Exercise wheels: right. Six wheels it is."
 
 
 @pytest.fixture
-def chapter_98(monkeypatch):
-    chapter = types.ModuleType("chapter_98")
-    chapter.wheels, chapter.doubling = wheels, doubling
-    monkeypatch.setattr(checks.importlib.util, "find_spec", lambda name: name.endswith("chapter_98"))
-    monkeypatch.setattr(checks.importlib, "import_module", lambda name: chapter)
+def chapter(tmp_path, monkeypatch):
+    """A chapter with the exercise `wheels`."""
+    (tmp_path / "rover.py").write_text('@exercise("wheels", praise="Six wheels it is.")\n', encoding="utf-8")
+    module = types.ModuleType("rover")
+    module.wheels = wheels
+    monkeypatch.setattr(checks, "EXERCISES", tmp_path)
+    monkeypatch.setattr(checks.importlib, "import_module", lambda name: module)
+    checks._modules.cache_clear()
+    yield
+    checks._modules.cache_clear()
 
 
-def test_check_prints_and_returns_the_verdict(chapter_98, capsys):
-    right, wrong, stub = check("98.1", 6), check("98.1", 5), check("98.1", ...)
+def test_check_prints_and_returns_the_verdict(chapter, capsys):
+    right, wrong, stub = check("wheels", 6), check("wheels", 5), check("wheels", ...)
     assert [bool(verdict) for verdict in (right, wrong, stub)] == [True, False, False]
-    assert (right.status, repr(right)) == (Status.RIGHT, "Exercise 98.1: right. Six wheels it is.")
+    assert (right.status, repr(right)) == (Status.RIGHT, "Exercise wheels: right. Six wheels it is.")
     assert capsys.readouterr().out == f"{right}\n{wrong}\n{stub}\n"
 
 
-def test_a_notebook_shows_a_verdict_once_in_the_cell_of_its_check(chapter_98, capsys):
+def test_a_notebook_shows_a_verdict_once_in_the_cell_of_its_check(chapter, capsys):
     from IPython.core.interactiveshell import InteractiveShell
 
     InteractiveShell.clear_instance()
     shell = InteractiveShell.instance()
     try:
-        shell.run_cell("from rosmini.book import check\ncheck('98.1', 6)", store_history=True)
+        shell.run_cell("from rosmini.book import check\ncheck('wheels', 6)", store_history=True)
         assert capsys.readouterr().out.count("right. Six wheels it is.") == 1
-        shell.run_cell("verdict = check('98.1', 5)\nassert not verdict", store_history=True)
+        shell.run_cell("verdict = check('wheels', 5)\nassert not verdict", store_history=True)
         shell.run_cell("verdict", store_history=True)
         assert capsys.readouterr().out.count("A rover has 6 wheels, not 5.") == 2
     finally:
         InteractiveShell.clear_instance()
 
 
-def test_a_number_of_an_exercise_that_is_not_there(chapter_98):
-    with pytest.raises(UnknownExercise, match=r"there is no exercise '98\.9'; did you mean 98\.1 or 98\.2\?"):
-        check("98.9", 6)
+def test_a_mistyped_exercise(chapter):
+    with pytest.raises(UnknownExercise, match=r"no exercise 'wheel'.*did you mean wheels\?"):
+        check("wheel", 6)
 
 
 @pytest.fixture
 def scripts(tmp_path, monkeypatch):
-    """The folder of a notebook's scripts, and exercise 98.1, which takes one."""
+    """The folder of a notebook's scripts, and exercise wheels, which takes one."""
     folder = tmp_path / "notebook" / "scripts"
     folder.mkdir(parents=True)
     (tmp_path / "notebook" / "package.xml").write_text(
         "<package><name>notebook</name><version>0.0.0</version></package>", encoding="utf-8"
     )
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
-    taken = exercise("98.1", praise="Read.")(lambda script: expect("six" in script.source, script.name))
-    monkeypatch.setattr(checks, "find", lambda number: taken)
+    taken = exercise("wheels", praise="Read.")(lambda script: expect("six" in script.source, script.name))
+    monkeypatch.setattr(checks, "find", lambda name: taken)
     return folder
 
 
@@ -189,38 +196,45 @@ def put(folder, name, *lines, second=0):
 
 
 def test_a_stub_is_told_the_line_of_its_first_gap(scripts, capsys):
-    put(scripts, "wheels.py", "# Exercise 98.1: wheels", "six = 6", "...")
-    check("98.1")
-    assert capsys.readouterr().out == "Exercise 98.1: not attempted yet. Replace the `...` in line 4.\n"
+    put(scripts, "wheels.py", "# Exercise: wheels", "six = 6", "...")
+    check("wheels")
+    assert capsys.readouterr().out == "Exercise wheels: not attempted yet. Replace the `...` in line 4.\n"
 
 
 def test_without_an_answer_the_script_of_the_cell_is_checked(scripts, capsys):
-    put(scripts, "other.py", "# Exercise 98.10", "five = 5")
-    put(scripts, "wheels.py", "# Exercise 98.1: wheels", "...")
-    check("98.1")
-    put(scripts, "wheels.py", "# Exercise 98.1: wheels", "five = 5", second=1)
-    check("98.1")
-    put(scripts, "renamed.py", "# Exercise 98.1", "six = 6", second=2)
-    check("98.1")
+    put(scripts, "other.py", "# Exercise: wheels_of_a_cart", "five = 5")
+    put(scripts, "wheels.py", "# Exercise: wheels", "...")
+    check("wheels")
+    put(scripts, "wheels.py", "# Exercise: wheels", "five = 5", second=1)
+    check("wheels")
+    put(scripts, "renamed.py", "# Exercise: wheels", "six = 6", second=2)
+    check("wheels")
     assert capsys.readouterr().out == (
-        "Exercise 98.1: not attempted yet. Replace the `...` in line 3.\n"
-        "Exercise 98.1: not right yet. wheels.py\nExercise 98.1: right. Read.\n"
+        "Exercise wheels: not attempted yet. Replace the `...` in line 3.\n"
+        "Exercise wheels: not right yet. wheels.py\nExercise wheels: right. Read.\n"
     )
 
 
 def test_a_cell_that_was_not_run_is_said(scripts, monkeypatch):
-    put(scripts, "other.py", "x = 1", "# Exercise 98.1")
-    with pytest.raises(NoAnswer, match=r"run the %%node cell that has `# Exercise 98\.1` in its second line"):
-        check("98.1")
+    put(scripts, "other.py", "x = 1", "# Exercise: wheels")
+    with pytest.raises(
+        NoAnswer, match=r"run the %%node cell that has `# Exercise: wheels` in its second line"
+    ):
+        check("wheels")
     monkeypatch.setenv("ROS_PACKAGE_PATH", "")
     with pytest.raises(NoAnswer):
-        check("98.1")
+        check("wheels")
 
 
-@pytest.mark.parametrize("number", ["97.1", "x", "", "../..", "11"])
-def test_a_number_that_no_exercise_has(number):
+@pytest.mark.parametrize("name", ["11.1", "", "../.."])
+def test_a_name_that_no_exercise_has(name):
     with pytest.raises(UnknownExercise, match="there is no exercise"):
-        check(number, 1)
+        check(name, 1)
+
+
+def test_no_two_exercises_have_the_same_name():
+    names = [found.name for found in all_exercises()]
+    assert len(names) == len(set(names))
 
 
 def all_exercises():
@@ -229,19 +243,19 @@ def all_exercises():
         yield from (value for value in vars(found).values() if isinstance(value, checks.Exercise))
 
 
-def mistakes_of(number):
+def mistakes_of(found):
     """Functions that each return a wrong answer, so that no check can pass always."""
-    name = f".exercises.mistakes.chapter_{number.partition('.')[0].zfill(2)}"
-    return importlib.import_module(name, __package__).MISTAKES[number]
+    chapter = found.examine.__module__.rpartition(".")[2]
+    return importlib.import_module(f".exercises.mistakes.{chapter}", __package__).MISTAKES[found.name]
 
 
-each_exercise = pytest.mark.parametrize("found", list(all_exercises()), ids=lambda found: found.number)
+each_exercise = pytest.mark.parametrize("found", list(all_exercises()), ids=lambda found: found.name)
 
 
 @each_exercise
 def test_every_check_refuses_every_mistake(found):
-    assert mistakes_of(found.number)
-    for mistake in mistakes_of(found.number):
+    assert mistakes_of(found)
+    for mistake in mistakes_of(found):
         verdict = found.grade(mistake())
         assert verdict.status is Status.WRONG, verdict.text
 
@@ -249,6 +263,6 @@ def test_every_check_refuses_every_mistake(found):
 @pytest.mark.nightly
 @each_exercise
 def test_a_verdict_is_the_same_in_each_run(found):
-    for mistake in mistakes_of(found.number):
+    for mistake in mistakes_of(found):
         first, second = (found.grade(mistake()).text for _ in range(2))
         assert first == second

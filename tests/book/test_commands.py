@@ -210,7 +210,8 @@ def copy(tmp_path, monkeypatch):
     monkeypatch.setenv("JUPYTER_DATA_DIR", str(tmp_path / "data"))
     folder = tmp_path / "repository" / "notebooks"
     folder.mkdir(parents=True)
-    for name in ("a.ipynb", "b.ipynb"):
+    (folder / "part").mkdir()
+    for name in ("part/a.ipynb", "b.ipynb"):
         output = nbformat.v4.new_output("display_data", {"text/html": f"<svg></svg>{name}"})
         cell = nbformat.v4.new_code_cell("1", execution_count=1, outputs=[output])
         notebooks.write(nbformat.v4.new_notebook(cells=[cell]), folder / name)
@@ -229,29 +230,34 @@ def is_trusted(path):
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
 def test_lab_trusts_the_notebooks_that_are_the_repositorys(copy):
-    assert not is_trusted(copy / "a.ipynb")
+    assert not is_trusted(copy / "part/a.ipynb")
     changed = (copy / "b.ipynb").read_text(encoding="utf-8").replace("<svg>", "<svg onload='1'>")
     (copy / "b.ipynb").write_text(changed, encoding="utf-8")
     (copy / "c.ipynb").write_text(changed.replace("'1'", "'2'"), encoding="utf-8")
     assert lab.trust(copy) == 1
-    assert [is_trusted(copy / name) for name in ("a.ipynb", "b.ipynb", "c.ipynb")] == [True, False, False]
+    assert [is_trusted(copy / name) for name in ("part/a.ipynb", "b.ipynb", "c.ipynb")] == [
+        True,
+        False,
+        False,
+    ]
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
 def test_lab_opens_the_first_steps_and_a_copy_keeps_what_is_in_it(tmp_path):
     arguments = lab.lab_arguments(main.build_parser({"lab": lab}).parse_args(["lab"]), "n")
-    assert "--LabApp.default_url=/lab/tree/01_first_steps.ipynb" in arguments
+    assert "--LabApp.default_url=/lab/tree/1_start/10_first_steps.ipynb" in arguments
     source, target = tmp_path / "source", tmp_path / "target"
-    for folder, text in ((source, "new"), (target, "mine")):
-        folder.mkdir()
-        (folder / "01_first_steps.ipynb").write_text(text, encoding="utf-8")
-    (source / "11_nodes.ipynb").write_text("new", encoding="utf-8")
+    for folder, name, text in ((source, "steps", "new"), (target, "steps", "mine"), (source, "more", "new")):
+        (folder / "1_start").mkdir(parents=True, exist_ok=True)
+        (folder / "1_start" / f"{name}.ipynb").write_text(text, encoding="utf-8")
     assert lab.copy_notebooks(source, target) == target
-    assert (target / "01_first_steps.ipynb").read_text(encoding="utf-8") == "mine"
-    assert (target / "11_nodes.ipynb").read_text(encoding="utf-8") == "new"
+    copied = [
+        (target / "1_start" / f"{name}.ipynb").read_text(encoding="utf-8") for name in ("steps", "more")
+    ]
+    assert copied == ["mine", "new"]
 
 
 def test_lab_trusts_no_notebook_without_a_history(copy):
     shutil.rmtree(copy.parent / ".git")
     assert lab.trust(copy) == 0
-    assert not is_trusted(copy / "a.ipynb")
+    assert not is_trusted(copy / "part/a.ipynb")

@@ -46,9 +46,9 @@ class Block(NamedTuple):
 def blocks() -> list[Block]:
     """Return the fences with commands, in the order of the pages."""
     pages = [("README", (ROOT / "README.md").read_text(encoding="utf-8"))]
-    for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
+    for path in sorted((ROOT / "notebooks").rglob("*.ipynb")):
         prose = [cell.source for cell in notebooks.read(path).cells if cell.cell_type == "markdown"]
-        pages += [(path.stem[:2], box) for text in prose for box in _BOX.findall(text)]
+        pages += [(path.stem[3:], box) for text in prose for box in _BOX.findall(text)]
     found = []
     for page, text in pages:
         for language, code in _FENCE.findall(text):
@@ -135,18 +135,18 @@ EOF
 """
 
 GRAPHS: dict[str, tuple[str, ...]] = {
-    "12": (ROBOT, TALKER),
-    "13": (ROBOT, TALKER),
-    "14": (ROBOT, DRIVER, FILES),
-    "15": (TALKER, RECORDED),
-    "17": (ROBOT, TALKER),
-    "20": (FILES,),
-    "23": (CRATE, "%roslaunch gazebo_ros empty_world.launch gui:=false"),
-    "31": (ROBOT,),
-    "32": (FILES,),
-    "40": (ROBOT,),
-    "91": (FIBONACCI,),
-    "93": (ROBOT, TALKER, RECORDED),
+    "topics_and_messages": (ROBOT, TALKER),
+    "services": (ROBOT, TALKER),
+    "parameter_server": (ROBOT, DRIVER, FILES),
+    "bags": (TALKER, RECORDED),
+    "names": (ROBOT, TALKER),
+    "simulation_and_stage": (FILES,),
+    "gazebo": (CRATE, "%roslaunch gazebo_ros empty_world.launch gui:=false"),
+    "frames": (ROBOT,),
+    "maps": (FILES,),
+    "turtlebot3": (ROBOT,),
+    "actionlib": (FIBONACCI,),
+    "publish_subscribe": (ROBOT, TALKER, RECORDED),
 }
 """What runs and which files there are, by page, when the commands of a box are typed."""
 
@@ -170,7 +170,7 @@ SKIPPED = {
     "rosrun roscpp_tutorials talker chatter:=gossip": ROBOTS_OWN,
     "rosrun roscpp_tutorials talker __ns:=/robot1 __name:=crier chatter:=/news": ROBOTS_OWN,
     "rosnode info /robot1/crier": ROBOTS_OWN,
-    "uv run rosmini run talker.py chatter:=gossip _text:=hi": "run in exercises/test_chapter_17.py",
+    "uv run rosmini run talker.py chatter:=gossip _text:=hi": "run in exercises/test_names.py",
     "roslaunch turtlebot3_bringup turtlebot3_robot.launch": ROBOTS_OWN,
     (
         "roslaunch turtlebot3_bringup turtlebot3_robot.launch multi_robot_name:=tb3_0 "

@@ -9,7 +9,7 @@ from book.tools import reading
 
 def test_the_time_counts_words_cells_and_exercises_up_to_the_exercises():
     text = "word " * 300 + "\n```console\n" + "code " * 900 + "\n```\n"
-    stub = new_code_cell("%%node a.py\n# Exercise 7.1\n...")
+    stub = new_code_cell("%%node a.py\n# Exercise: a\n...")
     cells = [
         new_markdown_cell(text),
         new_code_cell("1"),

@@ -45,18 +45,13 @@ def test_every_row_leads_to_a_page_or_gives_a_reason():
 
 
 def test_the_figures_and_tables_that_it_names_are_there():
-    stored = [
-        data
-        for path in NOTEBOOKS.glob("*.ipynb")
-        for cell in notebooks.read(path).cells
-        for output in cell.get("outputs", ())
-        if (data := output.get("data", {}).get("text/plain"))
-    ]
-    there = set(re.findall(r"^(?:Figure) (\d+\.\d+)", "\n".join(stored), re.MULTILINE))
-    for path in BOOK.glob("*.md"):
-        there |= set(
-            re.findall(r"^(?:Figure|Table) (\d+\.\d+):", path.read_text(encoding="utf-8"), re.MULTILINE)
-        )
-    named = re.findall(r"\b(?:Figures?|Tables?) (\d+\.\d+)(?: and (\d+\.\d+))?", PAGE)
+    named = re.findall(r"\[((?:Figure|Table) \d+)\]\(([^)#]+)#([^)]+)\)", PAGE)
     assert named
-    assert {number for pair in named for number in pair if number} - there == set()
+    for name, file, label in named:
+        path = BOOK / "about" / file
+        prose = (
+            notebooks.prose(notebooks.read(path))
+            if path.suffix == ".ipynb"
+            else [path.read_text(encoding="utf-8")]
+        )
+        assert f'<a id="{label}"></a>{name}: ' in "\n".join(prose)

@@ -9,7 +9,7 @@ from book.tools import solutions
 from book.tools.solutions import SolutionError
 
 TEXT = """<details>
-<summary>Solution to exercise 11.1</summary>
+<summary>Solution</summary>
 
 ```python
 names = sorted(["b", "a"])
@@ -21,34 +21,34 @@ Sorted, since the Master does not.
 """
 
 
-def chapter(*, stub="# Exercise 11.1: names\nnames = ...", check='check("11.1", names)', solution=TEXT):
+def chapter(*, stub="# Exercise: stop\nnames = ...", check='check("stop", names)', solution=TEXT):
     return new_notebook(cells=[new_code_cell(stub), new_code_cell(check), new_markdown_cell(solution)])
 
 
 def test_the_solution_takes_the_place_of_the_stub():
     nb = chapter()
     solved = solutions.solved(nb)
-    assert solved.cells[0].source == '# Exercise 11.1\nnames = sorted(["b", "a"])'
+    assert solved.cells[0].source == '# Exercise: stop\nnames = sorted(["b", "a"])'
     assert solved.cells[1:] == nb.cells[1:]
     assert nb.cells[0].source.endswith("names = ..."), "the notebook itself was changed"
 
 
 def test_the_line_of_the_magic_stays_with_a_script():
-    nb = chapter(stub="%%node names.py _n:=3\n# Exercise 11.1\n...", check='check("11.1")')
-    assert solutions.stubs(nb) == {"11.1": 0}
+    nb = chapter(stub="%%node names.py _n:=3\n# Exercise: stop\n...", check='check("stop")')
+    assert solutions.stubs(nb) == {"stop": 0}
     solved = solutions.solved(nb)
-    assert solved.cells[0].source == '%%node names.py _n:=3\n# Exercise 11.1\nnames = sorted(["b", "a"])'
+    assert solved.cells[0].source == '%%node names.py _n:=3\n# Exercise: stop\nnames = sorted(["b", "a"])'
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"stub": "names = ..."}, "no stub for exercise 11.1"),
-        ({"check": "# check"}, "no check for exercise 11.1"),
-        ({"solution": "none"}, "no solution for exercise 11.1"),
+        ({"stub": "names = ..."}, "no stub for the exercise stop"),
+        ({"check": "# check"}, "no check for the exercise stop"),
+        ({"solution": "none"}, "no solution for the exercise stop"),
         (
             {"solution": TEXT.replace("```python", "```")},
-            "the solution to exercise 11.1 has no ```python block",
+            "the solution to the exercise stop has no ```python block",
         ),
     ],
 )
@@ -59,5 +59,5 @@ def test_a_part_is_missing(change, message):
 
 def test_what_a_check_printed():
     nb = chapter()
-    nb.cells[1].outputs = [new_output("stream", name="stdout", text="Exercise 11.1: right.\n")]
-    assert solutions.check_output(nb, "11.1") == "Exercise 11.1: right.\n"
+    nb.cells[1].outputs = [new_output("stream", name="stdout", text="Exercise stop: right.\n")]
+    assert solutions.check_output(nb, "stop") == "Exercise stop: right.\n"

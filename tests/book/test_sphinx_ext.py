@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("sphinx")
 
-from nbformat.v4 import new_code_cell, new_notebook, new_output
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from book.tools import notebooks
 from book.tools.sphinx_ext import copy_viewer, substitute
@@ -52,16 +52,24 @@ $ rostopic list
 > Plain words begin this one.
 
 ```{drawing} ros_parts
-Figure 1.1: Four parts
+<a id="four-parts"></a>Figure 1: Four parts
 & no more.
 ```
 
-```{stored} notebooks/17_stored 17.2
+See [Figure 1](#four-parts) and [Table 1](#two-rows).
+
+<a id="two-rows"></a>Table 1: Two *rows*.
+
+| a | b |
+|---|---|
+| 1 | 2 |
+
+```{stored} notebooks/stored a-robot
 What the notebook stored
 ```
 
 <details>
-<summary>Solution to exercise 11.1</summary>
+<summary>Solution</summary>
 
 ```python
 print("solved")
@@ -70,7 +78,7 @@ print("solved")
 </details>
 """
 
-STORED = "<figure><b>A robot</b><figcaption>Figure 17.2: Its own caption</figcaption></figure>"
+STORED = "<figure><b>A robot</b></figure>"
 
 
 CONFIGURATION = (
@@ -108,7 +116,8 @@ def html(tmp_path_factory):
     source = tmp_path_factory.mktemp("source")
     cell = new_code_cell("show()", outputs=[new_output("display_data", {"text/html": STORED})])
     (source / "notebooks").mkdir()
-    notebooks.write(new_notebook(cells=[cell]), source / "notebooks" / "17_stored.ipynb")
+    caption = new_markdown_cell('<a id="a-robot"></a>Figure 1: Its own caption')
+    notebooks.write(new_notebook(cells=[cell, caption]), source / "notebooks" / "stored.ipynb")
     assert build(source, PAGE) == ""
     return source / "out"
 
@@ -150,19 +159,27 @@ def test_other_quotes_stay_quotes(page):
 
 def test_solutions_are_folded_with_their_code_highlighted(page):
     details = re.search(r"<details>(.*?)</details>", page, re.DOTALL)[1]
-    assert "<summary>Solution to exercise 11.1</summary>" in details
+    assert "<summary>Solution</summary>" in details
     assert 'class="highlight-python' in details
 
 
-def test_a_drawing_is_inline_with_its_caption(page):
-    figure = re.search(r'<figure class="rosmini-figure">(.*?)</figure>', page, re.DOTALL)[1]
-    assert figure.startswith("<svg ")
+def test_a_drawing_is_inline_with_its_caption_and_label(page):
+    figure = re.search(r'<figure [^>]*id="four-parts">(.*?)</figure>', page, re.DOTALL)[1]
     assert 'aria-label="Four boxes' in figure
-    assert figure.endswith("</svg><figcaption>Figure 1.1: Four parts &amp; no more.</figcaption>")
+    assert "Figure 1: Four parts &amp; no more." in figure.partition("<figcaption>")[2]
+    assert 'href="#four-parts"' in page
+
+
+def test_a_table_has_its_caption_and_label(page):
+    table = re.search(r'<table [^>]*id="two-rows">(.*?)</table>', page, re.DOTALL)[1]
+    assert re.search(r"<caption>.*Table 1: Two <em>rows</em>", table, re.DOTALL)
+    assert 'href="#two-rows"' in page
 
 
 def test_a_stored_figure_is_shown_with_another_caption(page):
-    assert STORED.replace("Figure 17.2: Its own caption", "What the notebook stored") in page
+    assert STORED in page
+    assert "What the notebook stored" in page
+    assert "Its own caption" not in page
 
 
 @pytest.mark.parametrize(
@@ -172,7 +189,8 @@ def test_the_address_of_the_repository_is_one_setting(url, text, tmp_path):
     config = SimpleNamespace(html_theme_options={"repository_url": url}, myst_substitutions={})
     substitute(SimpleNamespace(srcdir=tmp_path), config)
     assert text in config.myst_substitutions["repository_copy"]
-    assert config.html_theme_options["use_repository_button"] is bool(url)
+    buttons = [shown for name, shown in config.html_theme_options.items() if name.endswith("_button")]
+    assert buttons == [bool(url)] * 3
 
 
 def test_thebe_is_silent(page):
@@ -208,13 +226,13 @@ def test_a_drawing_or_figure_that_does_not_exist_or_has_no_caption_is_refused(tm
         "{drawing} ros_part\nA caption.",
         "{drawing} ../logo-light\nA caption.",
         "{drawing} ros_parts",
-        "{stored} notebooks/03_none 3.1\nA caption",
+        "{stored} notebooks/none a-robot\nA caption",
     )
     problems = build(tmp_path, "# A page\n\n" + "\n\n".join(f"```{each}\n```" for each in directives))
     for problem in (
         "there is no drawing ros_part; there are ",
         "there is no drawing ../logo-light",
         "Content block expected",
-        "no figure 3.1",
+        "no figure a-robot",
     ):
         assert problem in problems

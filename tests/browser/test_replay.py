@@ -495,11 +495,11 @@ def test_the_theme_of_the_book_does_not_disturb_its_layout(
     book_html, opened, recording, monkeypatch, tmp_path, width
 ):
     monkeypatch.setenv("ROSMINI_DISPLAY", "book")
-    chapter = (book_html / "notebooks" / "11_nodes_and_master.html").read_text(encoding="utf-8")
+    chapter = (book_html / "notebooks" / "2_graph/10_nodes_and_master.html").read_text(encoding="utf-8")
     begin = chapter.index('<div class="output text_html">') + len('<div class="output text_html">')
-    (tmp_path / "notebooks").mkdir()
+    path = tmp_path / "notebooks" / "2_graph" / "chapter.html"
+    path.parent.mkdir(parents=True)
     (tmp_path / "_static").symlink_to(book_html / "_static", target_is_directory=True)
-    path = tmp_path / "notebooks" / "chapter.html"
     path.write_text(chapter[:begin] + recording.replay().html + chapter[begin:], encoding="utf-8")
     page = opened(path.as_uri(), width=width, color_scheme="dark")
     assert page.evaluate(SIDEWAYS) <= 0

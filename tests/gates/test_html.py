@@ -24,7 +24,9 @@ def test_the_book_is_built_with_warnings_as_errors(book_html, root):
 
 def test_every_notebook_is_in_the_contents(root):
     listed = {page for page in toc_pages(root) if page.startswith("notebooks/")}
-    assert listed == {f"notebooks/{path.stem}" for path in (root / "notebooks").glob("*.ipynb")}
+    assert listed == {
+        path.relative_to(root).with_suffix("").as_posix() for path in (root / "notebooks").rglob("*.ipynb")
+    }
 
 
 def test_the_page_of_contents_introduces_the_parts_and_pages_in_their_order(root):
@@ -43,7 +45,7 @@ def test_the_page_of_contents_introduces_the_parts_and_pages_in_their_order(root
 
 def test_the_cover_leads_to_the_first_steps_and_is_light(book_html, root):
     text = (book_html / "book" / "intro.html").read_text(encoding="utf-8")
-    assert re.search(r'class="right-next"\s+href="\.\./notebooks/01_first_steps\.html"', text)
+    assert re.search(r'class="right-next"\s+href="\.\./notebooks/1_start/10_first_steps\.html"', text)
     scripts = set(re.findall(r"rosmini-[a-z-]+\.js", text))
     own = [STATIC / name for name in scripts] + [
         STATIC / "rosmini.css",
@@ -55,8 +57,8 @@ def test_the_cover_leads_to_the_first_steps_and_is_light(book_html, root):
 
 
 def test_a_downloaded_notebook_says_how_to_get_what_it_needs(book_html, root):
-    for path in sorted((root / "notebooks").glob("*.ipynb")):
-        first = notebooks.read(book_html / "_sources" / "notebooks" / path.name).cells[0]
+    for path in sorted((root / "notebooks").rglob("*.ipynb")):
+        first = notebooks.read(book_html / "_sources" / path.relative_to(root)).cells[0]
         assert "uv run rosmini lab" in first.source
         assert path.name in first.source
 

@@ -19,7 +19,7 @@ from ..processes import run
 Mypy = Callable[..., tuple[str, str, int]]
 
 ROOT = Path(__file__).resolve().parents[2]
-CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+CHAPTERS = sorted((ROOT / "notebooks").rglob("*.ipynb"))
 MYPY = """[mypy]
 mypy_path = typings
 check_untyped_defs = True

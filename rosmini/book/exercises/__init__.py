@@ -1,1 +1,1 @@
-"""Checks of the exercises: one module for each chapter, `chapter_NN`."""
+"""Checks of the exercises: one module for each chapter, with the chapter's name."""

@@ -56,7 +56,9 @@ def rqt_plot(source: Graph | Bag, *fields: str, duration: float = 5.0, title: st
     silent = [name for name, (times, _) in samples.items() if not times]
     if silent:
         raise ViewError(f"no message came for {', '.join(silent)}; listen longer, or start its publisher")
-    return _plotted(samples, begin, x="time [s]", title=title or "rqt_plot")
+    picture = _plotted(samples, begin, x="time [s]", title=title or "rqt_plot")
+    picture.caption = title
+    return picture
 
 
 def _plotted(samples: Samples, zero: float, *, x: str, title: str) -> Picture:

@@ -189,7 +189,7 @@ along what cannot move.
 CAUSES = """## Where it fails, and why
 
 Failing drives were looked at one by one: costmaps, plan, and what each critic rejected. `explain()` tells it
-({doc}`../notebooks/39_move_base`). The causes, and what `careful.yaml` does about them:
+({doc}`../notebooks/7_navigation/90_move_base`). The causes, and what `careful.yaml` does about them:
 
 - **The footprint.** A burger's has an inscribed radius of 5 cm with padding, since its origin is near its front, and
   that is all that a plan keeps. So plans lead where the sides have no room: between the legs of a chair, through a

@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 import shlex
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from book.tools import notebooks
+from book.tools.captions import CAPTION
 
 from ...processes import run
 
@@ -20,7 +22,8 @@ NOTEBOOKS = Path(__file__).resolve().parents[3] / "notebooks"
 @pytest.fixture(scope="module")
 def chapter(request):
     """The notebook of the chapter that the module tests."""
-    [path] = NOTEBOOKS.glob(f"{request.module.__name__[-2:]}_*.ipynb")
+    name = request.module.__name__.rpartition(".test_")[2]
+    [path] = NOTEBOOKS.glob(f"*/[0-9][0-9]_{name}.ipynb")
     return notebooks.read(path)
 
 
@@ -33,6 +36,18 @@ def cells(chapter):
 def code(cells):
     """The sources of its code cells."""
     return [cell.source for cell in cells if cell.cell_type == "code"]
+
+
+@pytest.fixture(scope="module")
+def figures(cells):
+    """The text forms of its figures, by their numbers."""
+    found = {}
+    for cell, below in pairwise(cells):
+        caption = CAPTION.match(below.source)
+        texts = [output.data["text/plain"] for output in cell.get("outputs", ()) if "data" in output]
+        if caption and caption["kind"] == "Figure" and texts:
+            found[len(found) + 1] = texts[-1]
+    return found
 
 
 @pytest.fixture(scope="module")

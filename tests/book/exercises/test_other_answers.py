@@ -40,12 +40,12 @@ CAUTIOUS = {
 @pytest.mark.parametrize(
     ("number", "answer"),
     [
-        ("10.4", ARGUMENTS),
-        ("22.1", {"mode": "all", "hide": "debug", "topics": "/closest,/nearest,/scan"}),
-        ("30.1", np.int64(1)),
-        ("72.3", CAUTIOUS),
-        ("18.1", {1: "C", 2: " a", 3: "mkdir src", 4: "catkin_make"}),
-        ("18.4", Script("parrot.py", DICE)),
+        ("launch", ARGUMENTS),
+        ("options", {"mode": "all", "hide": "debug", "topics": "/closest,/nearest,/scan"}),
+        ("demand", np.int64(1)),
+        ("cautious", CAUTIOUS),
+        ("cures", {1: "C", 2: " a", 3: "mkdir src", 4: "catkin_make"}),
+        ("parrot", Script("parrot.py", DICE)),
     ],
 )
 def test_they_are_right_too(number: str, answer: Any) -> None:
@@ -57,15 +57,15 @@ def test_they_are_right_too(number: str, answer: Any) -> None:
 @pytest.mark.parametrize(
     ("number", "answer"),
     [
-        ("15.1", lambda true: lambda _: {"/chatter": 5, "/news": true}),
-        ("18.1", lambda true: {true: "c", 2: "a", 3: "b", 4: "d"}),
-        ("30.1", lambda true: true),
-        ("37.3", lambda true: lambda *_: [0, true, true, 3, 3]),
-        ("72.3", lambda true: {**CAUTIOUS, "gain_scale": true}),
+        ("message_counts", lambda true: lambda _: {"/chatter": 5, "/news": true}),
+        ("cures", lambda true: {true: "c", 2: "a", 3: "b", 4: "d"}),
+        ("demand", lambda true: true),
+        ("survivors", lambda true: lambda *_: [0, true, true, 3, 3]),
+        ("cautious", lambda true: {**CAUTIOUS, "gain_scale": true}),
     ],
 )
 def test_a_truth_value_is_no_number(number: str, answer: Any, true: Any) -> None:
-    """`check("30.1", True)` was right, since True == 1."""
+    """`check("demand", True)` was right, since True == 1."""
     verdict = find(number).grade(answer(true))
     assert verdict.status is Status.WRONG
     assert "True where a number or a string is expected." in verdict.text

@@ -32,9 +32,9 @@ TELEOPS = {
 }
 
 
-CHAPTER = Path(__file__).parents[3] / "notebooks/63_many_machines.ipynb"
+CHAPTER = Path(__file__).parents[3] / "notebooks/5_turtlesim/40_many_machines.ipynb"
 TURTLES = {"master_turtle": "10.77.0.1", "node1_turtle": "10.77.0.2"}
-"""The turtlesims of chapter 63, and where they run in its listings."""
+"""The turtlesims of the chapter Many machines, and where they run in its listings."""
 
 
 class Site(Stage):
@@ -127,7 +127,7 @@ def plain(text: str) -> str:
 
 
 def listings() -> str:
-    """The console listings of chapter 63, without times and ports."""
+    """The console listings of the chapter Many machines, without times and ports."""
     text = "\n".join(
         "".join(cell["source"]) for cell in json.loads(CHAPTER.read_text(encoding="utf-8"))["cells"]
     )
@@ -221,7 +221,7 @@ def walled(host: Host) -> Iterator[None]:
 
 
 def test_behind_a_firewall_a_turtle_obeys_and_nobody_hears_it(site: Site, hosts: Hosts) -> None:
-    """Calls go out and none come in: what chapter 63 calls one direction only, and how it is recognised."""
+    """Calls go out and none come in: what the chapter Many machines calls one direction only; how it is recognised."""
     if not hosts.are_apart:
         pytest.skip("the hosts of this machine have one network")
     words = [*ROSMINI, "rosrun", "turtlesim", "turtle_teleop_key"]

@@ -1,0 +1,16 @@
+"""Check of the exercise in the first steps: a script that stops a robot in front of a wall."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosmini.book.checks import Script, exercise
+
+from .nodes_and_master import stops_from
+
+
+@exercise("first_stop", praise="Your robot came near the wall and stopped, from two different starts.")
+def stop(answer: Script) -> Any:
+    """The robot drives up to the wall and stops in front of it."""
+    stops_from(answer, 1.2)
+    return stops_from(answer, 0.0)

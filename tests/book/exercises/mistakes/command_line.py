@@ -1,0 +1,70 @@
+"""Wrong answers to the exercises of the chapter The command line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.book.checks import Script
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+COMMANDS = {
+    "Does /simulator answer?": "rosnode ping",
+    "How many messages a second come on /imu?": "rostopic hz",
+    "Which topics carry nav_msgs/Odometry?": "rostopic find",
+    "Which fields has sensor_msgs/Imu?": "rosmsg show",
+    "What has to be given to /driver/set_logger_level?": "rosservice args",
+    "How do I save all parameters in a file?": "rosparam dump",
+    "How long is drive.bag?": "rosbag info",
+}
+
+FOUND = {"type": "sensor_msgs/JointState", "rate": 30, "frame": "odom", "service": "roscpp/SetLoggerLevel"}
+
+COUNT = """
+import rospy
+from std_msgs.msg import Empty, Float32
+
+def report(event):
+    rate.publish(len(beats))
+    beats.clear()
+
+beats = []
+rospy.init_node("count")
+rate = rospy.Publisher("rate", Float32, queue_size=1)
+rospy.Subscriber("beat", Empty, beats.append)
+rospy.Timer(rospy.Duration(1), report)
+rospy.spin()
+"""
+
+
+def _count(old: str, new: str) -> Callable[[], Script]:
+    assert old in COUNT
+    return lambda: Script("count.py", COUNT.replace(old, new))
+
+
+MISTAKES: dict[str, list[Callable[[], Any]]] = {
+    "commands": [
+        dict,
+        lambda: {**COMMANDS, "Does /simulator answer?": "rosnode list"},
+        lambda: {**COMMANDS, "Which fields has sensor_msgs/Imu?": "rosmmsg show"},
+        lambda: {**COMMANDS, "How long is drive.bag?": "rosbag"},
+        lambda: list(COMMANDS.values()),
+    ],
+    "ask_the_robot": [
+        dict,
+        lambda: {**FOUND, "rate": 5},
+        lambda: {**FOUND, "rate": "30"},
+        lambda: {**FOUND, "frame": "base_scan"},
+        lambda: {**FOUND, "type": "sensor_msgs/Imu"},
+        lambda: {**FOUND, "service": "std_srvs/Empty"},
+        lambda: "30",
+    ],
+    "count": [
+        _count("    beats.clear()\n", ""),
+        _count("Duration(1)", "Duration(2)"),
+        _count('"beat", Empty, beats.append', '"bead", Empty, beats.append'),
+        _count("    rate.publish(len(beats))", "    if beats:\n        rate.publish(len(beats))"),
+        _count("len(beats)", "5"),
+    ],
+}

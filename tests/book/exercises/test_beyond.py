@@ -1,0 +1,27 @@
+"""The chapter Beyond: what it says of the three graphs holds."""
+
+from __future__ import annotations
+
+from .conftest import all_printed
+
+
+def test_the_robot_arrived_on_a_map_that_grew(figures):
+    assert "/map: 1 message" not in figures[1]
+    assert "/map: " in figures[1]
+    assert "/move_base/NavfnROS/plan: " in figures[1]
+
+
+def test_what_the_explorer_and_the_teleoperation_add(figures):
+    assert "4 nodes" in figures[2]
+    _, new = figures[3].split("new: ")
+    assert new.startswith("/amcl, /explore_client, /explore_server, ")
+    assert "-> /cmd_vel ->" not in new
+    assert figures[4].endswith(
+        "new: /turtlebot3_teleop_keyboard, /turtlebot3_teleop_keyboard -> /cmd_vel -> /simulator"
+    )
+
+
+def test_the_master_says_why_the_older_nodes_ended(cells):
+    said = all_printed(cells)
+    for name in ("turtlebot3_slam_gmapping", "move_base"):
+        assert f"[/{name}] Reason: new node registered with same name" in said
