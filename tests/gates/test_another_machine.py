@@ -69,7 +69,8 @@ def chapter(request: pytest.FixtureRequest) -> tuple[Any, Any, Any]:
     path: Path = request.param
     stored = notebooks.read(path)
     run, solved = copy.deepcopy(stored), solutions.solved(stored)
-    run.cells += solved.cells[min(solutions.stubs(solved).values()) :]
+    answers = solved.cells[min(solutions.stubs(solved).values()) :]
+    run.cells += [cell for cell in answers if cell.cell_type == "code"]
     with pytest.MonkeyPatch.context() as patch:
         for name, value in plain_machine().items():
             patch.setenv(name, value)
