@@ -28,13 +28,14 @@ EXERCISE = re.compile(r"^### Exercise \d+: ", re.MULTILINE)
 
 
 class CaptionError(RosminiError):
-    """A label exists twice, or not at all."""
+    """A label exists twice or not at all, or does not begin with a letter."""
 
 
 def numbered(texts: Sequence[str]) -> list[str]:
     """Return the texts of one page, in reading order, with the numbers of captions, references and exercises.
 
-    Raises `CaptionError` if two captions have the same label, or a reference has one that no caption has.
+    Raises `CaptionError` if two captions have the same label, a reference has one that no caption has, or a label does
+    not begin with a letter.
     """
     names: dict[str, str] = {}
     counts: Counter[str] = Counter()
@@ -45,6 +46,10 @@ def numbered(texts: Sequence[str]) -> list[str]:
 
     def caption(found: re.Match[str]) -> str:
         label, kind, text = found["label"], found["kind"], found["text"]
+        if not label[0].isalpha():
+            raise CaptionError(
+                f"the label {label!r} does not begin with a letter: the page's scripts could not find it"
+            )
         if label in names:
             raise CaptionError(f"two captions have the label {label!r}: {names[label]}, and {kind} {text!r}")
         names[label] = f"{kind} {next_number(kind)}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from io import StringIO
 from types import SimpleNamespace
@@ -13,7 +14,7 @@ pytest.importorskip("sphinx")
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from book.tools import notebooks
-from book.tools.sphinx_ext import copy_viewer, substitute
+from book.tools.sphinx_ext import copy_viewer, describe_pictures, substitute
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
 PAGE = r"""# A page
@@ -191,6 +192,19 @@ def test_the_address_of_the_repository_is_one_setting(url, text, tmp_path):
     assert text in config.myst_substitutions["repository_copy"]
     buttons = [shown for name, shown in config.html_theme_options.items() if name.endswith("_button")]
     assert buttons == [bool(url)] * 3
+
+
+def test_a_cells_alternative_text_replaces_the_pictures_own():
+    svg = '<svg aria-label="plot: 12 points"></svg>'
+    cell = new_code_cell(
+        "plot()", metadata={"alt": 'A "curve"'}, outputs=[new_output("display_data", {"text/html": svg})]
+    )
+    app = SimpleNamespace(env=SimpleNamespace(doc2path=lambda name: f"{name}.ipynb"))
+    content = [json.dumps(new_notebook(cells=[cell]))]
+    describe_pictures(app, "chapter", content)
+    assert json.loads(content[0])["cells"][0]["outputs"][0]["data"]["text/html"] == (
+        '<svg aria-label="A &quot;curve&quot;"></svg>'
+    )
 
 
 def test_thebe_is_silent(page):

@@ -29,6 +29,22 @@ def test_every_notebook_is_in_the_contents(root):
     }
 
 
+def test_chapters_have_the_number_of_their_part_and_place(book_html, root):
+    toc = yaml.safe_load((root / "book" / "_toc.yml").read_text(encoding="utf-8"))
+    numbered = [part["chapters"] for part in toc["parts"] if part.get("numbered")]
+    for part, chapters in enumerate(numbered, start=1):
+        for place, chapter in enumerate(chapters, start=1):
+            text = (book_html / f"{chapter['file']}.html").read_text(encoding="utf-8")
+            assert f'<h1><span class="section-number">{part}.{place}. </span>' in text
+
+
+def test_old_addresses_lead_to_pages(book_html, root):
+    config = yaml.safe_load((root / "book" / "_config.yml").read_text(encoding="utf-8"))
+    for old, new in config["sphinx"]["config"]["redirects"].items():
+        assert new in (book_html / f"{old}.html").read_text(encoding="utf-8")
+        assert (book_html / old).parent.joinpath(new).is_file()
+
+
 def test_the_page_of_contents_introduces_the_parts_and_pages_in_their_order(root):
     toc = yaml.safe_load((root / "book" / "_toc.yml").read_text(encoding="utf-8"))
     text = (root / "book" / "contents.md").read_text(encoding="utf-8")
